@@ -12,8 +12,6 @@ module wavycon_file_bytes
    !> Byte order mark of UTF-8, with which some editors start a file.
    character(*), parameter, public :: byte_order_mark = char(239)//char(187)//char(191)
 
-   character(*), parameter :: no_memory = 'there is not the memory for it'
-
 contains
 
    !> Reads a file; all its errors have the status `exit_file_trouble`.
@@ -40,30 +38,22 @@ contains
       integer, intent(out) :: unit   !! to be closed by the caller; -1 in case of an error
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: trouble
       character(200) :: message
       integer :: status
 
       unit = -1
       select case (path_kind(path))
       case (path_absent)
-         call trouble('there is no such file')
-         return
+         trouble = 'there is no such file'
       case (path_directory)
-         call trouble('this is a directory, not a file')
-         return
+         trouble = 'this is a directory, not a file'
+      case default
+         open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', &
+            iostat=status, iomsg=message)
+         if (status /= 0) trouble = 'cannot be opened: '//system_words(message)
       end select
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', &
-         iostat=status, iomsg=message)
-      if (status /= 0) call trouble('cannot be opened: '//system_words(message))
-
-   contains
-
-      subroutine trouble(words)
-         character(*), intent(in) :: words
-
-         call fatal_error(error, exit_file_trouble, escaped(path)//': '//words)
-      end subroutine trouble
-
+      if (allocated(trouble)) call fatal_error(error, exit_file_trouble, escaped(path)//': '//trouble)
    end subroutine open_file
 
    !> All the bytes of a file. A pipe is read byte by byte: its size is not known.
@@ -74,45 +64,33 @@ contains
       character(*), intent(inout) :: message
 
       character(1) :: byte
-      integer(int64) :: size_of_file
+      integer(int64) :: bytes
       integer :: used
 
-      inquire (unit=unit, size=size_of_file)
-      if (size_of_file > most) then
-         call too_large()
-      else if (size_of_file > 0) then
-         allocate (character(int(size_of_file)) :: content, stat=status)
-         if (status == 0) then
-            read (unit, iostat=status, iomsg=message) content
-         else
-            message = no_memory
-         end if
-      else
-         content = repeat(' ', 4096)
-         used = 0
-         do
-            read (unit, iostat=status, iomsg=message) byte
-            if (is_iostat_end(status)) exit
-            if (status /= 0) return
-            if (used == most) then
-               call too_large()
-               return
-            end if
-            if (used == len(content)) content = content//repeat(' ', used)
-            used = used + 1
-            content(used:used) = byte
-         end do
-         content = content(:used)
-         status = 0
+      status = 0
+      inquire (unit=unit, size=bytes)
+      if (bytes > 0 .and. bytes <= most) then
+         allocate (character(int(bytes)) :: content, stat=status)
+         message = 'there is not the memory for it'
+         if (status == 0) read (unit, iostat=status, iomsg=message) content
+         return
       end if
-
-   contains
-
-      subroutine too_large()
+      content = repeat(' ', 4096)
+      used = 0
+      do while (used <= most .and. bytes <= most)
+         read (unit, iostat=status, iomsg=message) byte
+         if (status /= 0) exit
+         if (used == len(content)) content = content//repeat(' ', used)
+         used = used + 1
+         content(used:used) = byte
+      end do
+      if (is_iostat_end(status)) then
+         status = 0
+         content = content(:used)
+      else if (status == 0) then
          status = 1
          message = 'it is larger than the '//integer_text(most/1024**2)//' MB allowed'
-      end subroutine too_large
-
+      end if
    end subroutine read_bytes
 
 end module wavycon_file_bytes

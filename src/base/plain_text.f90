@@ -129,13 +129,15 @@ contains
       integer :: i
 
       words = trim(names(1))
-      do i = 2, size(names)
-         if (present(last) .and. i == size(names)) then
-            words = words//last//trim(names(i))
-         else
-            words = words//', '//trim(names(i))
-         end if
+      do i = 2, size(names) - 1
+         words = words//', '//trim(names(i))
       end do
+      if (size(names) == 1) return
+      if (present(last)) then
+         words = words//last//trim(names(size(names)))
+      else
+         words = words//', '//trim(names(size(names)))
+      end if
    end function listed
 
    !> Two clauses.
@@ -166,8 +168,7 @@ contains
 
       constant = "'"
       do i = 1, len(text)
-         constant = constant//text(i:i)
-         if (text(i:i) == "'") constant = constant//"'"
+         constant = constant//repeat(text(i:i), merge(2, 1, text(i:i) == "'"))
       end do
       constant = constant//"'"
    end function quoted
@@ -177,18 +178,14 @@ contains
       character(*), intent(in) :: constant  !! well formed: the same quote at both ends, doubled inside
       character(:), allocatable :: text
 
-      character(:), allocatable :: buffer
-      integer :: i, length
+      integer :: i
 
-      allocate (character(len(constant)) :: buffer)
-      length = 0
+      text = ''
       i = 2
       do while (i < len(constant))
-         length = length + 1
-         buffer(length:length) = constant(i:i)
+         text = text//constant(i:i)
          i = i + merge(2, 1, constant(i:i) == constant(1:1))
       end do
-      text = buffer(:length)
    end function unquoted
 
    !> Number of bytes of the printable character, ASCII or UTF-8, that starts at a place; 0 if none starts there.
@@ -198,36 +195,23 @@ contains
 
       !> The least code of a character of 1, 2, 3 and 4 bytes: UTF-8 has no smaller one in as many bytes.
       integer, parameter :: least(*) = [0, 128, 2048, 65536]
+      !> The first bytes of such characters, and what is taken off them.
+      integer, parameter :: lowest(*) = [32, 194, 224, 240], highest(*) = [126, 223, 239, 244], mark(*) = [0, 192, 224, 240]
       integer :: code, i
 
-      length = 0
       code = iachar(text(place:place))
-      select case (code)
-      case (32:126)
-         length = 1
-         return
-      case (194:223)
-         length = 2
-         code = code - 192
-      case (224:239)
-         length = 3
-         code = code - 224
-      case (240:244)
-         length = 4
-         code = code - 240
-      case default
-         return
-      end select
-      if (place + length - 1 > len(text)) then
+      length = findloc(code >= lowest .and. code <= highest, .true., dim=1)
+      if (length <= 1) return
+      code = code - mark(length)
+      do i = place + 1, place + length - 1
+         if (i <= len(text)) then
+            if (is_continuation(text(i:i))) then
+               code = 64*code + iachar(text(i:i)) - 128
+               cycle
+            end if
+         end if
          length = 0
          return
-      end if
-      do i = place + 1, place + length - 1
-         if (.not. is_continuation(text(i:i))) then
-            length = 0
-            return
-         end if
-         code = 64*code + iachar(text(i:i)) - 128
       end do
       if (code < least(length) .or. .not. is_visible(code)) length = 0
    end function printable_length
@@ -262,14 +246,13 @@ contains
 
       integer :: length, place
 
-      is_printable = .false.
       place = 1
-      do while (place <= len(text))
+      length = 1
+      do while (place <= len(text) .and. length > 0)
          length = printable_length(text, place)
-         if (length == 0) return
          place = place + length
       end do
-      is_printable = .true.
+      is_printable = length > 0
    end function is_printable
 
    !> The text with tabs replaced by blanks and other bytes that do not print by \xNN.
@@ -277,29 +260,24 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: clean
 
-      character(:), allocatable :: buffer
+      character(:), allocatable :: buffer, piece
       integer :: code, length, place, used
 
       allocate (character(4*len(text)) :: buffer)
       used = 0
       place = 1
       do while (place <= len(text))
-         length = printable_length(text, place)
-         code = iachar(text(place:place))
-         if (length > 0) then
-            buffer(used + 1:used + length) = text(place:place + length - 1)
-            used = used + length
-            place = place + length
-         else if (code == 9) then
-            used = used + 1
-            buffer(used:used) = ' '
-            place = place + 1
-         else
-            buffer(used + 1:used + 4) = '\x'//hexadecimal(code/16 + 1:code/16 + 1)// &
-               hexadecimal(mod(code, 16) + 1:mod(code, 16) + 1)
-            used = used + 4
-            place = place + 1
+         length = max(1, printable_length(text, place))
+         piece = text(place:place + length - 1)
+         code = iachar(piece(1:1))
+         if (code == 9) then
+            piece = ' '
+         else if (length == 1 .and. (code < 32 .or. code > 126)) then
+            piece = '\x'//hexadecimal(code/16 + 1:code/16 + 1)//hexadecimal(mod(code, 16) + 1:mod(code, 16) + 1)
          end if
+         buffer(used + 1:used + len(piece)) = piece
+         used = used + len(piece)
+         place = place + length
       end do
       clean = buffer(:used)
    end function escaped
@@ -312,15 +290,14 @@ contains
       integer, parameter :: longest = 40
       integer :: last
 
-      if (len(text) <= longest) then
-         short = escaped(text)
-         return
+      last = min(longest, len(text))
+      if (last < len(text)) then
+         do while (is_continuation(text(last + 1:last + 1)) .and. last > longest - 4)
+            last = last - 1
+         end do
       end if
-      last = longest
-      do while (is_continuation(text(last + 1:last + 1)) .and. last > longest - 4)
-         last = last - 1
-      end do
-      short = escaped(text(:last))//'...'
+      short = escaped(text(:last))
+      if (last < len(text)) short = short//'...'
    end function excerpt
 
    !> The system's message in an iomsg, without gfortran's "Cannot open file 'name': ".

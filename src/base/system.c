@@ -14,28 +14,25 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-/* What a path names: 0 nothing, 1 a directory, 2 a file, 3 a pipe or a device, 4 unknown, on an error. */
-int wavycon_path_kind(const char *path)
+/* What a path names: 0 nothing, 1 a directory, 2 a file, 3 a pipe or a device, 4 unknown, on an error. And the size of
+   the file in bytes, -1 if there is none. */
+int wavycon_path_kind(const char *path, int64_t *size)
 {
     struct stat info;
+    *size = -1;
     if (stat(path, &info) != 0)
         return errno == ENOENT || errno == ENOTDIR ? 0 : 4;
+    *size = info.st_size;
     if (S_ISDIR(info.st_mode))
         return 1;
     return S_ISREG(info.st_mode) ? 2 : 3;
 }
 
-/* Size of a file in bytes; -1 if there is no file. */
-long long wavycon_file_size(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 ? (long long)info.st_size : -1;
-}
-
 /* Makes one directory, if it does not exist. Returns 0 on success, else errno. */
 int wavycon_make_directory(const char *path)
 {
-    if (mkdir(path, 0777) == 0 || (errno == EEXIST && wavycon_path_kind(path) == 1))
+    int64_t size;
+    if (mkdir(path, 0777) == 0 || (errno == EEXIST && wavycon_path_kind(path, &size) == 1))
         return 0;
     return errno;
 }
@@ -106,24 +103,16 @@ int wavycon_rename(const char *from, const char *to)
     return 0;
 }
 
-int wavycon_remove(const char *path)
+void wavycon_remove(const char *path)
 {
-    if (unlink(path) != 0)
-        return errno;
-    if (strcmp(path, unfinished) == 0)
+    if (unlink(path) == 0 && strcmp(path, unfinished) == 0)
         note(unfinished, sizeof unfinished, "");
-    return 0;
 }
 
 /* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
 void wavycon_outlive_file_size_limit(void)
 {
     signal(SIGXFSZ, SIG_IGN);
-}
-
-int wavycon_process_id(void)
-{
-    return (int)getpid();
 }
 
 /* The width of the terminal that standard output is; 0 if it is none, or not the one of a user who looks at it: that of
@@ -140,16 +129,6 @@ int wavycon_terminal_columns(void)
 void wavycon_error_text(int number, char *text, size_t length)
 {
     snprintf(text, length, "%s", strerror(number));
-}
-
-/* The absolute path of a file; empty if there is no file or the path is too long. */
-void wavycon_full_path(const char *path, char *full, size_t length)
-{
-    char *found = realpath(path, NULL);
-    full[0] = '\0';
-    if (found != NULL && strlen(found) < length)
-        strcpy(full, found);
-    free(found);
 }
 
 /* The number behind a name such as "MemAvailable:" at the start of a line of a file; with an empty name the number at
@@ -229,19 +208,6 @@ static long long memory_of_groups(void)
     return least;
 }
 
-/* Bytes of this process's address space; -1 where the system does not say. */
-static long long address_space_in_use(void)
-{
-    long long pages;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (file == NULL)
-        return -1;
-    if (fscanf(file, "%lld", &pages) != 1)
-        pages = -1;
-    fclose(file);
-    return pages < 0 ? -1 : pages*sysconf(_SC_PAGESIZE);
-}
-
 /* Bytes that the process may still allocate and use without swapping: what is free of the machine's memory or can be
    freed, and at most what limits leave: those of a container or a batch job (control groups) and that on the address
    space (ulimit -v). -1 where the system does not say. */
@@ -259,10 +225,11 @@ int64_t wavycon_available_memory(void)
         available = group;
     if (available < 0 || getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return available;
-    long long used = address_space_in_use();
-    if (used < 0)
+    /* The pages of the process's address space; -1 where the system does not say. */
+    long long pages = number_in_file("/proc/self/statm", "");
+    if (pages < 0)
         return -1;
-    long long left = (long long)limit.rlim_cur - used;
+    long long left = (long long)limit.rlim_cur - pages*sysconf(_SC_PAGESIZE);
     if (left < 0)
         left = 0;
     return left < available ? left : available;
@@ -305,9 +272,8 @@ void wavycon_use_one_thread_for_matrices(void)
    OpenMP reads this when the program starts, so a program with the option --threads starts itself again. */
 void wavycon_let_waiting_threads_sleep(void)
 {
-    enum { step = 4096 };
-    char *longer, *text = NULL, **words = NULL, *program = NULL;
-    size_t count = 0, got, length = 0;
+    static char **words = NULL;
+    char program[PATH_MAX];
     int has_option = 0;
     FILE *file;
     if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL)
@@ -315,33 +281,23 @@ void wavycon_let_waiting_threads_sleep(void)
     file = fopen("/proc/self/cmdline", "r");
     if (file == NULL)
         return;
-    do {
-        longer = realloc(text, length + step + 1);
+    for (size_t count = 0;; count++) {
+        size_t size = 0;
+        char **longer = realloc(words, (count + 1)*sizeof *words);
         if (longer == NULL)
             break;
-        text = longer;
-        got = fread(text + length, 1, step, file);
-        length += got;
-    } while (got > 0);
-    fclose(file);
-    if (longer != NULL) {
-        text[length] = '\0';
-        for (size_t i = 0; i < length; i += strlen(text + i) + 1) {
-            has_option |= strncmp(text + i, "--threads", strlen("--threads")) == 0;
-            count++;
+        words = longer;
+        words[count] = NULL;
+        if (getdelim(&words[count], &size, '\0', file) <= 0) {
+            free(words[count]);
+            words[count] = NULL;
+            /* Without success the program goes on as it is. */
+            if (has_option && realpath("/proc/self/exe", program) != NULL &&
+                setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
+                execv(program, words);
+            break;
         }
+        has_option |= strncmp(words[count], "--threads", strlen("--threads")) == 0;
     }
-    if (has_option)
-        words = calloc(count + 1, sizeof *words);
-    if (words != NULL) {
-        program = realpath("/proc/self/exe", NULL);
-        for (size_t i = 0, k = 0; k < count; i += strlen(text + i) + 1)
-            words[k++] = text + i;
-        /* Without success the program goes on as it is. */
-        if (program != NULL && setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
-            execv(program, words);
-    }
-    free(program);
-    free(words);
-    free(text);
+    fclose(file);
 }

@@ -1,12 +1,12 @@
 !> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t, c_long_long, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: available_memory, has_memory_for, memory_of_group
+   public :: available_memory, has_memory_for
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: note_kept, outlive_file_size_limit, parse_number, process_id, terminal_columns
 
@@ -15,15 +15,11 @@ module wavycon_system
                                  path_unknown = 4
 
    interface
-      integer(c_int) function c_path_kind(path) bind(c, name='wavycon_path_kind')
-         import :: c_char, c_int
+      integer(c_int) function c_path_kind(path, size) bind(c, name='wavycon_path_kind')
+         import :: c_char, c_int, c_int64_t
          character(kind=c_char), intent(in) :: path(*)
+         integer(c_int64_t), intent(out) :: size
       end function c_path_kind
-
-      integer(c_long_long) function c_file_size(path) bind(c, name='wavycon_file_size')
-         import :: c_char, c_long_long
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_file_size
 
       integer(c_int) function c_make_directory(path) bind(c, name='wavycon_make_directory')
          import :: c_char, c_int
@@ -35,22 +31,24 @@ module wavycon_system
          character(kind=c_char), intent(in) :: from(*), to(*)
       end function c_rename
 
-      integer(c_int) function c_remove(path) bind(c, name='wavycon_remove')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_remove
-
-      subroutine c_remove_when_interrupted(path) bind(c, name='wavycon_remove_when_interrupted')
+      subroutine c_remove(path) bind(c, name='wavycon_remove')
          import :: c_char
          character(kind=c_char), intent(in) :: path(*)
-      end subroutine c_remove_when_interrupted
+      end subroutine c_remove
+
+      !> Removes a file if the program is interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Only the
+      !> file of the last call is removed.
+      subroutine remove_when_interrupted(path) bind(c, name='wavycon_remove_when_interrupted')
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)   !! ended by a null character; at most 4095 bytes, or ignored
+      end subroutine remove_when_interrupted
 
       !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
       subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
       end subroutine outlive_file_size_limit
 
       !> The number of this process, for file names that no other process uses.
-      integer(c_int) function process_id() bind(c, name='wavycon_process_id')
+      integer(c_int) function process_id() bind(c, name='getpid')
          import :: c_int
       end function process_id
 
@@ -72,11 +70,6 @@ module wavycon_system
          import :: c_int64_t
       end function available_memory
 
-      integer(c_long_long) function c_memory_of_group(directory) bind(c, name='wavycon_memory_of_group')
-         import :: c_char, c_long_long
-         character(kind=c_char), intent(in) :: directory(*)
-      end function c_memory_of_group
-
       !> Reads the number at the start of a text. Returns its length in bytes, 0 if there is none.
       !> N.B. A number that is too large gives an infinity and signals overflow.
       integer(c_size_t) function parse_number(text, value) bind(c, name='wavycon_parse_number')
@@ -85,12 +78,11 @@ module wavycon_system
          real(c_double), intent(out) :: value
       end function parse_number
 
-      subroutine c_full_path(path, full, length) bind(c, name='wavycon_full_path')
-         import :: c_char, c_size_t
+      type(c_ptr) function c_realpath(path, full) bind(c, name='realpath')
+         import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(out) :: full(*)
-         integer(c_size_t), value :: length
-      end subroutine c_full_path
+      end function c_realpath
 
       subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
          import :: c_char, c_int, c_size_t
@@ -111,9 +103,8 @@ contains
       integer, parameter :: longest = 4096
       character(longest) :: buffer
 
-      call c_full_path(path//c_null_char, buffer, int(longest, c_size_t))
-      full = buffer(:index(buffer, c_null_char) - 1)
-      if (full == '') full = path
+      full = path
+      if (c_associated(c_realpath(path//c_null_char, buffer))) full = buffer(:index(buffer, c_null_char) - 1)
    end function full_path
 
    !> Whether a path names nothing, a directory, a file or something else (a pipe, a device); unknown if the system
@@ -121,7 +112,9 @@ contains
    integer function path_kind(path)
       character(*), intent(in) :: path
 
-      path_kind = int(c_path_kind(path//c_null_char))
+      integer(c_int64_t) :: ignored
+
+      path_kind = int(c_path_kind(path//c_null_char, ignored))
    end function path_kind
 
    !> Size of a file [byte]; -1 if there is no file.
@@ -130,7 +123,9 @@ contains
    integer(int64) function file_size(path)
       character(*), intent(in) :: path
 
-      file_size = int(c_file_size(path//c_null_char), int64)
+      integer(c_int) :: ignored
+
+      ignored = c_path_kind(path//c_null_char, file_size)
    end function file_size
 
    !> Makes a directory and those above it; directories that exist are no failure.
@@ -171,26 +166,8 @@ contains
    subroutine remove_file(path)
       character(*), intent(in) :: path
 
-      integer :: ignored
-
-      ignored = int(c_remove(path//c_null_char))
+      call c_remove(path//c_null_char)
    end subroutine remove_file
-
-   !> Removes a file if the program is interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Only the
-   !> file of the last call is removed.
-   subroutine remove_when_interrupted(path)
-      character(*), intent(in) :: path   !! at most 4095 bytes; a longer one is ignored
-
-      call c_remove_when_interrupted(path//c_null_char)
-   end subroutine remove_when_interrupted
-
-   !> Memory that a control group of Linux leaves to its processes [byte]: limit less use, where files that can be
-   !> dropped from memory count as free. -1 if it has no limit.
-   integer(int64) function memory_of_group(directory)
-      character(*), intent(in) :: directory   !! of the group, such as /sys/fs/cgroup
-
-      memory_of_group = int(c_memory_of_group(directory//c_null_char), int64)
-   end function memory_of_group
 
    !> Whether there is memory for so many numbers of double precision.
    logical function has_memory_for(numbers)

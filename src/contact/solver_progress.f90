@@ -6,24 +6,23 @@ module wavycon_solver_progress
 
    public :: solver_progress
 
-   type, abstract :: solver_progress
+   type :: solver_progress
    contains
-      procedure(grid_is_solved), deferred :: grid_solved
+      procedure :: grid_solved
       procedure :: shall_stop
    end type solver_progress
 
-   abstract interface
-      !> Called after each grid.
-      subroutine grid_is_solved(self, points, iterations, residual)
-         import :: dp, solver_progress
-         class(solver_progress), intent(in) :: self
-         integer, intent(in) :: points(2)     !! of the grid, on the whole cell along x and y
-         integer, intent(in) :: iterations    !! on this grid
-         real(dp), intent(in) :: residual     !! (C9)
-      end subroutine grid_is_solved
-   end interface
-
 contains
+
+   !> Called after each grid. Here nothing is done.
+   subroutine grid_solved(self, points, iterations, residual)
+      class(solver_progress), intent(in) :: self
+      integer, intent(in) :: points(2)     !! of the grid, on the whole cell along x and y
+      integer, intent(in) :: iterations    !! on this grid
+      real(dp), intent(in) :: residual     !! (C9)
+
+      associate (unused => self, also_unused => points, unused_too => iterations, not_used => residual); end associate
+   end subroutine grid_solved
 
    !> Whether the solver shall leave the load, which then has the status `interrupted`. Asked before each load that a
    !> solver solves, also those of a search, and before each iteration on a grid. Here the answer is no. All ranks must

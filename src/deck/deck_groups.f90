@@ -1,44 +1,121 @@
-!> Matches the groups and keys of a scanned deck with the tables, and reads the values.
+!> Matches the groups and keys of a deck's text with the tables, and reads the values.
 module wavycon_deck_groups
-   use wavycon_deck_scanner, only: entry_type, scan_deck, scan_type
+   use wavycon_deck_scanner, only: at_end, is_broken_word, is_comma, is_group, is_word, next_part, next_token, &
+      part_type, read_entry, scan_type, token_type
    use wavycon_deck_text, only: deck_text_type
-   use wavycon_deck_tokens, only: is_broken_word, is_word
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: allowed_values, group_names, key_group_type, key_index, key_names, key_type
+   use wavycon_key_table, only: allowed_values, key_group_type, key_index, key_type
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean, nearest_name
    use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case, newline
    use wavycon_problems, only: problem_list_type
+   use wavycon_settings, only: deck_value, replaces, setting_type
    implicit none (type, external)
    private
 
-   public :: group_name, read_group_text, take_groups, word_of
+   public :: read_group_text, take_groups
 
 contains
 
-   !> Reads the values of all groups and checks them against the tables: names, types, bounds, required keys. Checks
-   !> of keys against each other follow in the modules of the groups.
-   subroutine take_groups(text, scan, tables, groups, problems)
-      type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(in) :: scan
+   !> Reads the values of all groups and checks them against the tables: names, types, bounds. Checks of keys against
+   !> each other follow in the modules of the groups.
+   subroutine take_groups(text, tables, groups, problems, settings)
+      type(deck_text_type), intent(inout) :: text              !! each setting is added as a line
       type(key_group_type), intent(in) :: tables(:)
       type(group_values), intent(out) :: groups(size(tables))  !! one for each table
       type(problem_list_type), intent(inout) :: problems
+      type(setting_type), intent(in), optional :: settings(:)  !! keys set in place of those of the deck
 
-      integer :: e, g, i, table_of(size(scan%groups))
+      character(:), allocatable :: key
+      type(part_type) :: part
+      type(scan_type) :: scan
+      type(setting_type), allocatable :: own_settings(:)
+      logical :: is_guessed(size(tables))   ! of a misspelt name
+      integer :: i, s
 
-      call match_groups(text, scan, tables, table_of, problems)
+      allocate (own_settings(0))
+      if (present(settings)) own_settings = settings
+      is_guessed = .false.
       do i = 1, size(tables)
          call groups(i)%start(tables(i), text%path)
-         g = findloc(table_of, i, dim=1)
-         if (g > 0) then
-            groups(i)%place = scan%tokens(scan%groups(g))%first
-            call take_keys(text, scan, tables, pack([(e, e=1, size(scan%entries))], scan%entries%group == g), &
-                           groups(i), problems)
-         end if
-         call report_missing(groups(i), problems)
       end do
+      do s = 1, size(own_settings)
+         call take_setting(own_settings(s))
+      end do
+      i = 0
+      do
+         call next_part(text, scan, part, problems)
+         if (part%name%kind == at_end) exit
+         if (part%name%kind == is_group) then
+            call open_group(lower_case(text%content(part%name%first + 1:part%name%last)), part%name%first)
+         else if (i > 0) then
+            key = lower_case(text%content(part%name%first:part%name%last))
+            if (any([(replaces(own_settings(s), tables(i), key), s=1, size(own_settings))])) cycle
+            call take_key(text, part, key, tables, groups(i), problems)
+         end if
+      end do
+      do i = 1, size(tables)
+         if (tables(i)%required .and. groups(i)%place == 0) call problems%add(0, 'the group &'// &
+            trim(tables(i)%name)//' ('//trim(tables(i)%meaning)//') is missing')
+      end do
+
+   contains
+
+      !> Sets i to the number of a group's table; to 0 for an unknown group and for one that is given twice. The keys of
+      !> a group whose name is misspelt are checked too, unless the deck has given the one that is meant.
+      subroutine open_group(name, place)
+         character(*), intent(in) :: name
+         integer, intent(in) :: place
+
+         logical :: is_known
+
+         i = findloc(tables%name == name, .true., dim=1)
+         is_known = i > 0
+         if (.not. is_known) then
+            call problems%add(place, unknown_group(name, tables))
+            i = nearest_name(name, tables%name)
+            if (i == 0) return
+         end if
+         if (groups(i)%place > 0 .and. groups(i)%place <= text%own .and. .not. is_guessed(i)) then
+            if (is_known) call problems%add(place, '&'//name//' is given twice, first in line '// &
+                                            integer_text(text%line_of(groups(i)%place)))
+            i = 0
+            return
+         end if
+         groups(i)%place = place
+         is_guessed(i) = .not. is_known
+      end subroutine open_group
+
+      !> Takes a key that the command line sets.
+      subroutine take_setting(setting)
+         type(setting_type), intent(in) :: setting
+
+         character(:), allocatable :: value
+         integer :: place
+         logical :: quote_is_open
+         type(token_type) :: token
+
+         i = findloc(tables%name == setting%group, .true., dim=1)
+         value = setting%value
+         if (i > 0) value = deck_value(setting, tables(i))
+         place = len(text%content) + len(' --set ') + 1
+         call text%add_option('--set '//setting%group//'.'//setting%key//'='//value)
+         if (i == 0) then
+            call problems%add(place, unknown_group(setting%group, tables))
+            return
+         end if
+         if (groups(i)%place == 0) groups(i)%place = place
+         place = place + len(setting%group) + 1
+         token = token_type(is_word, place, place + len(setting%key) - 1)
+         quote_is_open = .false.
+         call read_entry(text%content, token, part, quote_is_open, problems)
+         call take_key(text, part, setting%key, tables, groups(i), problems)
+         token = next_token(text%content, part%last + 1)
+         if (token%kind /= at_end) call problems%add(token%first, "--set takes one key and its value, found '"// &
+            excerpt(text%content(token%first:token%last))//"' behind them")
+      end subroutine take_setting
+
    end subroutine take_groups
 
    !> Reads the keys of one group from a text that holds nothing else, without '&name' and '/', and checks them against
@@ -52,64 +129,13 @@ contains
 
       type(group_values) :: groups(1)
       type(key_group_type) :: tables(1)
-      type(scan_type) :: scan
 
       ! The keys may end in a comment, so that the '/' needs a line of its own.
       text = deck_text_type('&'//trim(table%name), '&'//trim(table%name)//' '//keys//newline//'/')
       tables(1) = table
-      call scan_deck(text, scan, problems)
-      call take_groups(text, scan, tables, groups, problems)
+      call take_groups(text, tables, groups, problems)
       values = groups(1)
    end subroutine read_group_text
-
-   !> Finds the table of each group of the deck. It is 0 for an unknown group and for one that is given twice; both are
-   !> reported.
-   subroutine match_groups(text, scan, tables, table_of, problems)
-      type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(in) :: scan
-      type(key_group_type), intent(in) :: tables(:)
-      integer, intent(out) :: table_of(:)
-      type(problem_list_type), intent(inout) :: problems
-
-      integer :: first_of_table(size(tables)), g, i
-      character(:), allocatable :: name
-
-      table_of = 0
-      first_of_table = 0
-      do g = 1, size(scan%groups)
-         name = group_name(text, scan, g)
-         i = findloc(tables%name == name, .true., dim=1)
-         if (i == 0) cycle
-         if (first_of_table(i) == 0) then
-            first_of_table(i) = g
-            table_of(g) = i
-         else
-            call problems%add(place(g), '&'//name//' is given twice, first in line '// &
-               integer_text(text%line_of(place(first_of_table(i)))))
-         end if
-      end do
-
-      do g = 1, size(scan%groups)
-         name = group_name(text, scan, g)
-         if (any(tables%name == name)) cycle
-         call problems%add(place(g), unknown_group(name, tables))
-         i = nearest_name(name, group_names(tables))
-         if (i == 0) cycle
-         if (first_of_table(i) > 0) cycle
-         ! A misspelt group: its keys are checked too, and the group is not reported as missing.
-         first_of_table(i) = g
-         table_of(g) = i
-      end do
-
-   contains
-
-      pure integer function place(g)
-         integer, intent(in) :: g
-
-         place = scan%tokens(scan%groups(g))%first
-      end function place
-
-   end subroutine match_groups
 
    !> The message for an unknown group.
    pure function unknown_group(name, tables) result(words)
@@ -117,64 +143,39 @@ contains
       type(key_group_type), intent(in) :: tables(:)
       character(:), allocatable :: words
 
-      if (name == '') then
-         words = "expected the name of a group right behind the '&'"
-      else
-         words = "there is no group '"//excerpt('&'//name)//"'"// &
-            did_you_mean(name, group_names(tables), "'&", "'")
-         if (nearest_name(name, group_names(tables)) == 0) &
-            words = words//'; the groups are '//listed(group_names(tables))
-      end if
+      words = "there is no group '"//excerpt('&'//name)//"'"//did_you_mean(name, tables%name, "'&", "'", &
+                                                                         '; the groups are '//listed(tables%name))
+      if (name == '') words = "expected the name of a group right behind the '&'"
    end function unknown_group
 
-   !> Takes the keys of a group; reports unknown keys and those given twice.
-   subroutine take_keys(text, scan, tables, entries, values, problems)
+   !> Takes a key of a group; reports unknown keys and those given twice.
+   subroutine take_key(text, entry, key, tables, values, problems)
       type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(in) :: scan
+      type(part_type), intent(in) :: entry
+      character(*), intent(in) :: key                !! its name in lower case
       type(key_group_type), intent(in) :: tables(:)
-      integer, intent(in) :: entries(:)              !! numbers of the group's entries
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: first, key
-      integer :: e, i, k
+      character(:), allocatable :: first
+      integer :: k
 
-      do i = 1, size(entries)
-         e = entries(i)
-         key = word_of(text, scan, scan%entries(e)%key)
-         k = key_index(values%table%keys, key)
-         if (k == 0) cycle
-         if (values%has(key)) then
-            first = 'in line '//integer_text(text%line_of(values%place_of(key)))
-            if (text%is_in_option(values%place_of(key))) first = 'by '//excerpt(text%option_at(values%place_of(key)))
-            call problems%add(place(e), key//' is given twice, first '//first)
-            call values%take(key, values%place_of(key))
-         else
-            call take_value(text, scan, scan%entries(e), values%table%keys(k), values, problems)
-         end if
-      end do
-
-      do i = 1, size(entries)
-         e = entries(i)
-         key = word_of(text, scan, scan%entries(e)%key)
-         if (key_index(values%table%keys, key) > 0) cycle
-         call problems%add(place(e), unknown_key(key, values%table, tables))
-         ! A misspelt key is not reported as missing too.
-         k = nearest_name(key, key_names(values%table%keys))
-         if (k == 0) cycle
-         key = trim(values%table%keys(k)%name)
-         if (.not. values%has(key)) call values%take(key, place(e))
-      end do
-
-   contains
-
-      pure integer function place(e)
-         integer, intent(in) :: e
-
-         place = scan%tokens(scan%entries(e)%key)%first
-      end function place
-
-   end subroutine take_keys
+      k = key_index(values%table%keys, key)
+      if (k == 0) then
+         call problems%add(entry%name%first, unknown_key(key, values%table, tables))
+         ! A misspelt key is not reported as missing too, and the right one may follow.
+         k = nearest_name(key, values%table%keys%name)
+         if (k == 0) return
+         if (.not. values%has(values%table%keys(k)%name)) &
+            call values%take(values%table%keys(k)%name, entry%name%first)
+      else if (values%has(key) .and. .not. values%is_bad(key)) then
+         first = 'in line '//integer_text(text%line_of(values%place_of(key)))
+         if (text%is_in_option(values%place_of(key))) first = 'by '//excerpt(text%line_at(values%place_of(key)))
+         call problems%add(entry%name%first, key//' is given twice, first '//first)
+      else
+         call take_value(text, entry, values%table%keys(k), values, problems)
+      end if
+   end subroutine take_key
 
    !> The message for a key that the group does not have.
    pure function unknown_key(key, table, tables) result(words)
@@ -184,55 +185,24 @@ contains
 
       integer :: bracket, i
 
-      if (key == table%former_key) then
-         words = key//' is no longer a key: give '//trim(table%in_its_place)
-         return
-      end if
-      bracket = index(key, '(')
-      if (bracket > 1) then
-         if (key_index(table%keys, key(:bracket - 1)) > 0) then
-            words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
-            return
-         end if
-      end if
+      bracket = index(key//'(', '(')
       do i = 1, size(tables)
          if (key_index(tables(i)%keys, key) == 0) cycle
          words = key//' belongs to &'//trim(tables(i)%name)//', not to &'//trim(table%name)
          return
       end do
-      words = "there is no key '"//excerpt(key)//"' in &"//trim(table%name)
-      words = words//did_you_mean(key, key_names(table%keys), "'", "'")
-      if (nearest_name(key, key_names(table%keys)) == 0) &
-         words = words//'; its keys are '//listed(key_names(table%keys))
+      if (key_index(table%keys, key(:bracket - 1)) > 0) then
+         words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
+      else
+         words = "there is no key '"//excerpt(key)//"' in &"//trim(table%name)// &
+                 did_you_mean(key, table%keys%name, "'", "'", '; its keys are '//listed(table%keys%name))
+      end if
    end function unknown_key
 
-   !> Reports a required group or required keys that are missing.
-   subroutine report_missing(values, problems)
-      type(group_values), intent(in) :: values
-      type(problem_list_type), intent(inout) :: problems
-
-      integer :: k
-
-      associate (table => values%table)
-         if (values%place == 0) then
-            if (table%required) call problems%add(0, 'the group &'//trim(table%name)//' ('// &
-               trim(table%meaning)//') is missing')
-            return
-         end if
-         do k = 1, size(table%keys)
-            associate (key => table%keys(k))
-               if (key%required .and. .not. values%has(key%name)) call problems%add(values%place, &
-                  '&'//trim(table%name)//' needs '//trim(key%name)//' = '//allowed_values(key))
-            end associate
-         end do
-      end associate
-   end subroutine report_missing
-
    !> Reads the value of a key, or reports what is wrong with it.
-   subroutine take_value(text, scan, entry, key, values, problems)
+   subroutine take_value(text, entry, key, values, problems)
       type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(in) :: scan
-      type(entry_type), intent(in) :: entry
+      type(part_type), intent(in) :: entry
       type(key_type), intent(in) :: key
       type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
@@ -240,55 +210,48 @@ contains
       character(:), allocatable :: trouble
       logical :: is_good
       real(dp) :: numbers(key%most_values)
-      integer :: place, repeats, t, used
+      integer :: repeats, used
+      type(token_type) :: token
       type(word_value) :: value
 
-      place = scan%tokens(entry%key)%first
       is_good = .true.
       used = 0
-      do t = entry%first_value, entry%last_value
-         associate (token => scan%tokens(t), word => text%content(scan%tokens(t)%first:scan%tokens(t)%last))
-            if (token%kind == is_broken_word) is_good = .false.
-            if (token%kind /= is_word) cycle
+      token%last = entry%values - 1
+      do
+         token = next_token(text%content(:entry%last), token%last + 1)
+         if (token%kind == at_end) exit
+         if (token%kind == is_broken_word) is_good = .false.
+         if (token%kind /= is_word) cycle
+         associate (word => text%content(token%first:token%last))
+            repeats = 1
             if (used >= key%most_values) then
-               call problems%add(token%first, one_too_many(key, values%table, word))
-               is_good = .false.
-               exit
+               trouble = trim(key%name)//' takes '//at_most(key%most_values)//", and here is one more: '"// &
+                         excerpt(word)//"'"
+               if (key_index(values%table%keys, lower_case(word)) > 0) &
+                  trouble = trouble//"; is a '=' missing behind it?"
+            else
+               call read_value(key, word, value, trouble)
+               if (.not. allocated(trouble)) repeats = value%repeats
+               if (repeats > key%most_values - used) &
+                  trouble = trim(key%name)//' takes '//at_most(key%most_values)//", got '"//excerpt(word)//"'"
             end if
-            call read_value(key, word, value, trouble)
-            repeats = value%repeats
-            if (.not. allocated(trouble) .and. repeats > key%most_values - used) &
-               trouble = trim(key%name)//' takes '//at_most(key%most_values)//", got '"//excerpt(word)//"'"
             if (allocated(trouble)) then
                call problems%add(token%first, trouble)
                is_good = .false.
-               if (problems%is_full() .or. key%most_values == 1) exit
-               repeats = 1
+               if (problems%is_full() .or. used + repeats > key%most_values .or. key%most_values == 1) exit
             end if
             numbers(used + 1:used + repeats) = value%number
             used = used + repeats
          end associate
       end do
-      if (entry%last_value < entry%first_value) call problems%add(place, trim(key%name)// &
-         ' has no value: it must be '//allowed_values(key))
       if (is_good .and. used > 0) then
-         call values%take(trim(key%name), place, numbers(:used), value%text)
+         call values%take(key%name, entry%name%first, numbers(:used), value%text)
       else
-         call values%take(trim(key%name), place)
+         call values%take(key%name, entry%name%first)
       end if
+      if (entry%last < entry%values) call problems%add(entry%name%first, trim(key%name)// &
+         ' has no value: it must be '//allowed_values(key))
    end subroutine take_value
-
-   !> The message for more values than a key takes.
-   pure function one_too_many(key, table, word) result(words)
-      type(key_type), intent(in) :: key
-      type(key_group_type), intent(in) :: table
-      character(*), intent(in) :: word   !! as in the deck
-      character(:), allocatable :: words
-
-      words = trim(key%name)//' takes '//at_most(key%most_values)//", and here is one more: '"// &
-         excerpt(word)//"'"
-      if (key_index(table%keys, lower_case(word)) > 0) words = words//"; is a '=' missing behind it?"
-   end function one_too_many
 
    pure function at_most(number) result(words)
       integer, intent(in) :: number
@@ -297,26 +260,5 @@ contains
       words = 'one value'
       if (number > 1) words = 'at most '//integer_text(number)//' values'
    end function at_most
-
-   !> The name of a group in lower case, without the '&' that it has in a deck.
-   pure function group_name(text, scan, g) result(name)
-      type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(in) :: scan
-      integer, intent(in) :: g
-      character(:), allocatable :: name
-
-      name = word_of(text, scan, scan%groups(g))
-      if (index(name, '&') == 1) name = name(2:)
-   end function group_name
-
-   !> The text of a token in lower case.
-   pure function word_of(text, scan, t) result(word)
-      type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(in) :: scan
-      integer, intent(in) :: t
-      character(:), allocatable :: word
-
-      word = lower_case(text%content(scan%tokens(t)%first:scan%tokens(t)%last))
-   end function word_of
 
 end module wavycon_deck_groups

@@ -72,13 +72,9 @@ contains
 
       select case (key%kind)
       case (real_value, integer_value)
-         associate (numbers => values%numbers(trim(key%name)))
-            word = number_text(key, numbers(1))
-            if (maxval(numbers) > minval(numbers)) then
-               do i = 2, size(numbers)
-                  word = word//','//number_text(key, numbers(i))
-               end do
-            end if
+         associate (numbers => values%reals(trim(key%name)))
+            i = merge(1, size(numbers), maxval(numbers) <= minval(numbers))
+            word = number_text(key, numbers(:i), ',')
          end associate
       case (logical_value)
          word = trim(merge('.true. ', '.false.', values%logical(trim(key%name))))

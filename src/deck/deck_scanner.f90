@@ -1,222 +1,255 @@
-!> Arranges the tokens of a deck into groups and their entries `key = values`.
+!> Finds the parts of a deck's text: the groups and their entries `key = values`.
 !>
-!> Only the grammar is checked here, not names or values. Tokens that do not fit the grammar are reported and ignored.
+!> Only the grammar is checked here, not names or values. What does not fit the grammar is reported and ignored. The
+!> time is proportional to the length of the text, for any bytes.
 module wavycon_deck_scanner
    use wavycon_deck_text, only: deck_text_type
-   use wavycon_deck_tokens, only: is_broken_word, is_comma, is_equals, is_group, is_slash, is_word, quotes, &
-      starts_entry, token_type, tokenise
    use wavycon_plain_text, only: excerpt, integer_text, lower_case
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: scan_type, entry_type, scan_deck, start_scan, read_group, read_values
+   public :: token_type, part_type, scan_type, next_token, next_part, read_entry
 
-   !> Most tokens, groups and entries of a deck, to bound time and memory. The longest list of loads takes 200000
-   !> tokens.
-   integer, parameter, public :: most_tokens = 1000000, most_groups = 100, most_entries = 1000
+   !> Kinds of tokens. A group token is '&' and the name; a broken word has a quote that is not closed.
+   integer, parameter, public :: at_end = 0, is_word = 1, is_broken_word = 2, is_equals = 3, is_comma = 4, &
+      is_slash = 5, is_group = 6
 
-   !> `key = values`.
-   type :: entry_type
-      integer :: group = 0                        !! number of the group that it stands in
-      integer :: key = 0                          !! token of the key
-      integer :: first_value = 1, last_value = 0  !! tokens of the values and of the commas among them
-   end type entry_type
+   !> The bytes `first` to `last` of the deck's text; behind the last byte at its end.
+   type :: token_type
+      integer :: kind = at_end, first = 1, last = 0
+   end type token_type
 
+   !> A group, of which only the name is read, or an entry.
+   type :: part_type
+      type(token_type) :: name         !! of the group with its '&', or the key; at_end: there are no more parts
+      integer :: values = 0            !! the byte behind the '=' of an entry
+      integer :: last = 0              !! the last byte of its values
+   end type part_type
+
+   !> How far a text has been read.
    type :: scan_type
-      type(token_type), allocatable :: tokens(:)
-      integer, allocatable :: groups(:)            !! tokens of the groups' names, in the order of the deck
-      type(entry_type), allocatable :: entries(:)  !! in the order of the deck
+      integer :: next = 1                  !! the next byte
+      type(token_type) :: group            !! the name of the group that is open; at_end: none
+      logical :: quote_is_open = .false.   !! whether a quote in that group is not closed
    end type scan_type
+
+   character(*), parameter :: line_ends = achar(10)//achar(13)
+   character(*), parameter :: blanks = ' '//achar(9)//line_ends
+   character(*), parameter, public :: quotes = '"'''
+   character(*), parameter :: separators = '=,/&', word_ends = blanks//separators//'!'
 
 contains
 
-   !> Scans a text. Adds a problem for each part that does not fit the grammar and ignores that part.
-   subroutine scan_deck(text, scan, problems)
-      type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(out) :: scan
-      type(problem_list_type), intent(inout) :: problems
-
-      integer :: t
-
-      call start_scan(text, scan, problems)
-      t = 1
-      do while (t <= size(scan%tokens) .and. .not. problems%is_full())
-         if (scan%tokens(t)%kind /= is_group .or. is_old_end(text, scan%tokens(t))) then
-            call report_outside(text, scan%tokens, t, problems)
-            t = next_start(scan%tokens, t + 1, in_group=.false.)
-         else if (size(scan%groups) == most_groups) then
-            call problems%add(scan%tokens(t)%first, 'a deck has at most '//integer_text(most_groups)// &
-               ' groups: what follows is not read')
-            exit
-         else
-            call read_group(text, scan, t, problems)
-         end if
-      end do
-   end subroutine scan_deck
-
-   !> Cuts the text into tokens, without groups and entries yet.
-   subroutine start_scan(text, scan, problems)
-      type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(out) :: scan
-      type(problem_list_type), intent(inout) :: problems
-
-      integer :: number
-
-      call tokenise(text%content, number)
-      allocate (scan%tokens(min(number, most_tokens)), scan%groups(0), scan%entries(0))
-      call tokenise(text%content, number, scan%tokens)
-      if (number > most_tokens) call problems%add(scan%tokens(most_tokens)%first, &
-         'a deck has at most '//integer_text(most_tokens)//' words and separators: what follows is not read')
-   end subroutine start_scan
-
-   !> Reads a group, from its name to the '/' that closes it.
-   subroutine read_group(text, scan, t, problems)
+   !> Reads up to the next group or entry. Adds a problem for each part that does not fit the grammar.
+   subroutine next_part(text, scan, part, problems)
       type(deck_text_type), intent(in) :: text
       type(scan_type), intent(inout) :: scan
-      integer, intent(inout) :: t   !! token of the group's name; then the token behind the group
+      type(part_type), intent(out) :: part
       type(problem_list_type), intent(inout) :: problems
 
-      logical :: quote_is_open
-      integer :: name
+      type(token_type) :: token
 
-      name = t
-      scan%groups = [scan%groups, name]
-      quote_is_open = .false.
-      t = t + 1
-      do while (t <= size(scan%tokens))
+      do
          if (problems%is_full()) return
-         associate (token => scan%tokens(t))
-            if (token%kind == is_slash) then
-               t = t + 1
+         associate (content => text%content(:text%own))
+            token = next_token(content, scan%next)
+            if (token%kind == at_end) then
+               ! If a quote is not closed, the '/' is likely within the quoted text: do not report it as missing.
+               if (scan%group%kind == is_group .and. .not. scan%quote_is_open) call problems%add(scan%group%first, &
+                  shown(scan%group)//" is not closed: no '/' up to the end of the deck")
                return
+            else if (scan%group%kind == at_end) then
+               scan%next = token%last + 1
+               if (token%kind == is_group .and. .not. is_old_end(token)) then
+                  scan%group = token
+                  scan%quote_is_open = .false.
+                  part%name = token
+                  return
+               end if
+               call report_outside(token)
+               call skip()
+            else if (token%kind == is_slash) then
+               scan%next = token%last + 1
+               scan%group%kind = at_end
             else if (token%kind == is_group) then
-               if (.not. quote_is_open) call problems%add(token%first, "expected the '/' that closes "// &
-                  shown(text, scan%tokens(name))//' of line '// &
-                  integer_text(text%line_of(scan%tokens(name)%first)))
-               if (is_old_end(text, token)) t = t + 1
+               if (.not. scan%quote_is_open) call problems%add(token%first, "expected the '/' that closes "// &
+                  shown(scan%group)//' of line '//integer_text(text%line_of(scan%group%first)))
+               scan%group%kind = at_end
+               if (is_old_end(token)) scan%next = token%last + 1
+            else if (starts_entry(content, token)) then
+               call read_entry(content, token, part, scan%quote_is_open, problems)
+               scan%next = part%last + 1
                return
-            else if (size(scan%entries) == most_entries) then
-               call problems%add(token%first, 'a deck has at most '//integer_text(most_entries)// &
-                  ' keys: what follows is not read')
-               t = size(scan%tokens) + 1
-               return
-            else if (starts_entry(scan%tokens, t)) then
-               call read_entry(text, scan, t, quote_is_open, problems)
             else
-               call problems%add(token%first, "expected 'key = value', found '"//shown(text, token)//"'")
-               quote_is_open = quote_is_open .or. token%kind == is_broken_word
-               t = next_start(scan%tokens, t + 1, in_group=.true.)
+               call problems%add(token%first, "expected 'key = value', found '"//shown(token)//"'")
+               scan%quote_is_open = scan%quote_is_open .or. token%kind == is_broken_word
+               scan%next = token%last + 1
+               call skip()
             end if
          end associate
       end do
-      ! If a quote is not closed, the '/' is likely within the quoted text: do not report it as missing.
-      if (.not. quote_is_open) call problems%add(scan%tokens(name)%first, shown(text, scan%tokens(name))// &
-         " is not closed: no '/' up to the end of the deck")
-   end subroutine read_group
 
-   !> Reads an entry of the last group.
-   subroutine read_entry(text, scan, t, quote_is_open, problems)
-      type(deck_text_type), intent(in) :: text
-      type(scan_type), intent(inout) :: scan
-      integer, intent(inout) :: t                !! token of the key; then the token behind the entry
+   contains
+
+      !> Reports text outside a group.
+      subroutine report_outside(token)
+         type(token_type), intent(in) :: token
+
+         if (text%content(max(1, token%first - 1):token%first - 1) == '/') then
+            call problems%add(token%first, "text after the '/' that ends the group; "// &
+                              "a '/' in a value is read as text only between quotes")
+         else
+            call problems%add(token%first, "'"//shown(token)// &
+                              "' stands outside of any group: a group begins with &name and ends with '/'")
+         end if
+      end subroutine report_outside
+
+      !> Goes on to the next group or, within a group, to the next entry or the '/'.
+      subroutine skip()
+         do
+            token = next_token(text%content(:text%own), scan%next)
+            if (token%kind == at_end .or. token%kind == is_group) exit
+            if (scan%group%kind == is_group) then
+               if (token%kind == is_slash .or. starts_entry(text%content(:text%own), token)) exit
+            end if
+            scan%next = token%last + 1
+         end do
+      end subroutine skip
+
+      !> Whether a token is '&end', which closed a namelist group before Fortran 90. Decks do not allow it.
+      pure logical function is_old_end(token)
+         type(token_type), intent(in) :: token
+
+         is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
+      end function is_old_end
+
+      pure function shown(token) result(words)
+         type(token_type), intent(in) :: token
+         character(:), allocatable :: words
+
+         words = excerpt(text%content(token%first:token%last))
+      end function shown
+
+   end subroutine next_part
+
+   !> Reads an entry, up to the next entry, group or '/'.
+   subroutine read_entry(content, key, entry, quote_is_open, problems)
+      character(*), intent(in) :: content
+      type(token_type), intent(in) :: key        !! a word before a '='
+      type(part_type), intent(out) :: entry
       logical, intent(inout) :: quote_is_open    !! set where a quote is not closed
       type(problem_list_type), intent(inout) :: problems
 
-      type(entry_type) :: entry
-
-      entry%group = size(scan%groups)
-      entry%key = t
-      entry%first_value = t + 2
-      t = t + 2
-      call read_values(text, scan%tokens, t, quote_is_open, problems)
-      entry%last_value = t - 1
-      scan%entries = [scan%entries, entry]
-   end subroutine read_entry
-
-   !> Reads the words and commas that follow 'key =', up to the next entry, group or '/'.
-   subroutine read_values(text, tokens, t, quote_is_open, problems)
-      type(deck_text_type), intent(in) :: text
-      type(token_type), intent(in) :: tokens(:)
-      integer, intent(inout) :: t                !! the token behind the '='; then the token behind the values
-      logical, intent(inout) :: quote_is_open    !! set where a quote is not closed
-      type(problem_list_type), intent(inout) :: problems
-
+      type(token_type) :: before, token
       logical :: wants_value
 
+      entry%name = key
+      token = next_token(content, key%last + 1)
+      entry%values = token%last + 1
       wants_value = .true.
-      do while (t <= size(tokens))
-         associate (token => tokens(t))
-            select case (token%kind)
-            case (is_comma)
-               if (wants_value) call problems%add(token%first, 'no value before this comma')
-               wants_value = .true.
-            case (is_equals)
-               call problems%add(token%first, "'=' in place of a value")
-            case (is_word)
-               if (tokens(t - 1)%kind == is_word .and. tokens(t - 1)%last == token%first - 1) &
-                  call problems%add(token%first, 'expected a blank or a comma behind the quote')
-               if (starts_entry(tokens, t)) return
-               wants_value = .false.
-            case (is_broken_word)
-               call problems%add(token%first - 1 + scan(text%content(token%first:token%last), quotes), &
-                  'this quote is not closed on its line; within a text a quote is doubled')
-               quote_is_open = .true.
-               wants_value = .false.
-            case default
-               return
-            end select
-         end associate
-         t = t + 1
+      do
+         before = token
+         entry%last = before%last
+         token = next_token(content, before%last + 1)
+         select case (token%kind)
+         case (is_comma)
+            if (wants_value) call problems%add(token%first, 'no value before this comma')
+            wants_value = .true.
+         case (is_equals)
+            call problems%add(token%first, "'=' in place of a value")
+         case (is_word)
+            if (before%kind == is_word .and. before%last == token%first - 1) &
+               call problems%add(token%first, 'expected a blank or a comma behind the quote')
+            if (starts_entry(content, token)) return
+            wants_value = .false.
+         case (is_broken_word)
+            call problems%add(token%first - 1 + scan(content(token%first:token%last), quotes), &
+                              'this quote is not closed on its line; within a text a quote is doubled')
+            quote_is_open = .true.
+            wants_value = .false.
+         case default
+            return
+         end select
       end do
-   end subroutine read_values
+   end subroutine read_entry
 
-   !> Reports text outside a group, at token t.
-   subroutine report_outside(text, tokens, t, problems)
-      type(deck_text_type), intent(in) :: text
-      type(token_type), intent(in) :: tokens(:)
-      integer, intent(in) :: t
-      type(problem_list_type), intent(inout) :: problems
+   !> The first token from a place on.
+   pure type(token_type) function next_token(content, place) result(token)
+      character(*), intent(in) :: content
+      integer, intent(in) :: place
 
-      if (t > 1) then
-         if (tokens(t - 1)%kind == is_slash .and. tokens(t - 1)%last == tokens(t)%first - 1) then
-            call problems%add(tokens(t)%first, "text after the '/' that ends the group; "// &
-               "a '/' in a value is read as text only between quotes")
+      integer :: skipped
+
+      token%first = place
+      do
+         skipped = verify(content(token%first:), blanks) - 1
+         if (skipped < 0) then
+            token = token_type(at_end, len(content) + 1, len(content))
             return
          end if
-      end if
-      call problems%add(tokens(t)%first, "'"//shown(text, tokens(t))// &
-         "' stands outside of any group: a group begins with &name and ends with '/'")
-   end subroutine report_outside
-
-   !> The first token, from t on, that names a group or, within a group, begins an entry or ends it; one behind the last
-   !> if there is none.
-   pure integer function next_start(tokens, t, in_group) result(next)
-      type(token_type), intent(in) :: tokens(:)
-      integer, intent(in) :: t
-      logical, intent(in) :: in_group
-
-      do next = t, size(tokens)
-         if (tokens(next)%kind == is_group) exit
-         if (in_group .and. (tokens(next)%kind == is_slash .or. starts_entry(tokens, next))) exit
+         token%first = token%first + skipped
+         if (content(token%first:token%first) /= '!') exit
+         token%first = end_before(content, token%first, line_ends) + 1
       end do
-   end function next_start
+      token%last = token%first
+      select case (content(token%first:token%first))
+      case ('=')
+         token%kind = is_equals
+      case (',')
+         token%kind = is_comma
+      case ('/')
+         token%kind = is_slash
+      case ('&')
+         token%kind = is_group
+         token%last = end_before(content, token%first + 1, word_ends)
+      case default
+         call find_word_end(content, token)
+      end select
+   end function next_token
 
-   !> Whether a token is '&end', which closed a namelist group before Fortran 90. Decks do not allow it.
-   pure logical function is_old_end(text, token)
-      type(deck_text_type), intent(in) :: text
+   !> The place before the first byte of a set at or after `place`; the last place if there is none.
+   pure integer function end_before(content, place, set)
+      character(*), intent(in) :: content, set
+      integer, intent(in) :: place
+
+      end_before = scan(content(place:), set) + place - 2
+      if (end_before < place - 1) end_before = len(content)
+   end function end_before
+
+   !> Finds the end of a word: the closing quote, or the byte before the next separator. If a quote is not closed on its
+   !> line, the word is broken.
+   pure subroutine find_word_end(content, token)
+      character(*), intent(in) :: content
+      type(token_type), intent(inout) :: token
+
+      character(1) :: quote
+
+      token%kind = is_word
+      token%last = end_before(content, token%first, word_ends//quotes)
+      if (token%last == len(content)) return
+      quote = content(token%last + 1:token%last + 1)
+      if (index(quotes, quote) == 0) return
+      do
+         token%last = end_before(content, token%last + 2, quote//line_ends)
+         if (token%last == len(content)) exit
+         if (content(token%last + 1:token%last + 1) /= quote) exit
+         token%last = token%last + 1
+         if (token%last == len(content)) return
+         if (content(token%last + 1:token%last + 1) /= quote) return
+      end do
+      token%kind = is_broken_word
+   end subroutine find_word_end
+
+   !> Whether a token is a word followed by '='.
+   pure logical function starts_entry(content, token)
+      character(*), intent(in) :: content
       type(token_type), intent(in) :: token
 
-      is_old_end = lower_case(text%content(token%first:token%last)) == '&end'
-   end function is_old_end
+      type(token_type) :: next
 
-   !> The text of a token for messages: an excerpt with unprintable bytes escaped.
-   pure function shown(text, token) result(words)
-      type(deck_text_type), intent(in) :: text
-      type(token_type), intent(in) :: token
-      character(:), allocatable :: words
-
-      words = excerpt(text%content(token%first:token%last))
-   end function shown
+      next = next_token(content, token%last + 1)
+      starts_entry = token%kind == is_word .and. next%kind == is_equals
+   end function starts_entry
 
 end module wavycon_deck_scanner

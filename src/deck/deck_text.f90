@@ -9,18 +9,17 @@ module wavycon_deck_text
 
    public :: deck_text_type, read_deck_text
 
-   !> A text and its lines. A place is the number of a byte of the text, counted from 1.
+   !> A place is the number of a byte of the text, counted from 1.
    type :: deck_text_type
       character(:), allocatable :: path        !! as the user named the file
-      character(:), allocatable :: content
-      integer, allocatable :: line_start(:)    !! place of the first byte of each line
-      integer, private :: options = 0          !! number of the last lines that are options
+      character(:), allocatable :: content     !! lines that end in LF, CR LF or CR, and the options
+      integer :: own = 0                       !! place of the last byte of the file
    contains
       procedure :: add_option
       procedure :: is_in_option
-      procedure :: option_at
       procedure :: line_of
       procedure :: line_bounds
+      procedure :: line_at
    end type deck_text_type
 
    interface deck_text_type
@@ -34,39 +33,15 @@ module wavycon_deck_text
 
 contains
 
-   !> A text from memory. Lines end in LF, CR LF or CR; a byte order mark is left out.
-   pure function new_deck_text(path, content) result(text)
+   !> A text from memory. A byte order mark is left out.
+   pure type(deck_text_type) function new_deck_text(path, content) result(text)
       character(*), intent(in) :: path, content
-      type(deck_text_type) :: text
 
-      integer :: i, lines, mark, pass
-
-      mark = min(len(content), len(byte_order_mark))
-      if (content(:mark) /= byte_order_mark) mark = 0
       text%path = path
-      text%content = content(mark + 1:)
-      do pass = 1, 2
-         lines = 1
-         if (pass == 2) text%line_start(1) = 1
-         do i = 1, len(text%content)
-            if (.not. ends_line(text%content, i)) cycle
-            lines = lines + 1
-            if (pass == 2) text%line_start(lines) = i + 1
-         end do
-         if (pass == 1) allocate (text%line_start(lines))
-      end do
+      text%content = content
+      if (index(content, byte_order_mark) == 1) text%content = content(len(byte_order_mark) + 1:)
+      text%own = len(text%content)
    end function new_deck_text
-
-   !> Whether the byte at a place is the last of a line end: LF, CR LF or CR.
-   pure logical function ends_line(content, place)
-      character(*), intent(in) :: content
-      integer, intent(in) :: place
-
-      ends_line = content(place:place) == line_feed
-      if (content(place:place) /= carriage_return) return
-      ends_line = .true.
-      if (place < len(content)) ends_line = content(place + 1:place + 1) /= line_feed
-   end function ends_line
 
    !> Adds an option of the command line behind the text.
    pure subroutine add_option(self, words)
@@ -74,8 +49,6 @@ contains
       character(*), intent(in) :: words   !! one line
 
       self%content = self%content//line_feed//words
-      self%line_start = [self%line_start, len(self%content) - len(words) + 1]
-      self%options = self%options + 1
    end subroutine add_option
 
    !> Whether a place is in an option.
@@ -83,54 +56,48 @@ contains
       class(deck_text_type), intent(in) :: self
       integer, intent(in) :: place   !! >= 1
 
-      is_in_option = self%line_of(place) > size(self%line_start) - self%options
+      is_in_option = place > self%own
    end function is_in_option
-
-   !> The option that a place is in.
-   pure function option_at(self, place) result(words)
-      class(deck_text_type), intent(in) :: self
-      integer, intent(in) :: place   !! >= 1
-      character(:), allocatable :: words
-
-      integer :: first, last
-
-      call self%line_bounds(self%line_of(place), first, last)
-      words = self%content(first:last)
-   end function option_at
 
    !> The number of the line that a place is in.
    pure integer function line_of(self, place)
       class(deck_text_type), intent(in) :: self
       integer, intent(in) :: place  !! >= 1
 
-      integer :: above, middle
+      integer :: i
 
       line_of = 1
-      above = size(self%line_start) + 1
-      do while (above - line_of > 1)
-         middle = (line_of + above)/2
-         if (self%line_start(middle) <= place) then
-            line_of = middle
-         else
-            above = middle
+      do i = 1, place - 1
+         if (self%content(i:i) == line_feed) then
+            line_of = line_of + 1
+         else if (self%content(i:i) == carriage_return) then
+            if (self%content(i + 1:i + 1) /= line_feed) line_of = line_of + 1
          end if
       end do
    end function line_of
 
-   !> First and last place of a line without its line end; last < first if the line is empty.
-   pure subroutine line_bounds(self, line, first, last)
+   !> First and last place, without its line end, of the line that a place is in.
+   pure subroutine line_bounds(self, place, first, last)
       class(deck_text_type), intent(in) :: self
-      integer, intent(in) :: line
+      integer, intent(in) :: place   !! not of a line end
       integer, intent(out) :: first, last
 
-      first = self%line_start(line)
-      last = len(self%content)
-      if (line < size(self%line_start)) last = self%line_start(line + 1) - 1
-      do while (last >= first)
-         if (self%content(last:last) /= line_feed .and. self%content(last:last) /= carriage_return) exit
-         last = last - 1
-      end do
+      first = scan(self%content(:place - 1), line_feed//carriage_return, back=.true.) + 1
+      last = scan(self%content(place:), line_feed//carriage_return) + place - 2
+      if (last < place) last = len(self%content)
    end subroutine line_bounds
+
+   !> The line that a place is in.
+   pure function line_at(self, place) result(line)
+      class(deck_text_type), intent(in) :: self
+      integer, intent(in) :: place   !! not of a line end
+      character(:), allocatable :: line
+
+      integer :: first, last
+
+      call self%line_bounds(place, first, last)
+      line = self%content(first:last)
+   end function line_at
 
    !> Reads the text of a deck file. Errors: exit_file_trouble.
    subroutine read_deck_text(path, text, error)

@@ -3,6 +3,7 @@ module wavycon_interface_group
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_group_values, only: group_values
    use wavycon_interface_setting, only: dundurs_beta, interface_setting, shear_factors
+   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: choice_key, key_group, key_group_type, logical_key, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
@@ -23,25 +24,27 @@ contains
 
       table = key_group('interface', 'stiffness and resistance of the contact, partial slip, adhesion', [ &
          real_key('resistivity1', '', '-', &
-            'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance to the '// &
-            'table; needs resistivity2.', least=0.0_dp), &
-         real_key('resistivity2', '', '-', 'That of the second body, in the same unit.', least=0.0_dp), &
+            'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance '// &
+            'to the table.', least=0.0_dp, needs='resistivity2'), &
+         real_key('resistivity2', '', '-', 'That of the second body, in the same unit.', least=0.0_dp, &
+            needs='resistivity1'), &
          real_key('friction', '', '-', 'Coefficient of friction: each load also bears the tangential loads, under '// &
             'which a part of the contact slips.', above=0.0_dp), &
          real_key('tangential_load', '', 'unit of e_star', &
             'Mean tangential tractions Q, over the nominal area, at most friction times the mean pressure.', &
-            least=0.0_dp, most_values=most_loads, way=1), &
+            least=0.0_dp, most_values=most_loads, way=10, needs='friction'), &
          real_key('tangential_over_normal', '', '-', 'The same over the mean pressure: at most the friction.', &
-            least=0.0_dp, most_values=most_loads, way=2), &
+            least=0.0_dp, most_values=most_loads, way=11, needs='friction'), &
          choice_key('shear_direction', "'x'", "direction of the tangential load on a surface that does not change "// &
             "along y: 'x', across its ridges; 'y', along them.", ['x', 'y']), &
          real_key('nu', '', '-', "Poisson's ratio of both bodies for tangential loads, if &material gives e_star.", &
-            above=-1.0_dp, most=0.5_dp), &
+            above=-1.0_dp, most=0.5_dp, needs='friction'), &
          logical_key('slip_loop', '.false.', &
-            'A table of the tangential load against the displacement: loading, and a cycle between +Q and -Q.'), &
+            'A table of the tangential load against the displacement: loading, and a cycle between +Q and -Q.', &
+            needs='friction'), &
          logical_key('slip_map', '.false.', &
             'A table of the tangential tractions over the cell, and where the contact sticks and slips; with the '// &
-            'points and in the format of maps.'), &
+            'points and in the format of maps.', needs='friction'), &
          real_key('work_of_adhesion', '', 'unit of e_star times length', &
             'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
             'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0.0_dp)])
@@ -55,21 +58,11 @@ contains
       type(problem_list_type), intent(inout) :: problems
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
-      integer :: i
-      character(*), parameter :: of_friction(*) = [character(22) :: 'tangential_load', 'tangential_over_normal', 'nu']
-
       if (values%place == 0) return
-      call values%require(problems, 'resistivity1', 'resistivity2')
-      call values%require(problems, 'resistivity2', 'resistivity1')
-      call values%forbid(problems, 'tangential_load', 'tangential_over_normal', 'give one of them')
-      do i = 1, size(of_friction)
-         call values%require(problems, trim(of_friction(i)), 'friction')
-      end do
+      call check_relations(values, problems)
       if (values%has('friction')) then
          call check_friction(values, material, problems)
       else
-         if (values%logical('slip_loop')) call values%require(problems, 'slip_loop', 'friction')
-         if (values%logical('slip_map')) call values%require(problems, 'slip_map', 'friction')
          call values%leave_out('shear_direction')
          call values%leave_out('slip_loop')
          call values%leave_out('slip_map')
@@ -122,7 +115,7 @@ contains
 
       real(dp) :: largest
 
-      if (.not. values%has('tangential_load') .and. .not. values%has('tangential_over_normal')) &
+      if (.not. (values%has('tangential_load') .or. values%has('tangential_over_normal'))) &
          call values%complain(problems, 'friction', 'friction needs tangential_load or tangential_over_normal')
       if (values%has('nu') .and. material%has('nu1')) then
          call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')

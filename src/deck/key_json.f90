@@ -6,8 +6,8 @@
 module wavycon_key_json
    use wavycon_constants, only: largest_number
    use wavycon_deck, only: deck_tables
-   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_index, key_type, logical_value, &
-      real_value, text_value
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_index, key_type, real_value, &
+      text_value, type_names
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text, newline
    implicit none (type, external)
@@ -43,55 +43,34 @@ contains
       type(key_type), intent(in) :: key   !! of the table
       character(:), allocatable :: json
 
-      logical, allocatable :: all_of_them(:)
-
-      json = '{"name": '//text(key%name)//', "type": '//text(type_name(key%kind))//', "unit": '//text(key%unit)// &
-             ', "default": '//text(key%default)//', "required": '//truth(key%required)
+      json = '{"name": '//text(key%name)//', "type": '//text(type_names(key%kind))//', "unit": '//text(key%unit)// &
+             ', "default": '//text(key%default)//', "required": '//truth(key%required .and. key%way == 0)
       if (any(key%kind == [real_value, integer_value])) json = json//', "least": '//bound(key%least)// &
          ', "above": '//truth(key%above)//', "most": '//bound(key%most)//', "below": '//truth(key%below)// &
          ', "most_values": '//integer_text(key%most_values)
       if (key%kind == text_value) json = json//', "longest": '//integer_text(key%longest)
-      allocate (all_of_them(size(key%read_by)), source=.true.)
-      if (key%kind == choice_value) json = json//', "choices": '//list(key, all_of_them)
-      if (any(key%read_by)) &
-         json = json//', "read_by": '//list(table%keys(key_index(table%keys, table%selector)), key%read_by)
+      if (key%kind == choice_value) json = json//', "choices": '//list(key%choices)
+      if (any(key%read_by)) then
+         associate (selector => table%keys(key_index(table%keys, table%selector)))
+            json = json//', "read_by": '//list(pack(selector%choices, key%read_by))
+         end associate
+      end if
       json = json//', "meaning": '//text(key%meaning)//'}'
    end function key_object
 
-   !> Some of the choices of a key.
-   pure function list(key, chosen) result(json)
-      type(key_type), intent(in) :: key
-      logical, intent(in) :: chosen(:)
+   !> A list of texts; blank ones are left out.
+   pure function list(names) result(json)
+      character(*), intent(in) :: names(:)
       character(:), allocatable :: json
 
       integer :: i
 
-      json = '['
-      do i = 1, key%number_of_choices
-         if (.not. chosen(i)) cycle
-         if (len(json) > 1) json = json//', '
-         json = json//text(key%choices(i))
+      json = ''
+      do i = 1, size(names)
+         if (names(i) /= '') json = json//', '//text(names(i))
       end do
-      json = json//']'
+      json = '['//json(3:)//']'
    end function list
-
-   pure function type_name(kind) result(name)
-      integer, intent(in) :: kind
-      character(7) :: name
-
-      select case (kind)
-      case (integer_value)
-         name = 'integer'
-      case (logical_value)
-         name = 'logical'
-      case (text_value)
-         name = 'text'
-      case (choice_value)
-         name = 'choice'
-      case default
-         name = 'real'
-      end select
-   end function type_name
 
    pure function bound(number) result(json)
       real(dp), intent(in) :: number

@@ -55,7 +55,8 @@ contains
       line = allowed_values(key)
       if (key%unit /= '') line = line//' ['//trim(key%unit)//']'
       if (key%default /= '') line = line//'; default '//trim(key%default)
-      if (key%required) line = line//'; required'
+      if (key%needs /= '') line = line//'; needs '//trim(key%needs)
+      if (key%required .and. key%way == 0) line = line//'; required'
       call add_wrapped(reference, name_width + 3, line, head='   '//name)
       call add_wrapped(reference, name_width + 3, trim(key%meaning))
    end subroutine add_key

@@ -1,6 +1,7 @@
 !> The &load group: the loads to solve for, by force, mean pressure, mean gap, approach, contact area or stress.
 module wavycon_load_group
    use wavycon_group_values, only: group_values
+   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: integer_key, key_group, key_group_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
@@ -17,10 +18,6 @@ module wavycon_load_group
 
    integer, parameter :: most_loads = 100000
 
-   character(11), parameter :: sweep_keys(*) = ['sweep_from ', 'sweep_to   ', 'sweep_steps']
-   character(*), parameter :: forms = &
-      'pbar_over_pstar, mean_pressure, force, mean_gap_over_amplitude, mean_gap, approach, contact_area_fraction, '// &
-      'contact_area or yield, or sweep_from, sweep_to and sweep_steps'
    character(23), parameter :: lists(*) = [character(23) :: 'pbar_over_pstar', 'mean_pressure', &
                                            'mean_gap_over_amplitude', 'mean_gap', 'contact_area_fraction', 'yield', &
                                            'force', 'approach', 'contact_area']
@@ -36,71 +33,57 @@ contains
    function load_table() result(table)
       type(key_group_type) :: table
 
-      integer, parameter :: by_sweep = size(lists) + 1
-
       table = key_group('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
          real_key('pbar_over_pstar', '', '-', &
             'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
             'work_of_adhesion of &interface, as do those of mean_pressure and force.', &
-            most=largest_pbar_over_pstar, most_values=most_loads, way=1), &
+            most=largest_pbar_over_pstar, most_values=most_loads, way=10, &
+            required=.true.), &
          real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
-            most_values=most_loads, way=2), &
+            most_values=most_loads, way=11), &
          real_key('mean_gap_over_amplitude', '', '-', &
             'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
-            'loads.', least=0.0_dp, most=1.0_dp, most_values=most_loads, way=3), &
+            'loads.', least=0.0_dp, most=1.0_dp, most_values=most_loads, way=12), &
          real_key('mean_gap', '', 'length', 'Mean gaps; the program finds their loads.', least=0.0_dp, &
-            most_values=most_loads, way=4), &
+            most_values=most_loads, way=13), &
          real_key('contact_area_fraction', '', '-', &
             'Fractions of the nominal area in contact; the program finds their loads.', &
-            least=0.0_dp, most=1.0_dp, most_values=most_loads, way=5), &
+            least=0.0_dp, most=1.0_dp, most_values=most_loads, way=14), &
          real_key('yield', '', '-', &
             'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
-            'least loads that reach them. 1 is first yield.', above=0.0_dp, most_values=most_loads, way=6), &
+            'least loads that reach them. 1 is first yield.', above=0.0_dp, most_values=most_loads, way=15), &
          real_key('force', '', 'unit of e_star times length^2', 'Forces on the nominal area; of a profile per '// &
-            'depth.', most_values=most_loads, way=7), &
+            'depth.', most_values=most_loads, way=16), &
          real_key('approach', '', 'length', 'Approaches of the bodies from first touch; the program finds their '// &
-            'loads.', least=0.0_dp, most_values=most_loads, way=8), &
+            'loads.', least=0.0_dp, most_values=most_loads, way=17), &
          real_key('contact_area', '', 'length^2', 'Areas in contact, of a profile lengths; the program finds their '// &
-            'loads.', least=0.0_dp, most_values=most_loads, way=9), &
+            'loads.', least=0.0_dp, most_values=most_loads, way=18), &
          real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, way=by_sweep), &
+            least=0.0_dp, most=largest_pbar_over_pstar, way=19, needs='sweep_to sweep_steps'), &
          real_key('sweep_to', '', '-', 'Last mean pressure over p* of the sweep, above or below the first.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, way=by_sweep), &
+            least=0.0_dp, most=largest_pbar_over_pstar, way=19, needs='sweep_from'), &
          integer_key('sweep_steps', '', &
             'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', &
-            1, most_loads, way=by_sweep)], required=.true.)
+            1, most_loads, way=19, needs='sweep_from')], required=.true.)
    end function load_table
 
-   !> Reports loads that are not given, given in more than one way, or given by an incomplete sweep, and tensions without
-   !> adhesion.
+   !> Checks the keys, and reports tensions without adhesion.
    subroutine check_load_group(values, with_adhesion, problems)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       logical, intent(in) :: with_adhesion   !! whether loads may be tensions
       type(problem_list_type), intent(inout) :: problems
 
       character(:), allocatable :: key
-      logical :: has(size(sweep_keys))
-      integer :: k, loads_by, ways
+      integer :: before, loads_by
       real(dp), allocatable :: loads(:)
 
-      if (values%place == 0) return
-      has = [(values%has(trim(sweep_keys(k))), k=1, size(sweep_keys))]
-      ways = count([any(has), (values%has(trim(lists(k))), k=1, size(lists))])
-      if (ways == 0) call problems%add(values%place, '&load needs '//forms)
-      if (ways > 1) call problems%add(values%place, 'loads are given in more than one way: give '//forms)
-      if (ways /= 1) return
-      if (.not. any(has)) then
-         if (with_adhesion .or. values%any_bad()) return
-         call given_loads(values, key, loads_by, loads)
-         if (minval(loads) < 0.0_dp) call values%complain(problems, key, key//' = '//short_number(minval(loads))// &
-            ' is a tension: without work_of_adhesion of &interface loads are >= 0')
-         return
-      end if
-      do k = 1, size(sweep_keys)
-         if (.not. has(k)) call values%complain(problems, trim(sweep_keys(findloc(has, .true., dim=1))), &
-            'a sweep needs '//trim(sweep_keys(k))//' too')
-      end do
-      if (.not. all(has) .or. values%any_bad()) return
+      before = problems%number
+      call check_relations(values, problems)
+      if (problems%number > before .or. values%place == 0 .or. values%any_bad()) return
+      call given_loads(values, key, loads_by, loads)
+      if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%complain(problems, key, &
+         key//' = '//short_number(minval(loads))// &
+         ' is a tension: without work_of_adhesion of &interface loads are >= 0')
       if (values%integer('sweep_steps') == 1 .and. abs(values%real('sweep_to') - values%real('sweep_from')) > 0) &
          call values%complain(problems, 'sweep_steps', &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
@@ -114,25 +97,22 @@ contains
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star                         !! p* [pressure]; 0: the surface is flat
       type(problem_list_type), intent(inout) :: problems
-      logical, intent(in), optional :: has_own_sides         !! whether the sides do not follow from the loads; default
+      logical, intent(in) :: has_own_sides                   !! whether the sides do not follow from the loads
 
       character(:), allocatable :: given, key
       integer :: loads_by
-      logical :: has_area
       real(dp), allocatable :: loads(:)
       real(dp) :: worst
 
-      has_area = .true.
-      if (present(has_own_sides)) has_area = has_own_sides
       call given_loads(values, key, loads_by, loads)
       given = key
-      if (values%has(trim(sweep_keys(1)))) given = trim(sweep_keys(1))
+      if (values%has('sweep_from')) given = 'sweep_from'
       worst = maxval(loads)
       if (surface%has_free_edges) then
          if (any(periodic_lists == key)) then
             call values%complain(problems, given, given//' needs a surface that is repeated: one with free edges '// &
                'has no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
-         else if (.not. has_area .and. any(key == ['mean_pressure        ', 'contact_area_fraction'])) then
+         else if (.not. has_own_sides .and. any(key == ['mean_pressure        ', 'contact_area_fraction'])) then
             call values%complain(problems, key, key//' needs the sides of the ball, length_x and length_y: give '// &
                                  'them, or force, approach or contact_area')
          else if (loads_by == by_approach .and. surface%dimension == 1) then
@@ -143,28 +123,36 @@ contains
       if (p_star <= 0.0_dp) then
          if (loads_by /= by_pressure) call values%complain(problems, given, &
             'the surface is flat: give its loads by pressure, not by gap, area or yield')
-      else if (any(key == ['mean_pressure', 'force        ']) .and. &
-               maxval(pressures_of_loads(key, loads, surface, p_star)) > largest_pbar_over_pstar*p_star) then
+         return
+      end if
+      select case (key)
+      case ('mean_pressure', 'force')
+         if (maxval(pressures_of_loads(key, loads, surface, p_star)) <= largest_pbar_over_pstar*p_star) return
          given = ' times p* = '//short_number(p_star)
          ! There p* is a modulus times a slope.
          if (surface%has_free_edges) given = ' times what presses the map flat'
          call values%complain(problems, key, key//' = '//short_number(worst)//' is more than '// &
-            short_number(largest_pbar_over_pstar)//given// &
-            '. Do its unit and that of e_star agree, and those of the lengths?')
-      else if (key == 'mean_gap' .and. worst > surface%amplitude) then
-         call values%complain(problems, key, 'mean_gap = '//short_number(worst)// &
-            ' is more than the mean gap before load, '//short_number(surface%amplitude)// &
-            '. Do the units of the lengths agree?')
-      else if (key == 'approach' .and. worst > surface%amplitude .and. .not. surface%has_hardness() .and. &
-               .not. surface%has_free_edges) then
-         call values%complain(problems, key, 'approach = '//short_number(worst)// &
-            ' is more than that of full contact, the mean gap before load, '//short_number(surface%amplitude)// &
-            '. Do the units of the lengths agree?')
-      else if (key == 'contact_area' .and. worst > surface%nominal_area()) then
-         call values%complain(problems, key, 'contact_area = '//short_number(worst)// &
-            ' is more than the nominal area, '//short_number(surface%nominal_area())// &
-            '. Do the units of the lengths agree?')
-      end if
+                              short_number(largest_pbar_over_pstar)//given//'. Do the units agree?')
+      case ('mean_gap')
+         call check_most('the mean gap before load', surface%amplitude)
+      case ('approach')
+         if (.not. (surface%has_hardness() .or. surface%has_free_edges)) &
+            call check_most('that of full contact, the mean gap before load', surface%amplitude)
+      case ('contact_area')
+         call check_most('the nominal area', surface%nominal_area())
+      end select
+
+   contains
+
+      !> Reports a load above the largest one.
+      subroutine check_most(what, most)
+         character(*), intent(in) :: what
+         real(dp), intent(in) :: most
+
+         if (worst > most) call values%complain(problems, key, key//' = '//short_number(worst)//' is more than '// &
+                                                what//', '//short_number(most)//'. Do the units agree?')
+      end subroutine check_most
+
    end subroutine check_loads_of_surface
 
    !> The mean pressures of loads by pressure [pressure].
@@ -189,7 +177,7 @@ contains
 
       integer :: k
 
-      if (all([(values%has(trim(sweep_keys(k))), k=1, size(sweep_keys))])) then
+      if (values%has('sweep_from') .and. values%has('sweep_steps')) then
          k = 1
          loads = sweep(values%real('sweep_from'), values%real('sweep_to'), values%integer('sweep_steps'))
       else

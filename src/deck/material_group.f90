@@ -1,6 +1,7 @@
 !> The &material group: the stiffness of the two bodies, and the pressure at which they yield.
 module wavycon_material_group
    use wavycon_group_values, only: group_values
+   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: key_group, key_group_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
@@ -10,9 +11,6 @@ module wavycon_material_group
    private
 
    public :: material_table, check_material_group, plane_strain_modulus
-
-   !> The keys that give the stiffness in place of e_star.
-   character(3), parameter :: moduli(*) = ['e1 ', 'nu1', 'e2 ', 'nu2']
 
    !> Largest ratio of hardness and p*: a hardness farther away is most likely a mistake of units.
    real(dp), parameter :: most_hardness = 1.0e6_dp
@@ -25,41 +23,35 @@ contains
 
       table = key_group('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
          real_key('e_star', '1.0', 'pressure', &
-            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp, way=1), &
-         real_key('e1', '', 'pressure', "Young's modulus of the first body; needs nu1.", above=0.0_dp, way=2), &
-         real_key('nu1', '', '-', "Poisson's ratio of the first body.", above=-1.0_dp, most=0.5_dp, way=2), &
+            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp, way=10), &
+         real_key('e1', '', 'pressure', "Young's modulus of the first body.", above=0.0_dp, way=11, needs='nu1'), &
+         real_key('nu1', '', '-', "Poisson's ratio of the first body.", above=-1.0_dp, most=0.5_dp, way=11, &
+            needs='e1'), &
          real_key('e2', '', 'pressure', &
-            "Young's modulus of the second body; needs nu2. Without it the second body is rigid.", above=0.0_dp, &
-            way=2), &
-         real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp, way=2), &
+            "Young's modulus of the second body. Without it the second body is rigid.", above=0.0_dp, way=11, &
+            needs='nu2 e1'), &
+         real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp, way=11, &
+            needs='e2'), &
          real_key('hardness', '', 'unit of e_star', &
             'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
             'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', &
             above=0.0_dp)])
    end function material_table
 
-   !> Reports moduli without their Poisson's ratios, and moduli beside e_star. Leaves e_star out of the resolved deck
-   !> if e1 is given. Finds E* and, where there is a surface, p* and its hardness, which is checked too.
+   !> Checks the keys. Leaves e_star out of the resolved deck if e1 is given. Finds E* and, where there is a surface, p*
+   !> and its hardness, which is checked too.
    subroutine check_material_group(values, surface, e_star, p_star, problems)
       type(group_values), intent(inout) :: values
       type(surface_type), allocatable, intent(inout) :: surface   !! not allocated if it has problems
       real(dp), intent(out) :: e_star, p_star                      !! E*, p* [pressure]; 0 if there are problems
       type(problem_list_type), intent(inout) :: problems
 
-      integer :: before, i
+      integer :: before
 
       e_star = 0.0_dp
       p_star = 0.0_dp
       before = problems%number
-      call values%require(problems, 'e1', 'nu1')
-      call values%require(problems, 'nu1', 'e1')
-      call values%require(problems, 'e2', 'nu2')
-      call values%require(problems, 'nu2', 'e2')
-      call values%require(problems, 'e2', 'e1')
-      do i = 1, size(moduli)
-         call values%forbid(problems, 'e_star', trim(moduli(i)), 'give e_star, or e1 and nu1 (and e2, nu2)')
-         if (values%has(trim(moduli(i))) .and. values%has('e_star')) exit
-      end do
+      call check_relations(values, problems)
       if (values%has('e1')) call values%leave_out('e_star')
       if (problems%number > before .or. values%any_bad() .or. .not. allocated(surface)) return
       e_star = plane_strain_modulus(values)
@@ -85,7 +77,7 @@ contains
          call values%complain(problems, 'hardness', &
             'hardness = '//short_number(hardness)//' is not within a factor of '// &
             short_number(most_hardness)//' of p* = '//short_number(p_star)// &
-            '. Do its unit and that of e_star agree, and those of the lengths?')
+            '. Do the units agree?')
       end if
    end subroutine take_hardness
 

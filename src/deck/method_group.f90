@@ -1,7 +1,7 @@
 !> The &method group: the solver and its parameters. Its keys are those of the solvers.
 module wavycon_method_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_alternatives, only: alternative_group, alternative_type, check_alternatives
+   use wavycon_key_relations, only: alternative_group, alternative_type, check_relations
    use wavycon_key_table, only: key_group_type
    use wavycon_problems, only: problem_list_type
    use wavycon_method_list, only: default_solver, get_methods, method_of, number_of_methods, refusal, solvers_for
@@ -38,19 +38,16 @@ contains
       character(:), allocatable :: words
 
       if (allocated(surface)) call values%set_default('solver', default_solver(surface, kind))
-      if (values%is_bad('solver')) return
+      call check_relations(values, problems)
       method = method_of(values)
-      if (method%name == '') return
-      call check_alternatives(method%alternative_type, values, problems, before='solver = ')
       ! Without a surface the remaining checks would report problems that are not there.
-      if (.not. allocated(surface)) return
+      if (.not. allocated(surface) .or. method%name == '') return
       words = refusal(method, surface)
       if (words /= '') then
          call values%complain(problems, 'solver', "solver = '"//values%text('solver')//"' "//words//'. Give '// &
                               solvers_for(surface))
          return
       end if
-      if (associated(method%set_defaults)) call method%set_defaults(values, surface)
       if (associated(method%check)) call method%check(values, surface, problems)
    end subroutine check_method_group
 

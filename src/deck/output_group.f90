@@ -3,6 +3,7 @@ module wavycon_output_group
    use wavycon_cell_file, only: text_side
    use wavycon_grid_method, only: points_of_grid
    use wavycon_group_values, only: group_values
+   use wavycon_kinds, only: dp
    use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, key_type, logical_key, text_key
    use wavycon_method_list, only: method_of
    use wavycon_plain_text, only: integer_text
@@ -60,8 +61,7 @@ contains
             "'text'; 'npy', a file of numpy, short and fast to read; 'auto', text up to "//integer_text(text_side)// &
             ' x '//integer_text(text_side)//' points, npy beyond.', [character(4) :: 'auto', 'text', 'npy']), &
          integer_key('histogram_bins', '100', &
-            'bins of the histograms of pressure and of gap, of equal width.', 4, most_bins)], &
-         former_key='points_per_wavelength', in_its_place='line_points for lines and map_points for maps')
+            'bins of the histograms of pressure and of gap, of equal width.', 4, most_bins)])
    end function output_table
 
    !> Sets the directory and the points of lines and maps, and checks the tables against the solver and the surface.
@@ -100,18 +100,20 @@ contains
       type(group_values), intent(in) :: method   !! &method, after its check
       type(surface_type), intent(in) :: surface
 
-      integer :: finest, grid(2), points(2)
+      integer :: finest, grid(2)
+      real(dp) :: points(2)
 
       grid = points_of_grid(method, surface)
       if (all(grid == 0)) grid = surface%points
       grid = grid/surface%parts()
       ! A multiple of the grid's points: lines on a square height map pass through its points and do not cut peaks.
       finest = max(1, maxval(grid))
-      call values%set_default('line_points', [finest*((max(usual_points, finest) + finest - 1)/finest)])
+      call values%set_default('line_points', &
+         [real(finest*((max(usual_points, finest) + finest - 1)/finest), dp)])
       if (values%is_bad('map_points')) return
-      points = grid
-      if (all(grid == 0)) points = usual_points
-      if (values%has('map_points')) points = nint(values%pair('map_points'))
+      points = real(grid, dp)
+      if (all(grid == 0)) points = real(usual_points, dp)
+      if (values%has('map_points')) points = values%pair('map_points')
       call values%set('map_points', points(:surface%dimension))
    end subroutine set_points
 

@@ -4,10 +4,11 @@
 !> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is that of
 !> NAMELIST.
 module wavycon_read_deck
+   use wavycon_ball_kind, only: set_ball_sides
    use wavycon_deck, only: deck_tables, deck_type, interface_number, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, stress_number, surface_number
    use wavycon_deck_groups, only: take_groups
-   use wavycon_deck_scanner, only: scan_deck, scan_type
+   use wavycon_deck_scanner, only: at_end, next_token, token_type
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
@@ -22,11 +23,9 @@ module wavycon_read_deck
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: check_scene_group
-   use wavycon_settings, only: add_settings, name_case, setting_type
+   use wavycon_settings, only: name_case, setting_type
    use wavycon_stress_group, only: check_stress_group
    use wavycon_surface_group, only: check_sides, check_surface_group, make_surface
-   use wavycon_surface_kind, only: surface_kind
-   use wavycon_surface_kinds, only: kind_of
    implicit none (type, external)
    private
 
@@ -67,22 +66,21 @@ contains
       type(group_values) :: groups(number_of_groups)
       type(key_group_type) :: tables(number_of_groups)
       type(problem_list_type) :: problems
-      type(scan_type) :: scan
+      type(token_type) :: token
       type(deck_text_type) :: text
       logical :: is_file
 
       is_file = .true.
       if (present(in_memory)) is_file = .not. in_memory
       text = deck_text
-      call scan_deck(text, scan, problems)
-      if (size(scan%tokens) == 0) then
+      token = next_token(text%content, 1)
+      if (token%kind == at_end) then
          call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
          return
       end if
       tables = deck_tables()
       tables(load_number)%required = is_file
-      if (present(settings)) call add_settings(settings, tables, text, scan, problems)
-      call take_groups(text, scan, tables, groups, problems)
+      call take_groups(text, tables, groups, problems, settings)
       deck%path = text%path
       deck%scene = groups(scene_number)
       deck%material = groups(material_number)
@@ -136,7 +134,7 @@ contains
       if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', deck%map%length_unit)
    end subroutine read_surface
 
-   !> Sets the default sides of a surface that follow from its loads. If &material or &load has problems, which are
+   !> Sets the default sides of a ball, which follow from its loads. If &material or &load has problems, which are
    !> reported later, the sides stay as they are.
    subroutine set_sides_of_loads(deck, problems)
       type(deck_type), intent(inout) :: deck
@@ -146,10 +144,8 @@ contains
       integer :: loads_by
       real(dp) :: hardness
       real(dp), allocatable :: loads(:)
-      type(surface_kind) :: kind
 
-      kind = kind_of(deck%surface_values)
-      if (.not. associated(kind%set_sides)) return
+      if (deck%surface_values%text('kind') /= 'ball') return
       if (deck%material%any_bad() .or. deck%load%any_bad()) return
       allocate (loads(0))
       if (deck%load%place > 0) call given_loads(deck%load, key, loads_by, loads)
@@ -157,14 +153,14 @@ contains
          key = ''
          loads = [0.0_dp]
          if (deck%load%place == 0 .and. .not. deck%surface_values%has('length_x')) call deck%surface_values%complain( &
-            problems, 'kind', "without loads kind = '"//trim(kind%name)//"' needs length_x")
+            problems, 'kind', "without loads kind = 'ball' needs length_x")
       end if
       hardness = huge(hardness)
       if (deck%material%has('hardness')) hardness = deck%material%real('hardness')
       ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
       if (key == 'yield' .and. .not. deck%stress%any_bad()) &
          loads = 2*loads*max(0.0_dp, deck%stress%real('yield_stress'))
-      call kind%set_sides(deck%surface_values, plane_strain_modulus(deck%material), hardness, key, maxval(abs(loads)))
+      call set_ball_sides(deck%surface_values, plane_strain_modulus(deck%material), hardness, key, maxval(abs(loads)))
    end subroutine set_sides_of_loads
 
    !> Checks &material, which gives p* and the hardness of the surface, and &load and, where these and the surface have

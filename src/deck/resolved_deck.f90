@@ -49,6 +49,7 @@ contains
       character(:), allocatable :: text
 
       character(:), allocatable :: comment, name
+      character(*), parameter :: next_line = newline//'      '
       real(dp), allocatable :: numbers(:)
 
       name = trim(key%name)
@@ -58,34 +59,14 @@ contains
       text = newline//'   '//name//' = '
       select case (key%kind)
       case (real_value, integer_value)
-         numbers = values%numbers(name)
-         text = text//number_text(key, numbers(1))//comment//further_lines(key, numbers)
+         numbers = values%reals(name)
+         text = text//number_text(key, numbers(:1), '')//comment
+         if (size(numbers) > 1) text = text//next_line//number_text(key, numbers(2:), next_line)
       case (logical_value)
          text = text//trim(merge('.true. ', '.false.', values%logical(name)))//comment
       case default
          text = text//quoted(values%text(name))//comment
       end select
    end function key_text
-
-   !> All numbers but the first, each on a line of its own.
-   pure function further_lines(key, numbers) result(text)
-      type(key_type), intent(in) :: key
-      real(dp), intent(in) :: numbers(:)
-      character(:), allocatable :: text
-
-      integer, parameter :: most_bytes = 32   !! of a line
-      character(:), allocatable :: line, room
-      integer :: i, used
-
-      ! To append to `text` would copy it each time, for up to 100000 numbers.
-      allocate (character(most_bytes*size(numbers)) :: room)
-      used = 0
-      do i = 2, size(numbers)
-         line = newline//'      '//number_text(key, numbers(i))
-         room(used + 1:used + len(line)) = line
-         used = used + len(line)
-      end do
-      text = room(:used)
-   end function further_lines
 
 end module wavycon_resolved_deck

@@ -2,6 +2,7 @@
 module wavycon_stress_group
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_group_values, only: group_values
+   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: choice_key, integer_key, key_group, key_group_type, logical_key, real_key
    use wavycon_kinds, only: dp
    use wavycon_problems, only: problem_list_type
@@ -31,10 +32,10 @@ contains
             'A table of the stresses on the planes at the given depths, with the points and in the format of maps.'), &
          real_key('depths', '', 'length', &
             'Depths of the planes; also of the points of line and section unless a range is given.', least=0.0_dp, &
-            most_values=most_depths, way=1), &
+            most_values=most_depths, way=10), &
          real_key('depths_over_cell_x', '', '-', &
             'The same over the side of the cell along x, which is the wavelength of a wave.', least=0.0_dp, &
-            most_values=most_depths, way=2), &
+            most_values=most_depths, way=11), &
          real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell '// &
             'along x, for line and section; also for the planes unless depths are given.', least=0.0_dp), &
          real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
@@ -49,7 +50,8 @@ contains
             'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0.0_dp, &
             most_values=2), &
          choice_key('yield_criterion', "'von_mises'", "which stress reaches the yield stress: 'von_mises', the von "// &
-            "Mises stress; 'tresca', twice the largest shear stress.", [character(9) :: 'von_mises', 'tresca'])])
+            "Mises stress; 'tresca', twice the largest shear stress.", [character(9) :: 'von_mises', 'tresca'], &
+            needs='yield_stress')])
    end function stress_table
 
    !> Sets the defaults that depend on &material and reports what is missing or contradicts.
@@ -67,8 +69,8 @@ contains
          call load%complain(problems, 'yield', 'yield needs yield_stress in &stress')
       end if
       if (values%place == 0) return
+      call check_relations(values, problems)
       has_range = values%has('depth_from') .or. values%has('depth_to') .or. values%has('depth_steps')
-      call values%forbid(problems, 'depths', 'depths_over_cell_x', 'give one of them')
       if (.not. has_range .and. (values%has('depths') .or. values%has('depths_over_cell_x'))) then
          call values%leave_out('depth_from')
          call values%leave_out('depth_to')
@@ -90,7 +92,6 @@ contains
             call values%complain(problems, 'section', &
             "the surface does not change along y: section must be 'none' or 'x'")
       end if
-      call values%require(problems, 'yield_criterion', 'yield_stress')
       if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
    end subroutine check_stress_group
 

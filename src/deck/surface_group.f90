@@ -4,7 +4,7 @@ module wavycon_surface_group
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: surface_of_heights
-   use wavycon_key_alternatives, only: alternative_group, alternative_type, check_alternatives
+   use wavycon_key_relations, only: alternative_group, alternative_type, check_relations
    use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
@@ -45,10 +45,8 @@ contains
 
       type(surface_kind) :: kind
 
+      call check_relations(values, problems)
       kind = kind_of(values)
-      if (kind%name == '') return
-      call check_alternatives(kind%alternative_type, values, problems, before='')
-      if (associated(kind%set_defaults)) call kind%set_defaults(values)
       if (associated(kind%check)) call kind%check(values, problems)
    end subroutine check_surface_group
 

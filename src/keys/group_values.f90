@@ -1,8 +1,7 @@
 !> The values of one group of a deck: for each key of the group's table the value that the deck gives, or its default.
 module wavycon_group_values
    use wavycon_assertion, only: assert
-   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_index, logical_value, real_value, &
-      text_value
+   use wavycon_key_table, only: key_group_type, key_index
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_problems, only: problem_list_type
@@ -21,8 +20,8 @@ module wavycon_group_values
       character(:), allocatable :: text        !! of texts and choices
    end type key_entry
 
-   !> To ask for a key that is not in the table, or by the wrong type, is a programming error: a Debug build stops,
-   !> any other build returns false, 0, or an empty list or text.
+   !> To ask for a key that is not in the table is a programming error: a Debug build stops, any other build returns
+   !> false, 0, or an empty list or text.
    type :: group_values
       type(key_group_type) :: table
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
@@ -39,24 +38,20 @@ module wavycon_group_values
       procedure :: place_of
       procedure :: in_effect
       procedure :: leave_out
-      procedure :: numbers
+      procedure :: reals
+      procedure :: integers
       procedure :: pair
       procedure :: real => get_real
-      procedure :: reals
       procedure :: integer => get_integer
-      procedure :: integers
       procedure :: logical => get_logical
       procedure :: text
-      procedure, private :: set_integers
+      procedure, private :: set_numbers
       procedure, private :: set_text
-      generic :: set => set_integers, set_text
-      procedure, private :: default_reals
-      procedure, private :: default_integers
+      generic :: set => set_numbers, set_text
+      procedure, private :: default_numbers
       procedure, private :: default_text
-      generic :: set_default => default_reals, default_integers, default_text
+      generic :: set_default => default_numbers, default_text
       procedure :: complain
-      procedure :: require
-      procedure :: forbid
       procedure, private :: find
    end type group_values
 
@@ -156,13 +151,22 @@ contains
    end subroutine leave_out
 
    !> The values of a real or integer key, or that of a logical one, as of key_entry.
-   pure function numbers(self, key)
+   pure function reals(self, key) result(numbers)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
       real(dp), allocatable :: numbers(:)
 
       numbers = self%entries(self%find(key))%numbers
-   end function numbers
+   end function reals
+
+   !> The values of an integer key.
+   pure function integers(self, key) result(numbers)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+      integer, allocatable :: numbers(:)
+
+      numbers = nint(self%reals(key))
+   end function integers
 
    !> The two numbers of a real or integer key; a single one is both. Zeros if it has none.
    pure function pair(self, key)
@@ -181,49 +185,26 @@ contains
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      number = first_of(self%entries(self%find(key, [real_value]))%numbers)
+      real(dp) :: both(2)
+
+      both = self%pair(key)
+      number = both(1)
    end function get_real
-
-   !> The values of a real key.
-   pure function reals(self, key) result(numbers)
-      class(group_values), intent(in) :: self
-      character(*), intent(in) :: key
-      real(dp), allocatable :: numbers(:)
-
-      numbers = self%entries(self%find(key, [real_value]))%numbers
-   end function reals
 
    !> The value of an integer key; of a list its first, 0 if it has none.
    pure integer function get_integer(self, key) result(number)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      number = nint(first_of(self%entries(self%find(key, [integer_value]))%numbers))
+      number = nint(self%real(key))
    end function get_integer
-
-   !> The values of an integer key.
-   pure function integers(self, key) result(numbers)
-      class(group_values), intent(in) :: self
-      character(*), intent(in) :: key
-      integer, allocatable :: numbers(:)
-
-      numbers = nint(self%entries(self%find(key, [integer_value]))%numbers)
-   end function integers
-
-   !> The first of some numbers; 0 if there are none.
-   pure real(dp) function first_of(numbers)
-      real(dp), intent(in) :: numbers(:)
-
-      first_of = 0.0_dp
-      if (size(numbers) > 0) first_of = numbers(1)
-   end function first_of
 
    !> The value of a logical key.
    pure logical function get_logical(self, key) result(flag)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      flag = first_of(self%entries(self%find(key, [logical_value]))%numbers) > 0
+      flag = self%real(key) > 0
    end function get_logical
 
    !> The value of a text or choice key, without blanks at its end; empty if it has none.
@@ -232,47 +213,40 @@ contains
       character(*), intent(in) :: key
       character(:), allocatable :: words
 
-      words = self%entries(self%find(key, [text_value, choice_value]))%text
+      words = self%entries(self%find(key))%text
    end function text
 
    !> `set`: sets a value in place of the deck's or the default.
-   pure subroutine set_integers(self, key, numbers)
+   pure subroutine set_numbers(self, key, numbers)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
-      integer, intent(in) :: numbers(:)
+      real(dp), intent(in) :: numbers(:)   !! of an integer key without fractions
 
-      call put(self, self%find(key, [integer_value]), real(numbers, dp))
-   end subroutine set_integers
+      call put(self, self%find(key), numbers)
+   end subroutine set_numbers
 
    pure subroutine set_text(self, key, words)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key, words
 
-      call put(self, self%find(key, [text_value, choice_value]), text=words)
+      call put(self, self%find(key), text=words)
    end subroutine set_text
 
-   !> `set_default`: sets a default that depends on other values. It has no effect if the deck gives the key.
-   pure subroutine default_reals(self, key, numbers)
+   !> `set_default`: sets a default that depends on other values. It has no effect if the deck gives the key a good
+   !> value.
+   pure subroutine default_numbers(self, key, numbers)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
-      real(dp), intent(in) :: numbers(:)
+      real(dp), intent(in) :: numbers(:)   !! as of set
 
-      if (.not. gives(self, key)) call put(self, self%find(key, [real_value]), numbers)
-   end subroutine default_reals
-
-   pure subroutine default_integers(self, key, numbers)
-      class(group_values), intent(inout) :: self
-      character(*), intent(in) :: key
-      integer, intent(in) :: numbers(:)
-
-      if (.not. gives(self, key)) call self%set(key, numbers)
-   end subroutine default_integers
+      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, numbers)
+   end subroutine default_numbers
 
    pure subroutine default_text(self, key, words)
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key, words
 
-      if (.not. gives(self, key)) call self%set(key, words)
+      if (.not. self%has(key) .or. self%is_bad(key)) call self%set(key, words)
    end subroutine default_text
 
    !> Sets the value of key number k. Entry 0, which stands for keys that do not exist, is not changed.
@@ -288,14 +262,6 @@ contains
       if (present(text)) self%entries(k)%text = trim(text)
    end subroutine put
 
-   !> Whether the deck gives a key a good value.
-   pure logical function gives(self, key)
-      class(group_values), intent(in) :: self
-      character(*), intent(in) :: key
-
-      gives = self%has(key) .and. .not. self%is_bad(key)
-   end function gives
-
    !> Reports a problem at the place of a key.
    pure subroutine complain(self, problems, key, words)
       class(group_values), intent(in) :: self
@@ -306,39 +272,13 @@ contains
       call problems%add(self%place_of(key), words)
    end subroutine complain
 
-   !> Reports a key that is given without another one that it needs.
-   pure subroutine require(self, problems, key, other)
-      class(group_values), intent(in) :: self
-      type(problem_list_type), intent(inout) :: problems
-      character(*), intent(in) :: key, other
-
-      if (self%has(key) .and. .not. self%has(other)) &
-         call self%complain(problems, key, key//' needs '//other//' beside it')
-   end subroutine require
-
-   !> Reports a key that is given together with another one that contradicts it.
-   pure subroutine forbid(self, problems, key, other, advice)
-      class(group_values), intent(in) :: self
-      type(problem_list_type), intent(inout) :: problems
-      character(*), intent(in) :: key, other
-      character(*), intent(in) :: advice  !! what to give instead
-
-      if (self%has(key) .and. self%has(other)) &
-         call problems%add(max(self%place_of(key), self%place_of(other)), &
-            key//' and '//other//' contradict each other: '//advice)
-   end subroutine forbid
-
-   !> The number of a key in the table; 0 if it is not there or has another type.
-   pure integer function find(self, key, kinds) result(k)
+   !> The number of a key in the table; 0 if it is not there.
+   pure integer function find(self, key) result(k)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
-      integer, intent(in), optional :: kinds(:)   !! types that the key may have; any if not given
 
       k = key_index(self%table%keys, key)
-      if (k > 0 .and. present(kinds)) then
-         if (all(kinds /= self%table%keys(k)%kind)) k = 0
-      end if
-      if (k == 0) call assert(.false., 'no key '//key//' of this type in &'//trim(self%table%name))
+      if (k == 0) call assert(.false., 'no key '//key//' in &'//trim(self%table%name))
    end function find
 
 end module wavycon_group_values

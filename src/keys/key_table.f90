@@ -9,11 +9,12 @@ module wavycon_key_table
    private
 
    public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
-   public :: key_group, key_index, key_names, group_names, allowed_values, number_text
+   public :: allowed_values, key_group, key_index, number_text, ways_in_words
 
    !> Types of values.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
       choice_value = 5
+   character(*), parameter, public :: type_names(*) = ['real   ', 'integer', 'logical', 'text   ', 'choice ']
 
    integer, parameter :: name_length = 24, choice_length = 12
    integer, parameter, public :: most_choices = 12
@@ -26,10 +27,12 @@ module wavycon_key_table
       !> As in a deck; in words if it depends on other keys: the group's check then sets it. Empty: no default.
       character(40) :: default = ''
       character(24) :: unit = ''                         !! '-' if dimensionless; empty for texts, flags and counts
-      logical :: required = .false.                      !! whether a deck must give the key wherever it applies
-      !> Keys of a group that give the same in different ways have different numbers here: --set of one of them replaces
-      !> the others. 0: there is no other way.
+      logical :: required = .false.                      !! whether a deck must give it, or what gives the same
+      !> Keys of a group that give the same quantity in different ways have the same tens here, which are not 0, and
+      !> different ones: they contradict each other, and --set of one of them replaces the others.
       integer :: way = 0
+      !> What must stand beside the key in a deck: names of keys of the group, or key='value', with blanks between them.
+      character(32) :: needs = ''
       real(dp) :: least = -largest_number, most = largest_number
       logical :: above = .false., below = .false.        !! whether `least` and `most` themselves are excluded
       integer :: most_values = 1                         !! more than 1: a list
@@ -47,18 +50,15 @@ module wavycon_key_table
       logical :: required = .false.
       type(key_type), allocatable :: keys(:)
       character(name_length) :: selector = ''      !! the key that selects an alternative; empty: there are none
-      character(name_length) :: former_key = ''    !! a key of earlier versions; empty: none
-      character(80) :: in_its_place = ''           !! what to give instead
    end type key_group_type
 
 contains
 
    !> A group with its keys.
-   pure function key_group(name, meaning, keys, required, former_key, in_its_place) result(group)
+   pure function key_group(name, meaning, keys, required) result(group)
       character(*), intent(in) :: name, meaning
       type(key_type), intent(in) :: keys(:)
       logical, intent(in), optional :: required
-      character(*), intent(in), optional :: former_key, in_its_place   !! both or neither
       type(key_group_type) :: group
 
       group%name = name
@@ -66,22 +66,20 @@ contains
       allocate (group%keys(size(keys)))
       group%keys(:) = keys
       if (present(required)) group%required = required
-      if (present(former_key)) group%former_key = former_key
-      if (present(in_its_place)) group%in_its_place = in_its_place
    end function key_group
 
    !> A key whose value is a number or, with most_values, a list of numbers.
-   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required, way) &
+   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required, way, needs) &
       result(key)
       character(*), intent(in) :: name, default, unit, meaning
       real(dp), intent(in), optional :: least, most    !! bounds, themselves allowed
       real(dp), intent(in), optional :: above, below   !! bounds, themselves excluded
       integer, intent(in), optional :: most_values, way
       logical, intent(in), optional :: required
+      character(*), intent(in), optional :: needs
       type(key_type) :: key
 
-      key = key_of(real_value, name, default, meaning, required)
-      key%unit = unit
+      key = key_type(name, real_value, meaning, default, unit)
       if (present(least)) key%least = least
       if (present(most)) key%most = most
       if (present(above)) key%least = above
@@ -89,27 +87,32 @@ contains
       key%above = present(above)
       key%below = present(below)
       if (present(most_values)) key%most_values = most_values
+      if (present(required)) key%required = required
       if (present(way)) key%way = way
+      if (present(needs)) key%needs = needs
    end function real_key
 
    !> A key whose value is an integer from least to most or, with most_values, a list of them.
-   pure function integer_key(name, default, meaning, least, most, most_values, required, way) result(key)
+   pure function integer_key(name, default, meaning, least, most, most_values, required, way, needs) result(key)
       character(*), intent(in) :: name, default, meaning
       integer, intent(in) :: least, most
       integer, intent(in), optional :: most_values, way
       logical, intent(in), optional :: required
+      character(*), intent(in), optional :: needs
       type(key_type) :: key
 
       key = real_key(name, default, '', meaning, real(least, dp), real(most, dp), most_values=most_values, &
-                     required=required, way=way)
+                     required=required, way=way, needs=needs)
       key%kind = integer_value
    end function integer_key
 
-   pure function logical_key(name, default, meaning) result(key)
+   pure function logical_key(name, default, meaning, needs) result(key)
       character(*), intent(in) :: name, default, meaning
+      character(*), intent(in), optional :: needs   !! if it is true
       type(key_type) :: key
 
-      key = key_of(logical_value, name, default, meaning)
+      key = key_type(name, logical_value, meaning, default)
+      if (present(needs)) key%needs = needs
    end function logical_key
 
    pure function text_key(name, default, meaning, longest, may_be_blank, required) result(key)
@@ -118,36 +121,24 @@ contains
       logical, intent(in), optional :: may_be_blank, required
       type(key_type) :: key
 
-      key = key_of(text_value, name, default, meaning, required)
-      key%longest = longest
+      key = key_type(name, text_value, meaning, default, longest=longest)
       if (present(may_be_blank)) key%may_be_blank = may_be_blank
+      if (present(required)) key%required = required
    end function text_key
 
    !> A key whose value is one of a few words.
-   pure function choice_key(name, default, meaning, choices, required) result(key)
+   pure function choice_key(name, default, meaning, choices, required, needs) result(key)
       character(*), intent(in) :: name, default, meaning
       character(*), intent(in) :: choices(:)  !! at most `most_choices`
       logical, intent(in), optional :: required
+      character(*), intent(in), optional :: needs
       type(key_type) :: key
 
-      key = key_of(choice_value, name, default, meaning, required)
-      key%number_of_choices = size(choices)
+      key = key_type(name, choice_value, meaning, default, number_of_choices=size(choices))
       key%choices(:size(choices)) = choices
-   end function choice_key
-
-   !> A key with what those of all types have.
-   pure function key_of(kind, name, default, meaning, required) result(key)
-      integer, intent(in) :: kind
-      character(*), intent(in) :: name, default, meaning
-      logical, intent(in), optional :: required
-      type(key_type) :: key
-
-      key%kind = kind
-      key%name = name
-      key%default = default
-      key%meaning = meaning
       if (present(required)) key%required = required
-   end function key_of
+      if (present(needs)) key%needs = needs
+   end function choice_key
 
    !> The number of a key in a table; 0 if it is not there.
    pure integer function key_index(keys, name)
@@ -156,20 +147,6 @@ contains
 
       key_index = findloc(keys%name == name, .true., dim=1)
    end function key_index
-
-   pure function key_names(keys) result(names)
-      type(key_type), intent(in) :: keys(:)
-      character(name_length) :: names(size(keys))
-
-      names = keys%name
-   end function key_names
-
-   pure function group_names(groups) result(names)
-      type(key_group_type), intent(in) :: groups(:)
-      character(name_length) :: names(size(groups))
-
-      names = groups%name
-   end function group_names
 
    !> The allowed values of a key, as words that follow "must be".
    pure function allowed_values(key) result(words)
@@ -194,17 +171,48 @@ contains
       end select
    end function allowed_values
 
-   !> A number of a real or integer key as a deck gives it, to all digits.
-   pure function number_text(key, number) result(text)
+   !> The keys that give the same quantity as one of them: "a, b, or c and d", where c and d make one way.
+   pure function ways_in_words(keys, k) result(words)
+      type(key_type), intent(in) :: keys(:)
+      integer, intent(in) :: k   !! one of them; itself if there is no other
+      character(:), allocatable :: words
+
+      character(80) :: ways(0:9)
+      integer :: i
+
+      words = trim(keys(k)%name)
+      if (keys(k)%way == 0) return
+      ways = ''
+      do i = 0, 9
+         associate (is_one => keys%way == 10*(keys(k)%way/10) + i)
+            if (any(is_one)) ways(i) = listed(pack(keys%name, is_one), ' and ')
+         end associate
+      end do
+      words = listed(pack(ways, ways /= ''), ', or ')
+   end function ways_in_words
+
+   !> Numbers of a real or integer key as a deck gives them, to all digits.
+   pure function number_text(key, numbers, between) result(text)
       type(key_type), intent(in) :: key
-      real(dp), intent(in) :: number
+      real(dp), intent(in) :: numbers(:)
+      character(*), intent(in) :: between   !! two numbers
       character(:), allocatable :: text
 
-      if (key%kind == integer_value) then
-         text = integer_text(nint(number))
-      else
-         text = exact_number(number)
-      end if
+      integer, parameter :: most_digits = 24   !! and signs of a number
+      character(:), allocatable :: number, room
+      integer :: i, used
+
+      ! To append to `text` would copy it each time, for up to 100000 numbers.
+      allocate (character((most_digits + len(between))*size(numbers)) :: room)
+      used = 0
+      do i = 1, size(numbers)
+         number = exact_number(numbers(i))
+         if (key%kind == integer_value) number = integer_text(nint(numbers(i)))
+         if (i > 1) number = between//number
+         room(used + 1:used + len(number)) = number
+         used = used + len(number)
+      end do
+      text = room(:used)
    end function number_text
 
    !> The bounds of a number, with a blank before them; empty if there are none.

@@ -3,7 +3,7 @@ module wavycon_nearest_name
    implicit none (type, external)
    private
 
-   public :: nearest_name, edit_distance, did_you_mean
+   public :: nearest_name, did_you_mean
 
    !> Most letters of a name that is compared; it bounds the time.
    integer, parameter :: longest = 40
@@ -19,36 +19,29 @@ contains
       character(*), intent(in) :: name      !! lower case
       character(*), intent(in) :: known(:)  !! lower case, padded with blanks
 
-      integer :: distance, i, least
+      integer :: distance(size(known)), i
 
       nearest = 0
-      if (len(name) == 0 .or. len(name) > longest) return
-      least = max(1, len(name)/3) + 1
-      do i = 1, size(known)
-         distance = edit_distance(name, trim(known(i)))
-         if (distance < least) then
-            least = distance
-            nearest = i
-         end if
-      end do
-      if (nearest > 0 .or. len(name) < shortest_abbreviation) return
-      do i = 1, size(known)
-         if (index(known(i), name) == 1) then
-            nearest = i
-            return
-         end if
-      end do
+      if (len(name) == 0 .or. len(name) > longest .or. size(known) == 0) return
+      distance = [(edit_distance(name, trim(known(i))), i=1, size(known))]
+      if (minval(distance) <= max(1, len(name)/3)) then
+         nearest = minloc(distance, dim=1)
+      else if (len(name) >= shortest_abbreviation) then
+         nearest = findloc(index(known, name), 1, dim=1)
+      end if
    end function nearest_name
 
-   !> "; did you mean 'x'?" if a name is near, else nothing.
-   pure function did_you_mean(name, known, before, after) result(words)
-      character(*), intent(in) :: name, known(:)  !! as for nearest_name
-      character(*), intent(in) :: before, after   !! put around the known name
+   !> "; did you mean 'x'?" if a name is near, else nothing or all names.
+   pure function did_you_mean(name, known, before, after, otherwise) result(words)
+      character(*), intent(in) :: name, known(:)            !! as for nearest_name
+      character(*), intent(in) :: before, after             !! put around the known name
+      character(*), intent(in), optional :: otherwise       !! words if none is near
       character(:), allocatable :: words
 
       integer :: nearest
 
       words = ''
+      if (present(otherwise)) words = otherwise
       nearest = nearest_name(name, known)
       if (nearest > 0) words = '; did you mean '//before//trim(known(nearest))//after//'?'
    end function did_you_mean
@@ -57,24 +50,19 @@ contains
    pure integer function edit_distance(a, b) result(distance)
       character(*), intent(in) :: a, b
 
-      integer :: row(0:len(b)), last(0:len(b)), last_but_one(0:len(b))
+      integer :: d(0:len(a), 0:len(b))   ! of the first letters of both
       integer :: i, j
 
-      last_but_one = 0
-      row = [(j, j=0, len(b))]
-      do i = 1, len(a)
-         last = row
-         row(0) = i
-         do j = 1, len(b)
-            row(j) = min(last(j) + 1, row(j - 1) + 1, last(j - 1) + merge(0, 1, a(i:i) == b(j:j)))
-            if (i > 1 .and. j > 1) then
-               if (a(i:i) == b(j - 1:j - 1) .and. a(i - 1:i - 1) == b(j:j)) &
-                  row(j) = min(row(j), last_but_one(max(j - 2, 0)) + 1)
-            end if
+      d(:, 0) = [(i, i=0, len(a))]
+      d(0, :) = [(j, j=0, len(b))]
+      do j = 1, len(b)
+         do i = 1, len(a)
+            d(i, j) = min(d(i - 1, j) + 1, d(i, j - 1) + 1, d(i - 1, j - 1) + merge(0, 1, a(i:i) == b(j:j)))
+            if (min(i, j) == 1) cycle
+            if (a(i - 1:i) == b(j:j)//b(j - 1:j - 1)) d(i, j) = min(d(i, j), d(max(i - 2, 0), max(j - 2, 0)) + 1)
          end do
-         last_but_one = last
       end do
-      distance = row(len(b))
+      distance = d(len(a), len(b))
    end function edit_distance
 
 end module wavycon_nearest_name

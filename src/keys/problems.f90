@@ -5,8 +5,8 @@ module wavycon_problems
 
    public :: problem_type, problem_list_type
 
-   !> Most problems of a list. When it is full the search for more ends, to bound time and memory.
-   integer, parameter, public :: most_kept = 1000
+   !> Most problems that are kept. When the list is full the search for more ends, to bound time and memory.
+   integer, parameter, public :: most_kept = 50
 
    type :: problem_type
       integer :: place = 0                  !! byte of the deck's text; 0 means the deck as a whole
@@ -14,8 +14,8 @@ module wavycon_problems
    end type problem_type
 
    type :: problem_list_type
-      integer :: number = 0
-      type(problem_type), allocatable :: items(:)   !! only the first `number` are set
+      integer :: number = 0                   !! of all problems
+      type(problem_type) :: items(most_kept)  !! the first ones found, in the order of their places
    contains
       procedure :: add
       procedure :: is_full
@@ -23,17 +23,22 @@ module wavycon_problems
 
 contains
 
-   !> Adds a problem, unless the list is full.
+   !> Adds a problem behind those of the same place.
    pure subroutine add(self, place, words)
       class(problem_list_type), intent(inout) :: self
       integer, intent(in) :: place       !! byte of the deck's text; 0 means the deck as a whole
       character(*), intent(in) :: words  !! what is wrong, what was expected
 
-      if (self%is_full()) return
-      if (.not. allocated(self%items)) allocate (self%items(most_kept))
+      integer :: i
+
       self%number = self%number + 1
-      self%items(self%number)%place = place
-      self%items(self%number)%words = words
+      if (self%number > most_kept) return
+      do i = self%number, 2, -1
+         if (self%items(i - 1)%place <= place) exit
+         self%items(i) = self%items(i - 1)
+      end do
+      self%items(i)%place = place
+      self%items(i)%words = words
    end subroutine add
 
    pure logical function is_full(self)

@@ -1,90 +1,125 @@
-!> The handles of the C interface: what they point to, errors, texts, deletion. wavycon.h documents each procedure.
+!> What all functions of the C interface need: handles, errors, texts, the lock. wavycon.h documents each function.
 !>
-!> All handles point to one type, whose mark and contents are checked before use: a null handle, or one of another kind,
-!> is an error of the caller and not a crash.
+!> A function is begin_call or lock, its work unless there is an error, and close_call, close_new or close_text. All
+!> handles point to one type, whose mark and kind are checked before use: a null handle, or one of another kind, is an error of the
+!> caller and not a crash. A pointer that is NULL in C is an absent optional argument.
 module wavycon_c_handles
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_null_char, c_null_ptr, &
-      c_ptr, c_size_t
-   use wavycon_c_progress, only: c_progress
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, &
+      c_null_ptr, c_ptr, c_size_t
    use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_error, only: error_type, exit_bad_input, exit_fine, fatal_error
+   use wavycon_kinds, only: dp
    use wavycon_memory_table, only: memory_table
+   use wavycon_solver_progress, only: solver_progress
    use wavycon_threads, only: set_threads
    implicit none (type, external)
    private
 
-   public :: handle_type, begin_call, check_pointers, close_call, close_new, close_text, find_object, handle_at, &
-      kind_of, not_a_handle, text_at
+   public :: c_progress, handle_type, progress_callback
+   public :: begin_call, check_arguments, close_call, close_new, close_text, lock, new_handle, not_a_handle, &
+      object_at, text_at
 
    !> Marks the objects of this library in memory.
    integer, parameter :: our_mark = 1935764579
 
    !> How the message for a handle that is NULL or of another kind begins.
-   character(*), parameter :: not_a_handle = 'the handle is NULL or not that of a '
+   character(*), parameter :: not_a_handle = 'the handle is NULL or not one of the kind '
 
-   !> What a handle points to. One of the allocatable components is allocated.
+   abstract interface
+      integer(c_int) function progress_callback(data, iterations, residual) bind(c)
+         import :: c_double, c_int, c_ptr
+         type(c_ptr), value :: data
+         integer(c_int), value :: iterations
+         real(c_double), value :: residual
+      end function progress_callback
+   end interface
+
+   !> A callback of C that solvers ask whether to stop.
+   type, extends(solver_progress) :: c_progress
+      procedure(progress_callback), pointer, nopass :: callback => null()
+      type(c_ptr) :: data = c_null_ptr
+   contains
+      procedure :: shall_stop
+   end type c_progress
+
+   !> What a handle points to: one of error, scene, solution and table, as its kind says.
    type :: handle_type
       integer :: mark = our_mark
-      type(error_type), allocatable :: error          !! the outcome of the last call
-      type(deck_session), allocatable :: scene
-      type(solved_load), allocatable :: solution
-      type(memory_table), allocatable :: table
+      character(8) :: kind = ''                       !! 'error', 'scene', 'solution' or 'table'
+      type(error_type) :: error                       !! the outcome of the last call
+      type(deck_session) :: scene
+      type(solved_load) :: solution
+      type(memory_table) :: table
       type(c_progress) :: progress                    !! of a scene
       integer :: users = 0                            !! of a scene: its solutions, and those being found
       logical :: is_deleted = .false.                 !! of a scene, which lives as long as it has users
       type(handle_type), pointer :: owner => null()   !! of a solution: its scene
    end type handle_type
 
+   !> The contents of a handle that is none.
+   type(handle_type), target :: nothing
+
    interface
-      integer(c_size_t) function c_strnlen(text, most) bind(c, name='strnlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-         integer(c_size_t), value :: most
-      end function c_strnlen
+      !> Begins a call without an object: waits until no other thread is in one.
+      subroutine lock() bind(c, name='wavycon_lock')
+      end subroutine lock
 
-      !> Begins a call: waits until no other thread is in one. close_call, close_new and close_text end it.
-      subroutine begin_call() bind(c, name='wavycon_lock')
-      end subroutine begin_call
-
-      subroutine end_call() bind(c, name='wavycon_unlock')
-      end subroutine end_call
+      subroutine unlock() bind(c, name='wavycon_unlock')
+      end subroutine unlock
    end interface
 
    !> Most bytes of a text from C, the same as of a deck: longer ones are cut.
-   integer(c_size_t), parameter :: most_bytes = 67108864_c_size_t
+   integer, parameter :: most_bytes = 67108864
 
 contains
+
+   !> Begins a call with an object. Errors: exit_bad_input if the handle is none, or that of another kind.
+   subroutine begin_call(handle, kind, contents, error)
+      type(c_ptr), intent(in) :: handle
+      character(*), intent(in) :: kind
+      type(handle_type), pointer, intent(out) :: contents
+      type(error_type), allocatable, intent(out) :: error
+
+      call lock()
+      contents => object_at(handle)
+      if (contents%kind /= kind) call fatal_error(error, exit_bad_input, not_a_handle//kind)
+   end subroutine begin_call
 
    !> Ends a call: stores its outcome in the caller's error object and returns its code, 0 for success. The error of a
    !> call that failed to make a handle is kept by the calls that then get NULL.
    integer(c_int) function close_call(error_handle, error) result(code)
-      type(c_ptr), intent(in) :: error_handle                     !! may be null: then the code alone tells
-      type(error_type), allocatable, intent(inout) :: error       !! not allocated: success
+      type(c_ptr), intent(in) :: error_handle                  !! may be null: then the code alone tells
+      type(error_type), allocatable, intent(in) :: error       !! not allocated: success
 
+      logical :: is_consequence
       type(handle_type), pointer :: caller
 
       code = exit_fine
       if (allocated(error)) code = int(error%status, c_int)
-      caller => handle_at(error_handle)
-      if (kind_of(caller) == 'error') then
-         if (.not. is_consequence(error, caller%error)) then
-            caller%error%status = code
-            caller%error%message = ''
-            if (allocated(error)) caller%error%message = error%message
+      caller => object_at(error_handle)
+      if (caller%kind == 'error') then
+         is_consequence = code /= exit_fine .and. caller%error%status /= exit_fine
+         if (is_consequence) is_consequence = index(error%message, not_a_handle) == 1
+         if (.not. is_consequence) then
+            caller%error = error_type(code, '')
+            if (allocated(error)) caller%error = error
          end if
       end if
-      call end_call()
+      call unlock()
    end function close_call
 
    !> Ends a call that makes an object: its handle or, in case of an error, null.
    type(c_ptr) function close_new(error_handle, contents, error) result(handle)
       type(c_ptr), intent(in) :: error_handle                     !! as of close_call
       type(handle_type), pointer, intent(inout) :: contents       !! the object; deallocated in case of an error
-      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable, intent(in) :: error
 
       handle = c_null_ptr
-      if (allocated(error)) call remove(contents)
-      if (associated(contents)) handle = c_loc(contents)
+      if (allocated(error)) then
+         call remove(contents)
+      else
+         handle = c_loc(contents)
+      end if
       if (close_call(error_handle, error) /= exit_fine) handle = c_null_ptr
    end function close_new
 
@@ -92,80 +127,56 @@ contains
    integer(c_size_t) function close_text(error_handle, words, buffer, bytes, error) result(needed)
       type(c_ptr), intent(in) :: error_handle                     !! as of close_call
       character(:), allocatable, intent(in) :: words              !! allocated unless there is an error
-      type(c_ptr), intent(in) :: buffer
+      character(kind=c_char), intent(inout), optional :: buffer(*)
       integer(c_size_t), intent(in) :: bytes
-      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable, intent(in) :: error
 
       needed = 0
       if (.not. allocated(error)) needed = put_text(words, buffer, bytes)
       if (close_call(error_handle, error) /= exit_fine) needed = 0
    end function close_text
 
-   !> The contents of a handle; null if it is null or none of ours.
-   function handle_at(handle) result(contents)
+   !> A new object of a kind.
+   function new_handle(kind) result(made)
+      character(*), intent(in) :: kind
+      type(handle_type), pointer :: made
+
+      allocate (made)
+      made%kind = kind
+      made%error%message = ''
+   end function new_handle
+
+   !> The contents of a handle; those of `nothing`, without a kind, if it is null or none of ours.
+   function object_at(handle) result(contents)
       type(c_ptr), intent(in) :: handle
       type(handle_type), pointer :: contents
 
-      nullify (contents)
-      if (.not. c_associated(handle)) return
-      call c_f_pointer(handle, contents)
-      if (contents%mark /= our_mark) nullify (contents)
-   end function handle_at
-
-   !> The kind of an object; blank for none.
-   character(8) function kind_of(contents) result(kind)
-      type(handle_type), pointer, intent(in) :: contents
-
-      kind = ''
-      if (.not. associated(contents)) return
-      if (allocated(contents%error)) kind = 'error'
-      if (allocated(contents%scene)) kind = 'scene'
-      if (allocated(contents%solution)) kind = 'solution'
-      if (allocated(contents%table)) kind = 'table'
-   end function kind_of
-
-   !> The object of a handle. Errors: exit_bad_input if it is none or of another kind.
-   subroutine find_object(handle, kind, contents, error)
-      type(c_ptr), intent(in) :: handle
-      character(*), intent(in) :: kind
-      type(handle_type), pointer, intent(out) :: contents
-      type(error_type), allocatable, intent(out) :: error
-
-      contents => handle_at(handle)
-      if (kind_of(contents) /= kind) call fatal_error(error, exit_bad_input, not_a_handle//kind)
-   end subroutine find_object
-
-   !> Whether an error is that of a handle that is none, after another error.
-   logical function is_consequence(error, last)
-      type(error_type), allocatable, intent(in) :: error
-      type(error_type), intent(in) :: last   !! the outcome of the last call
-
-      is_consequence = allocated(error) .and. last%status /= exit_fine
-      if (is_consequence) is_consequence = index(error%message, not_a_handle) == 1
-   end function is_consequence
+      contents => nothing
+      if (c_associated(handle)) call c_f_pointer(handle, contents)
+      if (contents%mark /= our_mark) contents => nothing
+   end function object_at
 
    !> Errors: exit_bad_input if a pointer is null.
-   subroutine check_pointers(are_there, error)
+   subroutine check_arguments(are_there, error)
       logical, intent(in) :: are_there(:)                     !! for each pointer whether it is not null
       type(error_type), allocatable, intent(inout) :: error   !! nothing is checked if it is allocated
 
-      if (allocated(error)) return
-      if (.not. all(are_there)) call fatal_error(error, exit_bad_input, 'an argument is NULL')
-   end subroutine check_pointers
+      if (.not. (allocated(error) .or. all(are_there))) call fatal_error(error, exit_bad_input, 'an argument is NULL')
+   end subroutine check_arguments
 
    !> A text from C. Errors: exit_bad_input if the pointer is null.
-   subroutine text_at(pointer, text, error)
-      type(c_ptr), intent(in) :: pointer
+   subroutine text_at(bytes, text, error)
+      character(kind=c_char), intent(in), optional :: bytes(*)
       character(:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(inout) :: error   !! there is no text if it is allocated
 
-      character(kind=c_char), pointer :: bytes(:)
       integer :: i, length
 
-      call check_pointers([c_associated(pointer)], error)
+      call check_arguments([present(bytes)], error)
       if (allocated(error)) return
-      length = int(c_strnlen(pointer, most_bytes))
-      call c_f_pointer(pointer, bytes, [length])
+      do length = 0, most_bytes - 1
+         if (bytes(length + 1) == c_null_char) exit
+      end do
       allocate (character(length) :: text)
       do i = 1, length
          text(i:i) = bytes(i)
@@ -175,77 +186,75 @@ contains
    !> Copies a text to a buffer of C, cut to its size, with a null character at its end. Returns the bytes of the whole.
    integer(c_size_t) function put_text(text, buffer, bytes) result(needed)
       character(*), intent(in) :: text
-      type(c_ptr), intent(in) :: buffer            !! may be null: nothing is copied
-      integer(c_size_t), intent(in) :: bytes       !! size of the buffer
+      character(kind=c_char), intent(inout), optional :: buffer(*)   !! absent: nothing is copied
+      integer(c_size_t), intent(in) :: bytes                         !! size of the buffer
 
-      character(kind=c_char), pointer :: to(:)
       integer :: i, length
 
       length = len(text)
       needed = length + 1_c_size_t
-      if (.not. c_associated(buffer) .or. bytes == 0_c_size_t) return
+      if (.not. present(buffer) .or. bytes == 0_c_size_t) return
       ! A size_t above the largest integer appears here as a negative number.
       if (bytes > 0_c_size_t) length = int(min(int(length, c_size_t), bytes - 1_c_size_t))
-      call c_f_pointer(buffer, to, [length + 1])
       do i = 1, length
-         to(i) = text(i:i)
+         buffer(i) = text(i:i)
       end do
-      to(length + 1) = c_null_char
+      buffer(length + 1) = c_null_char
    end function put_text
 
-   type(c_ptr) function new_error() result(handle) bind(c, name='wavycon_new_error')
-      type(handle_type), pointer :: contents
+   logical function shall_stop(self, iterations, residual)
+      class(c_progress), intent(in) :: self
+      integer, intent(in) :: iterations
+      real(dp), intent(in) :: residual
 
-      call begin_call()
-      allocate (contents)
-      allocate (contents%error)
-      contents%error%message = ''
-      handle = c_loc(contents)
-      call end_call()
+      shall_stop = .false.
+      if (associated(self%callback)) shall_stop = self%callback(self%data, int(iterations, c_int), residual) /= 0
+   end function shall_stop
+
+   type(c_ptr) function new_error() result(handle) bind(c, name='wavycon_new_error')
+      call lock()
+      handle = c_loc(new_handle('error'))
+      call unlock()
    end function new_error
 
    integer(c_int) function get_code(handle) bind(c, name='wavycon_get_code')
       type(c_ptr), value :: handle
 
+      type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
-      call begin_call()
+      call begin_call(handle, 'error', contents, trouble)
       get_code = exit_bad_input
-      contents => handle_at(handle)
-      if (kind_of(contents) == 'error') get_code = int(contents%error%status, c_int)
-      call end_call()
+      if (.not. allocated(trouble)) get_code = int(contents%error%status, c_int)
+      call unlock()
    end function get_code
 
    integer(c_size_t) function get_message(handle, buffer, bytes) bind(c, name='wavycon_get_message')
-      type(c_ptr), value :: handle, buffer
+      type(c_ptr), value :: handle
+      character(kind=c_char), intent(inout), optional :: buffer(*)
       integer(c_size_t), value :: bytes
 
+      type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
-      call begin_call()
-      contents => handle_at(handle)
-      if (kind_of(contents) == 'error') then
-         get_message = put_text(contents%error%message, buffer, bytes)
-      else
-         get_message = put_text('this is no error object', buffer, bytes)
-      end if
-      call end_call()
+      call begin_call(handle, 'error', contents, trouble)
+      if (.not. allocated(trouble)) trouble = contents%error
+      get_message = put_text(trouble%message, buffer, bytes)
+      call unlock()
    end function get_message
 
    !> Deletes any handle and sets it to null; a null handle is ignored.
    subroutine delete_handle(handle) bind(c, name='wavycon_delete')
-      type(c_ptr), value :: handle   !! address of the handle, a void *
+      type(c_ptr), intent(inout), optional :: handle
 
-      type(c_ptr), pointer :: its_handle
       type(handle_type), pointer :: contents
 
-      if (.not. c_associated(handle)) return
-      call begin_call()
-      call c_f_pointer(handle, its_handle)
-      contents => handle_at(its_handle)
-      its_handle = c_null_ptr
-      if (associated(contents)) call remove(contents)
-      call end_call()
+      if (.not. present(handle)) return
+      call lock()
+      contents => object_at(handle)
+      handle = c_null_ptr
+      if (contents%kind /= '') call remove(contents)
+      call unlock()
    end subroutine delete_handle
 
    !> Deallocates an object, a scene only if it has no users, and a scene that has lost its last one.
@@ -273,7 +282,7 @@ contains
       integer, parameter :: most_threads = 1024
       type(error_type), allocatable :: trouble
 
-      call begin_call()
+      call lock()
       if (number < 1 .or. number > most_threads) then
          call fatal_error(trouble, exit_bad_input, 'the number of threads must be from 1 to 1024')
       else

@@ -16,7 +16,7 @@ module wavycon_deck_session
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
    use wavycon_make_scene, only: make_scene, take_loads
    use wavycon_memory_table, only: memory_table, of_words
-   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_plain_text, only: exact_number, integer_text, newline
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_read_deck, only: parse_deck
@@ -26,7 +26,6 @@ module wavycon_deck_session
    use wavycon_scene, only: by_yield, scene_type
    use wavycon_settings, only: read_setting, setting_type
    use wavycon_solve_loads, only: order_loads, solve_target
-   use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
    use wavycon_tables, only: find_table
@@ -34,7 +33,7 @@ module wavycon_deck_session
    implicit none (type, external)
    private
 
-   public :: deck_session, number_words, solved_load
+   public :: check_ready, deck_session, number_words, solved_load
 
    !> In C a thread that solves a load lets others into the library meanwhile, but not into this session: c_lock.c.
    interface
@@ -60,15 +59,13 @@ module wavycon_deck_session
    contains
       procedure :: open => open_session
       procedure :: open_file
-      procedure :: number_of_loads
-      procedure :: show_progress
       procedure :: solve
       procedure :: solve_load
       procedure :: make_table
       procedure :: number
       procedure :: text
       procedure, private :: solve_one
-      procedure, private :: summarise
+      procedure, private :: find_in_summary
    end type deck_session
 
    !> A load that a session has solved. What is asked for again is kept.
@@ -124,37 +121,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: trouble
-      type(deck_text_type) :: lines, text
+      type(deck_text_type) :: text
       type(setting_type), allocatable :: setting(:)
       integer :: first, i, last
 
-      lines = deck_text_type(path, settings)
-      allocate (setting(merge(size(lines%line_start), 0, settings /= '')))
+      allocate (setting(merge(0, 1 + count([(settings(i:i) == newline, i=1, len(settings))]), settings == '')))
+      first = 1
       do i = 1, size(setting)
-         call lines%line_bounds(i, first, last)
-         call read_setting(lines%content(first:last), setting(i), trouble)
+         last = first + index(settings(first:)//newline, newline) - 2
+         call read_setting(settings(first:last), setting(i), trouble)
          if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
          if (allocated(error)) return
+         first = last + 2
       end do
       call read_deck_text(path, text, error)
       if (.not. allocated(error)) call self%open(text%content, path, keep_fields, error, settings=setting)
    end subroutine open_file
-
-   !> The number of loads that the deck gives.
-   pure integer function number_of_loads(self)
-      class(deck_session), intent(in) :: self
-
-      number_of_loads = 0
-      if (allocated(self%results%scene)) number_of_loads = size(self%results%scene%target)
-   end function number_of_loads
-
-   !> Sets the object that solvers call and ask in the loads to come.
-   subroutine show_progress(self, progress)
-      class(deck_session), intent(inout) :: self                 !! open
-      class(solver_progress), intent(in), pointer :: progress   !! null: none
-
-      self%results%solver%progress => progress
-   end subroutine show_progress
 
    !> Solves one load. A load that cannot be solved as requested is no error, but the status of the solution. Errors:
    !> exit_bad_input for a quantity that is none or a value that it cannot have.
@@ -176,7 +158,8 @@ contains
       call read_group_text(load_table(), quantity//' = '//number_words(value), values, text, problems)
       call check_load_group(values, self%results%scene%interface%has('work_of_adhesion'), problems)
       if (problems%number == 0) &
-         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
+         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems, &
+                                     has_own_sides=.true.)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return
@@ -192,19 +175,20 @@ contains
    !> Solves a load of the deck. Errors: exit_bad_input for a load that the deck does not have.
    subroutine solve_load(self, load, answer, error)
       class(deck_session), intent(inout) :: self
-      integer, intent(in) :: load            !! 1 .. number_of_loads()
+      integer, intent(in) :: load            !! from 1
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
       call check_ready(self, error)
       if (allocated(error)) return
-      if (load >= 1 .and. load <= self%number_of_loads()) then
-         call self%solve_one(self%results%scene%loads_by, load, self%results%scene%target, self%mean_pressure, answer, &
-                             error)
-      else
-         call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
-                          integer_text(self%number_of_loads()))
-      end if
+      associate (scene => self%results%scene)
+         if (load >= 1 .and. load <= size(scene%target)) then
+            call self%solve_one(scene%loads_by, load, scene%target, self%mean_pressure, answer, error)
+         else
+            call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
+                             integer_text(size(scene%target)))
+         end if
+      end associate
    end subroutine solve_load
 
    !> Errors: exit_bad_input if the session cannot find loads by yield.
@@ -217,8 +201,18 @@ contains
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
-      if (loads_by == by_yield) call check_yield(self, error)
-      if (allocated(error)) return
+      logical :: has_yield_stress
+
+      if (loads_by == by_yield) then
+         has_yield_stress = allocated(self%results%scene%stress_setting)
+         if (has_yield_stress) has_yield_stress = allocated(self%results%scene%stress_setting%yield_stress)
+         if (.not. has_yield_stress) then
+            call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
+         else if (.not. self%keeps_fields) then
+            call fatal_error(error, exit_bad_input, 'yield needs fields: the session was opened without them')
+         end if
+         if (allocated(error)) return
+      end if
       allocate (answer%solution)
       call begin_solve(self%is_solving)
       call solve_target(self%results%solver, loads_by, target(load), answer%solution, self%results%scene%stress_setting)
@@ -318,25 +312,19 @@ contains
       real(dp) :: values(size(names))
 
       value = 0.0_dp
-      i = 0
       if (present(solved)) then
-         call self%summarise(solved, error)
-         if (allocated(error)) return
-         i = solved%summary%find_column(name)
-         if (i > 0) then
-            if (solved%summary%kinds(i) == of_words) i = 0
-         end if
-         if (i > 0) value = solved%summary%values(i, 1)
-      else
-         call check_ready(self, error)
-         if (allocated(error)) return
-         associate (surface => self%results%solver%surface)
-            values = [self%scale%e_star, self%scale%p_star, self%scale%amplitude, self%scale%sides, &
-                      real([surface%points/surface%parts(), surface%dimension, self%number_of_loads()], dp)]
-         end associate
-         i = findloc(names == name, .true., dim=1)
-         if (i > 0) value = values(i)
+         call self%find_in_summary(solved, name, 'number', i, error)
+         if (.not. allocated(error)) value = solved%summary%values(i, 1)
+         return
       end if
+      call check_ready(self, error)
+      if (allocated(error)) return
+      associate (surface => self%results%solver%surface)
+         values = [self%scale%e_star, self%scale%p_star, self%scale%amplitude, self%scale%sides, &
+                   real([surface%points/surface%parts(), surface%dimension, size(self%results%order)], dp)]
+      end associate
+      i = findloc(names == name, .true., dim=1)
+      if (i > 0) value = values(i)
       if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
    end subroutine number
 
@@ -351,53 +339,63 @@ contains
 
       integer :: i
 
-      call check_ready(self, error)
-      if (present(solved) .and. .not. allocated(error)) call self%summarise(solved, error)
-      if (allocated(error)) return
       if (present(solved)) then
-         i = solved%summary%find_column(name)
-         if (i > 0) then
-            if (solved%summary%kinds(i) == of_words) &
-               words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
-         end if
-      else
-         select case (name)
-         case ('solver')
-            words = self%results%scene%method%text('solver')
-         case ('method')
-            words = self%results%method
-         case ('why_chosen')
-            words = why_chosen(self%results%traits)
-         case ('pressure_unit')
-            words = self%results%scene%pressure_unit
-         case ('length_unit')
-            words = self%results%scene%length_unit
-         case ('resolved_deck')
-            words = self%results%scene%resolved_deck
-         case ('order')
-            words = ''
-            do i = 1, self%number_of_loads()
-               if (i > 1) words = words//' '
-               words = words//integer_text(self%results%order(i))
-            end do
-         end select
+         call self%find_in_summary(solved, name, 'text', i, error)
+         if (.not. allocated(error)) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
+         return
       end if
-      if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
+      call check_ready(self, error)
+      if (allocated(error)) return
+      select case (name)
+      case ('solver')
+         words = self%results%scene%method%text('solver')
+      case ('method')
+         words = self%results%method
+      case ('why_chosen')
+         words = why_chosen(self%results%traits)
+      case ('pressure_unit')
+         words = self%results%scene%pressure_unit
+      case ('length_unit')
+         words = self%results%scene%length_unit
+      case ('resolved_deck')
+         words = self%results%scene%resolved_deck
+      case ('order')
+         words = ''
+         do i = 1, size(self%results%order)
+            words = words//integer_text(self%results%order(i))//' '
+         end do
+         words = trim(words)
+      case default
+         call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
+      end select
    end subroutine text
 
-   !> Makes the row of the summary table, once. Errors: exit_bad_input without a solution.
-   subroutine summarise(self, solved, error)
+   !> The column of a name in the row of the summary table, which is made once. Errors: exit_bad_input without a
+   !> solution, and if there is no such column of numbers or of words.
+   subroutine find_in_summary(self, solved, name, what, column, error)
       class(deck_session), intent(inout) :: self
       type(solved_load), intent(inout) :: solved
+      character(*), intent(in) :: name
+      character(*), intent(in) :: what         !! 'number' or 'text'
+      integer, intent(out) :: column
       type(error_type), allocatable, intent(out) :: error
 
       type(memory_table) :: summary
 
+      column = 0
       call check_ready(self, error, solved)
-      if (allocated(error) .or. solved%summary%rows > 0) return
-      call self%make_table('summary', solved, summary, error)
-      if (.not. allocated(error)) solved%summary = summary
-   end subroutine summarise
+      if (allocated(error)) return
+      if (solved%summary%rows == 0) then
+         call self%make_table('summary', solved, summary, error)
+         if (allocated(error)) return
+         solved%summary = summary
+      end if
+      column = solved%summary%find_column(name)
+      if (column > 0) then
+         if ((solved%summary%kinds(column) == of_words) .neqv. what == 'text') column = 0
+      end if
+      if (column == 0) call fatal_error(error, exit_bad_input, 'there is no '//what//" '"//name//"'")
+   end subroutine find_in_summary
 
    !> Errors: exit_bad_input if a session has not been opened or no load has been solved.
    subroutine check_ready(self, error, solved)
@@ -412,22 +410,6 @@ contains
             call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
       end if
    end subroutine check_ready
-
-   !> Errors: exit_bad_input if the session cannot find loads by yield.
-   subroutine check_yield(self, error)
-      class(deck_session), intent(in) :: self
-      type(error_type), allocatable, intent(out) :: error
-
-      logical :: has_yield_stress
-
-      has_yield_stress = allocated(self%results%scene%stress_setting)
-      if (has_yield_stress) has_yield_stress = allocated(self%results%scene%stress_setting%yield_stress)
-      if (.not. has_yield_stress) then
-         call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
-      else if (.not. self%keeps_fields) then
-         call fatal_error(error, exit_bad_input, 'yield needs fields: the session was opened without them')
-      end if
-   end subroutine check_yield
 
    !> A number to all digits; 'NaN', of which a deck's reader makes a good message, if it is none.
    function number_words(number) result(words)

@@ -8,7 +8,7 @@ module wavycon_session_fields
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_groups, only: read_group_text
-   use wavycon_deck_session, only: deck_session, number_words, solved_load
+   use wavycon_deck_session, only: check_ready, deck_session, number_words, solved_load
    use wavycon_deck_text, only: deck_text_type
    use wavycon_elastic_body, only: elastic_body
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
@@ -24,10 +24,10 @@ module wavycon_session_fields
    implicit none (type, external)
    private
 
-   public :: fields_at, fields_on_grid, map_grid, own_points, stresses_at, stresses_on_plane
+   public :: check_number, fields_at, fields_on_grid, map_grid, own_points, stresses_at, stresses_on_plane
 
    !> Most points of a grid or plane.
-   integer(int64), parameter, public :: most_points = 8192_int64**2
+   integer, parameter :: most_points = 8192**2
 
    !> Numbers of double precision that a point takes: fields or stresses and the work space of transforms.
    integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28
@@ -49,7 +49,8 @@ contains
       integer :: i
 
       call prepare_fields(session, solved, error)
-      if (.not. allocated(error)) call check_places(session, x, y, error)
+      if (.not. allocated(error)) call check_number(n, error)
+      if (.not. allocated(error)) call check_places(session, x, y, [0.0_dp], error)
       if (allocated(error)) return
       do i = 1, n
          values = [solved%mean_pressure, 0.0_dp, 0.0_dp]
@@ -76,7 +77,7 @@ contains
       real(dp), allocatable :: g(:, :), p(:, :), u(:, :)
 
       call prepare_fields(session, solved, error)
-      if (.not. allocated(error)) call check_points(session, points, offset, numbers_of_fields, error)
+      if (.not. allocated(error)) call check_points(session, points, offset, 0.0_dp, numbers_of_fields, error)
       if (allocated(error)) return
       if (session%scale%p_star > 0.0_dp) then
          call solved%fields%on_grid(points, offset_on(session, offset), p, u, g)
@@ -144,8 +145,8 @@ contains
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
-      if (.not. allocated(error)) call check_places(session, x, y, error)
-      if (.not. allocated(error)) call check_depths(session, depth, error)
+      if (.not. allocated(error)) call check_number(n, error)
+      if (.not. allocated(error)) call check_places(session, x, y, depth, error)
       if (allocated(error)) return
       do i = 1, n
          if (exist(solved)) then
@@ -179,8 +180,7 @@ contains
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
-      if (.not. allocated(error)) call check_points(session, points, offset, numbers_of_stresses, error)
-      if (.not. allocated(error)) call check_depths(session, [depth], error)
+      if (.not. allocated(error)) call check_points(session, points, offset, depth, numbers_of_stresses, error)
       if (allocated(error)) return
       if (exist(solved)) then
          call solved%stresses%on_plane(points, offset_on(session, offset), session%scale%depth_angle(depth), body, &
@@ -202,9 +202,9 @@ contains
       type(solved_load), intent(inout) :: solved
       type(error_type), allocatable, intent(out) :: error
 
-      if (.not. allocated(solved%solution)) then
-         call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
-      else if (.not. session%keeps_fields) then
+      call check_ready(session, error, solved)
+      if (allocated(error)) return
+      if (.not. session%keeps_fields) then
          call fatal_error(error, exit_bad_input, 'there are no fields: the session was opened without them')
       else if (.not. allocated(solved%fields)) then
          call solved%solution%fields(session%results%solver%surface, solved%fields)
@@ -258,33 +258,33 @@ contains
       if (session%results%solver%surface%dimension == 1) first(2) = 0.0_dp
    end function offset_on
 
-   subroutine check_places(session, x, y, error)
+   !> Errors: exit_bad_input for a number of points below 1, or above that of a plane.
+   subroutine check_number(points, error)
+      integer, intent(in) :: points
+      type(error_type), allocatable, intent(out) :: error
+
+      if (points < 1 .or. points > most_points) &
+         call fatal_error(error, exit_bad_input, 'points must be from 1 to 8192*8192')
+   end subroutine check_number
+
+   subroutine check_places(session, x, y, depth, error)
       type(deck_session), intent(in) :: session
-      real(dp), intent(in) :: x(:), y(:)
+      real(dp), intent(in) :: x(:), y(:), depth(:)   !! [length]
       type(error_type), allocatable, intent(out) :: error
 
       associate (period => session%scale%period)
-         if (.not. all(ieee_is_finite(x/period(1)) .and. ieee_is_finite(y/period(2)))) &
-            call fatal_error(error, exit_bad_input, 'places must be finite numbers')
+         if (.not. all([ieee_is_finite(x/period(1)), ieee_is_finite(y/period(2)), ieee_is_finite(depth/period(1))])) then
+            call fatal_error(error, exit_bad_input, 'places, offsets and depths must be finite numbers')
+         else if (any(depth < 0.0_dp)) then
+            call fatal_error(error, exit_bad_input, 'depths must be 0 or more: z points into the body')
+         end if
       end associate
    end subroutine check_places
 
-   subroutine check_depths(session, depth, error)
-      type(deck_session), intent(in) :: session
-      real(dp), intent(in) :: depth(:)   !! [length]
-      type(error_type), allocatable, intent(out) :: error
-
-      if (.not. all(ieee_is_finite(depth/session%scale%period(1)))) then
-         call fatal_error(error, exit_bad_input, 'depths must be finite numbers')
-      else if (any(depth < 0.0_dp)) then
-         call fatal_error(error, exit_bad_input, 'depths must be 0 or more: z points into the body')
-      end if
-   end subroutine check_depths
-
-   subroutine check_points(session, points, offset, numbers, error)
+   subroutine check_points(session, points, offset, depth, numbers, error)
       type(deck_session), intent(in) :: session
       integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)
+      real(dp), intent(in) :: offset(2), depth
       integer(int64), intent(in) :: numbers    !! of double precision that a point needs
       type(error_type), allocatable, intent(out) :: error
 
@@ -296,10 +296,10 @@ contains
                           integer_text(most_points)//' in all, got '//got)
       else if (session%results%solver%surface%dimension == 1 .and. points(2) /= 1) then
          call fatal_error(error, exit_bad_input, 'a grid on a profile needs 1 point along y, got '//got)
-      else if (.not. all(ieee_is_finite(offset))) then
-         call fatal_error(error, exit_bad_input, 'the offset of a grid must be two finite numbers')
       else if (.not. has_memory_for(numbers*product(int(points, int64)))) then
          call fatal_error(error, exit_file_trouble, 'there is not the memory for '//got//' points')
+      else
+         call check_places(session, offset(1:1), offset(2:2), [depth], error)
       end if
    end subroutine check_points
 

@@ -1,7 +1,5 @@
 !> The head of a height map's file: lines of a key and its entry, as .gsf files and Gwyddion's texts have them.
 module wavycon_file_head
-   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
-      ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_decimal_number, only: read_decimal
@@ -74,19 +72,13 @@ contains
       if (.not. is_number) length = 0.0_dp
    end subroutine read_length
 
-   !> Reads a word as a positive number in the range of lengths.
+   !> Reads a word as a positive number in the range of lengths. Callers must switch off traps of overflow.
    subroutine read_positive(word, number, is_number)
       character(*), intent(in) :: word
       real(dp), intent(out) :: number
       logical, intent(out) :: is_number   !! whether it is one
 
-      type(ieee_status_type) :: floating_point
-
-      ! 1e999 must be reported as bad input in builds that trap overflow too.
-      call ieee_get_status(floating_point)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
       call read_decimal(word, number, is_number)
-      call ieee_set_status(floating_point)
       if (is_number) is_number = number >= smallest_number .and. number <= largest_number
    end subroutine read_positive
 

@@ -14,15 +14,6 @@ module wavycon_fill_missing
 
    public :: fill_holes
 
-   type :: hole_equations
-      integer, allocatable :: place(:, :)       !! of each missing height, its indices along x and y, shape (2, n)
-      integer, allocatable :: neighbour(:, :)   !! missing heights to the east, north, west and south; 0: none. (4, n)
-      real(dp), allocatable :: diagonal(:)      !! sum of the weights of all neighbours, given ones too, shape (n)
-      real(dp), allocatable :: given(:)         !! weighted sum of the given neighbours over `datum`, shape (n)
-      real(dp) :: datum = 0.0_dp                !! a height beside a hole
-      real(dp) :: weight(2) = 1.0_dp            !! of neighbours along x and y
-   end type hole_equations
-
    !> Iterations between two evaluations of the residual from the heights. Holes take fewer than ten times their width.
    integer, parameter :: most_iterations = 20000
 
@@ -38,38 +29,59 @@ contains
       type(measured_map), intent(inout) :: map    !! with at least one height that is there; `missing` is deallocated
       type(error_type), allocatable, intent(out) :: error
 
-      !> Real numbers for each missing height: the equations and the vectors of the iteration, on coarser maps too.
-      integer(int64), parameter :: numbers_a_hole = 16
+      !> Real numbers for each height, and for each missing one, on coarser maps too.
+      integer(int64), parameter :: numbers_a_height = 4, numbers_a_hole = 6
+      real(dp), allocatable :: filled(:, :)
+      integer :: there(2)
+      real(dp) :: datum, unit
 
-      if (.not. has_memory_for(numbers_a_hole*count(map%missing) + size(map%missing))) then
+      if (.not. has_memory_for(numbers_a_hole*count(map%missing) + numbers_a_height*size(map%missing))) then
          call fatal_error(error, exit_file_trouble, escaped(source)//': there is not the memory to fill its holes')
          return
       end if
-      call fill_by_neighbours(map%height, map%missing, step, periodic)
+      ! Heights over one of them: those of a flat map are zero. Products of tiny ones would vanish.
+      there = findloc(map%missing, .false.)
+      datum = map%height(there(1), there(2))
+      filled = merge(0.0_dp, map%height - datum, map%missing)
+      unit = maxval(abs(filled))
+      if (unit > 0.0_dp) then
+         filled = filled/unit
+         call fill(filled, map%missing, (minval(step)/step)**2, periodic)
+      end if
+      map%height = merge(datum + unit*filled, map%height, map%missing)
       deallocate (map%missing)
    end subroutine fill_holes
 
    !> Replaces the missing heights by the solution of (M3).
-   recursive subroutine fill_by_neighbours(height, missing, step, periodic)
-      real(dp), intent(inout) :: height(:, :)   !! shape (M, N)
+   recursive subroutine fill(height, missing, weight, periodic)
+      real(dp), intent(inout) :: height(:, :)   !! shape (M, N), of order 1
       logical, intent(in) :: missing(:, :)      !! shape (M, N); at least one is .false.
-      real(dp), intent(in) :: step(2)           !! between points along x and y, in any unit, > 0
+      real(dp), intent(in) :: weight(2)         !! of neighbours along x and y, up to 1
       logical, intent(in) :: periodic           !! whether the last points are neighbours of the first
 
-      type(hole_equations) :: equations
+      integer, allocatable :: place(:, :)       ! of each missing height, its indices along x and y, shape (2, n)
+      integer :: i, j, n
 
       if (.not. any(missing)) return
-      call start_from_coarser(height, missing, step, periodic)
-      call set_up(equations, height, missing, step, periodic)
-      call solve(equations, height)
-   end subroutine fill_by_neighbours
+      call start_from_coarser(height, missing, weight, periodic)
+      allocate (place(2, count(missing)))
+      n = 0
+      do j = 1, size(missing, 2)
+         do i = 1, size(missing, 1)
+            if (.not. missing(i, j)) cycle
+            n = n + 1
+            place(:, n) = [i, j]
+         end do
+      end do
+      call solve(place, weight, periodic, height)
+   end subroutine fill
 
    !> Sets the missing heights from the filled map of half the points each way (M4). A point of that map has the mean of
    !> those of two by two heights that are there, and is missing if none is.
-   recursive subroutine start_from_coarser(height, missing, step, periodic)
+   recursive subroutine start_from_coarser(height, missing, weight, periodic)
       real(dp), intent(inout) :: height(:, :)
       logical, intent(in) :: missing(:, :)
-      real(dp), intent(in) :: step(2)
+      real(dp), intent(in) :: weight(2)
       logical, intent(in) :: periodic
 
       real(dp), allocatable :: coarse(:, :)
@@ -89,7 +101,7 @@ contains
             end associate
          end do
       end do
-      call fill_by_neighbours(coarse, none, step, periodic)
+      call fill(coarse, none, weight, periodic)
       do j = 1, size(height, 2)
          do i = 1, size(height, 1)
             if (missing(i, j)) height(i, j) = coarse((i + 1)/2, (j + 1)/2)
@@ -97,130 +109,69 @@ contains
       end do
    end subroutine start_from_coarser
 
-   !> Sets up the equations of the missing heights, in the order of the points.
-   subroutine set_up(self, height, missing, step, periodic)
-      type(hole_equations), intent(out) :: self
-      real(dp), intent(in) :: height(:, :)
-      logical, intent(in) :: missing(:, :)
-      real(dp), intent(in) :: step(2)
+   !> Conjugate gradients, from the heights that are there, until the residual of (M3) is rounding.
+   subroutine solve(place, weight, periodic, height)
+      integer, intent(in) :: place(:, :)        !! of the missing heights
+      real(dp), intent(in) :: weight(2)
       logical, intent(in) :: periodic
-
-      integer, allocatable :: number(:, :)
-      integer :: at(2), i, j, n, side
-      logical :: has_datum
-
-      self%weight = (minval(step)/step)**2
-      n = count(missing)
-      allocate (number(size(missing, 1), size(missing, 2)), source=0)
-      allocate (self%place(2, n), self%neighbour(4, n), source=0)
-      allocate (self%diagonal(n), self%given(n), source=0.0_dp)
-      n = 0
-      do j = 1, size(missing, 2)
-         do i = 1, size(missing, 1)
-            if (.not. missing(i, j)) cycle
-            n = n + 1
-            number(i, j) = n
-            self%place(:, n) = [i, j]
-         end do
-      end do
-      has_datum = .false.
-      do n = 1, size(self%given)
-         do side = 1, 4
-            at = neighbour_of(self%place(:, n), side, shape(missing), periodic)
-            if (all(at == 0)) cycle
-            associate (weight => self%weight(1 + mod(side - 1, 2)))
-               self%diagonal(n) = self%diagonal(n) + weight
-               self%neighbour(side, n) = number(at(1), at(2))
-               if (self%neighbour(side, n) > 0) cycle
-               if (.not. has_datum) self%datum = height(at(1), at(2))
-               has_datum = .true.
-               self%given(n) = self%given(n) + weight*(height(at(1), at(2)) - self%datum)
-            end associate
-         end do
-      end do
-   end subroutine set_up
-
-   !> The indices of a neighbour; zeros if it lies beyond the border.
-   pure function neighbour_of(place, side, points, periodic) result(at)
-      integer, intent(in) :: place(2), side, points(2)
-      logical, intent(in) :: periodic
-      integer :: at(2)
-
-      integer, parameter :: way(2, 4) = reshape([1, 0, 0, 1, -1, 0, 0, -1], [2, 4])
-
-      at = place + way(:, side)
-      if (periodic) then
-         at = modulo(at - 1, points) + 1
-         ! The one row of a profile is no neighbour of itself.
-         if (all(at == place)) at = 0
-      else if (any(at < 1 .or. at > points)) then
-         at = 0
-      end if
-   end function neighbour_of
-
-   !> Conjugate gradients, from the heights that are there, until the residual of (M3) is rounding. Heights are relative
-   !> to one of those around the holes, so that rounding is that of their differences.
-   subroutine solve(self, height)
-      type(hole_equations), intent(in) :: self
       real(dp), intent(inout) :: height(:, :)   !! only the missing heights change
 
-      real(dp), allocatable :: direction(:), given(:), image(:), residual(:), value(:)
-      real(dp) :: goal, largest, last, slope, slope_before, step, unit
+      real(dp), parameter :: goal = 4*epsilon(goal)
+      real(dp), allocatable :: direction(:), field(:, :), image(:), residual(:), value(:)
+      real(dp) :: last, largest, square, square_before, step
       integer :: iteration, n
 
-      ! Products of tiny heights would vanish.
-      unit = maxval(abs(self%given))
-      allocate (given(size(self%given)), image(size(self%given)), source=0.0_dp)
-      allocate (value(0:size(given)), direction(0:size(given)), source=0.0_dp)   ! 0: a neighbour that is given
-      if (unit > 0.0_dp) then
-         given = self%given/unit
-         do n = 1, size(given)
-            value(n) = (height(self%place(1, n), self%place(2, n)) - self%datum)/unit
-         end do
-      end if
-      goal = 4*epsilon(goal)
+      n = size(place, 2)
+      allocate (direction(n), image(n), residual(n))
+      allocate (value(n), source=[(height(place(1, n), place(2, n)), n=1, size(place, 2))])
+      allocate (field(size(height, 1), size(height, 2)), source=0.0_dp)
       last = huge(last)
       do
-         call multiply(self, value, image)
-         residual = given - image
+         call apply(value, place, weight, periodic, height, image)
+         residual = -image
          largest = maxval(abs(residual))
          ! A residual that no longer falls is rounding.
-         if (largest <= goal .or. largest > 0.5_dp*last) exit
+         if (largest <= goal .or. largest > 0.5_dp*last) return
          last = largest
+         direction = 0.0_dp
+         square_before = 1.0_dp
          do iteration = 1, most_iterations
-            slope = sum(residual**2/self%diagonal)
-            if (iteration == 1) then
-               direction(1:) = residual/self%diagonal
-            else
-               direction(1:) = residual/self%diagonal + slope/slope_before*direction(1:)
-            end if
-            call multiply(self, direction, image)
-            step = slope/dot_product(direction(1:), image)
+            square = sum(residual**2)
+            direction = residual + square/square_before*direction
+            call apply(direction, place, weight, periodic, field, image)
+            step = square/dot_product(direction, image)
             value = value + step*direction
             residual = residual - step*image
-            slope_before = slope
+            square_before = square
             if (maxval(abs(residual)) <= 0.5_dp*goal) exit
          end do
       end do
-      do n = 1, size(given)
-         height(self%place(1, n), self%place(2, n)) = self%datum + unit*value(n)
-      end do
    end subroutine solve
 
-   !> The left-hand side of (M3) for the unknown heights; given heights count as 0.
-   subroutine multiply(self, value, image)
-      type(hole_equations), intent(in) :: self
-      real(dp), intent(in) :: value(0:)
+   !> Sets the missing points of a field, and computes the left-hand side of (M3) there.
+   subroutine apply(value, place, weight, periodic, field, image)
+      real(dp), intent(in) :: value(:)
+      integer, intent(in) :: place(:, :)
+      real(dp), intent(in) :: weight(2)
+      logical, intent(in) :: periodic
+      real(dp), intent(inout) :: field(:, :)
       real(dp), intent(out) :: image(:)
 
-      integer :: n
+      integer :: next_x(0:size(field, 1) + 1), next_y(0:size(field, 2) + 1)
+      integer :: k, n
 
-      do n = 1, size(image)
-         associate (to => self%neighbour(:, n))
-            image(n) = self%diagonal(n)*value(n) - (self%weight(1)*(value(to(1)) + value(to(3))) &
-                                                    + self%weight(2)*(value(to(2)) + value(to(4))))
+      ! Beyond a border is the other side or, without it, the last point itself, whose difference is zero.
+      next_x = [merge(size(field, 1), 1, periodic), (k, k=1, size(field, 1)), merge(1, size(field, 1), periodic)]
+      next_y = [merge(size(field, 2), 1, periodic), (k, k=1, size(field, 2)), merge(1, size(field, 2), periodic)]
+      do n = 1, size(value)
+         field(place(1, n), place(2, n)) = value(n)
+      end do
+      do n = 1, size(value)
+         associate (i => place(1, n), j => place(2, n), here => value(n))
+            image(n) = weight(1)*((here - field(next_x(i - 1), j)) + (here - field(next_x(i + 1), j))) &
+                     + weight(2)*((here - field(i, next_y(j - 1))) + (here - field(i, next_y(j + 1))))
          end associate
       end do
-   end subroutine multiply
+   end subroutine apply
 
 end module wavycon_fill_missing

@@ -5,6 +5,7 @@ module wavycon_gsf_map
    use wavycon_error, only: error_type
    use wavycon_file_head, only: entry_of, read_positive
    use wavycon_kinds, only: dp
+   use wavycon_map_size, only: laid_along_x
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: excerpt
    implicit none (type, external)
@@ -32,8 +33,11 @@ contains
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp) :: points(2), sides(2)
-      integer :: last
+      character(*), parameter :: keys(*) = [character(5) :: 'XRes', 'YRes', 'XReal', 'YReal']
+      character(:), allocatable :: entry, words
+      real(dp) :: numbers(size(keys))   ! 0 if they are not there
+      integer :: i, last, points(2)
+      logical :: is_number
 
       if (.not. is_gsf(file%head)) then
          call file%refuse("this is no .gsf file: it does not begin with '"//magic//"0'", error)
@@ -44,48 +48,34 @@ contains
          call file%refuse('the head of this .gsf file has no end, which is a null character', error)
          return
       end if
-      associate (words => file%head(:last))
-         call read_number(file, words, 'XRes', points(1), error)
-         if (.not. allocated(error)) call read_number(file, words, 'YRes', points(2), error)
-         if (allocated(error)) return
-         if (any(points <= 0.0_dp) .or. any(points > huge(0)) .or. any(abs(points - anint(points)) > 0.0_dp)) then
-            call file%refuse('the head of this .gsf file must give XRes and YRes, the numbers of points', error)
-            return
-         end if
-         call read_number(file, words, 'XReal', sides(1), error)
-         if (.not. allocated(error)) call read_number(file, words, 'YReal', sides(2), error)
-         if (allocated(error)) return
-         call map%set_units(entry_of(words, 'XYUnits', '='), entry_of(words, 'ZUnits', '='))
-      end associate
-      if (nint(points(1)) == 1) then
-         points = points(2:1:-1)
-         sides = sides(2:1:-1)
+      words = file%head(:last)
+      numbers = 0.0_dp
+      do i = 1, size(keys)
+         entry = entry_of(words, trim(keys(i)), '=')
+         if (entry == '') cycle
+         call read_positive(entry, numbers(i), is_number)
+         if (is_number) cycle
+         call file%refuse('in the head of this .gsf file '//trim(keys(i))//" = '"//excerpt(entry)// &
+                          "' is no positive number", error)
+         return
+      end do
+      if (any(numbers(:2) < 1) .or. any(numbers(:2) > huge(0)) .or. any(abs(numbers(:2) - anint(numbers(:2))) > 0)) then
+         call file%refuse('the head of this .gsf file must give XRes and YRes, the numbers of points', error)
+         return
       end if
+      call map%set_units(entry_of(words, 'XYUnits', '='), entry_of(words, 'ZUnits', '='))
+      points = nint(numbers(:2))
       ! The format's default of a side is 1.
-      map%is_usual_side = sides <= 0.0_dp
-      map%step = merge(1.0_dp, sides, map%is_usual_side)/points
+      map%is_usual_side = numbers(3:) <= 0.0_dp
+      map%step = merge(1.0_dp, numbers(3:), map%is_usual_side)/points
+      if (points(1) == 1) then
+         map%is_usual_side = map%is_usual_side(2:1:-1)
+         map%step = map%step(2:1:-1)
+      end if
       file%number_bytes = 4
       file%big_end_first = .false.
-      call file%read_heights(int(last + alignment - modulo(last, alignment), int64), nint(points), .false., map, error)
+      call file%read_heights(int(last + alignment - modulo(last, alignment), int64), laid_along_x(points), .false., &
+                             map, error)
    end subroutine read_gsf_map
-
-   !> Reads a number of the head; 0 if it is not there. Errors: exit_bad_input for a word that is no number, and for a
-   !> number that is negative or out of the range of lengths.
-   subroutine read_number(file, words, key, number, error)
-      class(binary_file), intent(in) :: file
-      character(*), intent(in) :: words, key
-      real(dp), intent(out) :: number
-      type(error_type), allocatable, intent(out) :: error
-
-      character(:), allocatable :: entry
-      logical :: is_number
-
-      number = 0.0_dp
-      entry = entry_of(words, key, '=')
-      if (entry == '') return
-      call read_positive(entry, number, is_number)
-      if (.not. is_number) call file%refuse("in the head of this .gsf file "//key//" = '"//excerpt(entry)// &
-                                            "' is no positive number", error)
-   end subroutine read_number
 
 end module wavycon_gsf_map

@@ -1,7 +1,8 @@
 !> Reads height maps from files, in any of six formats.
 module wavycon_map_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use, intrinsic :: iso_fortran_env, only: int64
+   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
+      ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_head, only: entry_of, take_text_head
@@ -9,13 +10,12 @@ module wavycon_map_file
    use wavycon_grid_slab, only: grid_slab
    use wavycon_gsf_map, only: is_gsf, read_gsf_map
    use wavycon_kinds, only: dp, sp
-   use wavycon_map_size, only: check_room
-   use wavycon_matrix_map, only: take_matrix
+   use wavycon_map_size, only: check_map_size, check_room, laid_along_x
    use wavycon_measured_map, only: measured_map
    use wavycon_npy_map, only: is_npy, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, integer_text, lower_case, newline
-   use wavycon_point_map, only: are_points, take_points
+   use wavycon_point_map, only: take_points
    use wavycon_profile_map, only: resample_profile, take_profile
    use wavycon_ranks, only: share_error
    use wavycon_system, only: path_device, path_kind
@@ -44,8 +44,11 @@ contains
 
       type(binary_file) :: file
       type(grid_slab) :: slab
-      integer(int64) :: missing(2)
+      type(ieee_status_type) :: floating_point
 
+      ! 1e999 must be reported as bad input in builds that trap overflow too.
+      call ieee_get_status(floating_point)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
       ! A pipe may block, a device may never end, and a run of the resolved deck could not read either again.
       if (path_kind(path) == path_device) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
@@ -69,18 +72,13 @@ contains
          end select
       end if
       call file%close()
+      call ieee_set_status(floating_point)
       if (.not. allocated(error)) call mark_missing(map, missing_value)
       if (allocated(map%x) .and. .not. allocated(error)) call resample_profile(path, map, error)
       call share_error(error)
       if (allocated(error)) return
       slab = map%columns()
-      missing = [merge(1, 0, map%has_missing_value), 0]
-      if (allocated(map%missing)) missing(2) = count(map%missing, kind=int64)
-      call slab%add(missing)
-      map%has_missing_value = missing(1) > 0
-      if (missing(2) < product(int(slab%points, int64))) return
-      call fatal_error(error, exit_bad_input, escaped(path)//': all heights are missing: some must be numbers')
-      if (present(missing_value)) error%message = error%message//' other than missing_value'
+      map%has_missing_value = slab%any(map%has_missing_value)
    end subroutine read_height_map
 
    !> The format of a file by its content or, if that does not tell, by its name: a text is 'auto'.
@@ -124,29 +122,27 @@ contains
          return
       end if
       map%head_lines = table%words
-      if (table%next_head > 0) then
-         call fatal_error(error, exit_bad_input, escaped(file%path)//':'//integer_text(table%next_head)// &
-                          ': another map begins here: write each map to a file of its own')
-         return
-      end if
-      if (map%format == 'auto') then
-         map%format = 'matrix'
-         ! A text of Gwyddion with the sides of a map has rows of heights, however many.
-         if (entry_of(newline//file%head, 'Width', ':') == '') then
-            if (are_points(table, 3)) map%format = 'xyz'
-            if (are_points(table, 2)) map%format = 'xz'
+      associate (columns => size(table%values, 1), rows => size(table%values, 2))
+         if (map%format == 'auto') then
+            map%format = 'matrix'
+            ! A text of Gwyddion with the sides of a map has rows of heights, however many.
+            if (rows > 3 .and. entry_of(newline//file%head, 'Width', ':') == '') then
+               if (columns == 3) map%format = 'xyz'
+               if (columns == 2) map%format = 'xz'
+            end if
          end if
-      end if
-      call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
-      if (allocated(error)) return
-      select case (map%format)
-      case ('xyz')
-         call take_points(table, map, error)
-      case ('xz')
-         call take_profile(table, map, error)
-      case default
-         call take_matrix(table, map, error)
-      end select
+         call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
+         if (allocated(error)) return
+         select case (map%format)
+         case ('xyz')
+            call take_points(table, map, error)
+         case ('xz')
+            call take_profile(table, map, error)
+         case default
+            call check_map_size(table%path, laid_along_x([columns, rows]), error)
+            call move_alloc(table%values, map%height)
+         end select
+      end associate
       if (.not. allocated(error)) call take_text_head(file, map, error)
       if (allocated(error)) return
       if (size(map%height, 1) > 1) return

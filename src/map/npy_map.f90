@@ -70,7 +70,7 @@ contains
       ! The last index of the array is the one along x.
       points = laid_along_x([sides(2), sides(1)])
       if (number == 1) points = [sides(1), 1]
-      call file%read_heights(int(last, int64), points, number == 2 .and. order == 'True', map, error)
+      call file%read_heights(int(last, int64), points, points(2) > 1 .and. order == 'True', map, error)
    end subroutine read_npy_map
 
    !> The place of the words of a head: a Python dictionary. last < first if there are none.
@@ -103,57 +103,45 @@ contains
       character(*), intent(in) :: key
       character(:), allocatable :: entry
 
-      integer :: depth, first, last
+      integer :: i, first
 
-      entry = ''
-      first = index(words, "'"//key//"'")
-      if (first == 0) first = index(words, '"'//key//'"')
-      if (first == 0) return
-      first = first + len(key) + 2
-      first = first + verify(words(first:), ' ') - 1
-      if (words(first:first) /= ':') return
-      first = first + 1
-      depth = 0
-      do last = first, len(words)
-         select case (words(last:last))
-         case ('(', '[')
-            depth = depth + 1
-         case (')', ']')
-            depth = depth - 1
-         case (',', '}')
-            if (depth <= 0) exit
-         end select
+      entry = words
+      do i = 1, len(entry)
+         ! Python knows both quotes, and Python 2 writes an L behind some numbers.
+         if (entry(i:i) == '"') entry(i:i) = "'"
+         if (entry(i:i) == 'L') entry(i:i) = ' '
       end do
-      entry = trim(adjustl(words(first:last - 1)))
-      ! Python knows both quotes.
-      if (len(entry) == 5 .and. index(entry, '"') == 1) entry = "'"//entry(2:4)//"'"
+      first = index(entry, "'"//key//"'")
+      entry = adjustl(entry(first + len(key) + 2:))
+      if (first == 0 .or. index(entry, ':') /= 1) entry = ' '
+      entry = adjustl(entry(2:))
+      select case (entry(1:min(1, len(entry))))
+      case ('(')
+         entry = entry(:index(entry, ')'))
+      case ('[')
+         entry = entry(:index(entry, ']'))
+      case default
+         entry = trim(entry(:scan(entry//',', ',}') - 1))
+      end select
    end function entry_of
 
    !> The numbers of a Python tuple of whole numbers, such as (3, 4).
    pure subroutine read_shape(words, sides, number)
       character(*), intent(in) :: words
-      integer, intent(out) :: sides(3)   !! the first three; a number of more than nine digits is huge(0)
-      integer, intent(out) :: number     !! of the sides, at most 3; -1 if this is no tuple
+      integer, intent(out) :: sides(3)   !! the first three
+      integer, intent(out) :: number     !! of the sides, at most 3; 0 if this is no such tuple
 
-      integer :: digits, place, status
+      character(:), allocatable :: inner
+      integer :: status
 
-      number = -1
-      sides = 0
-      if (len(words) < 2) return
-      if (words(1:1) /= '(' .or. words(len(words):) /= ')') return
-      if (verify(words(2:len(words) - 1), '0123456789, L') > 0) return
       number = 0
-      place = 2
-      do while (number < size(sides))
-         digits = scan(words(place:), '0123456789')
-         if (digits == 0) exit
-         place = place + digits - 1
-         digits = verify(words(place:), '0123456789') - 1
-         number = number + 1
-         sides(number) = huge(0)
-         if (digits <= 9) read (words(place:place + digits - 1), *, iostat=status) sides(number)
-         place = place + digits
-      end do
+      sides = -1
+      if (len(words) < 2) return
+      if (words(1:1) /= '(' .or. verify(words(2:len(words) - 1), '0123456789, ') > 0) return
+      ! The slash ends the reading.
+      inner = words(2:len(words) - 1)//' /'
+      read (inner, *, iostat=status) sides
+      if (status == 0) number = count(sides >= 0)
    end subroutine read_shape
 
 end module wavycon_npy_map

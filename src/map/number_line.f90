@@ -17,12 +17,11 @@ module wavycon_number_line
 
 contains
 
-   !> Adds the numbers of a line to those of the lines before it. Callers must switch off traps of overflow.
+   !> Reads the numbers of a line. Callers must switch off traps of overflow.
    subroutine read_line(line, values, used, ends_open, trouble)
       character(*), intent(in) :: line         !! without comment and line end
-      !> With room for the numbers; a missing one is NaN. Of no size: the numbers are only counted, not checked.
-      real(dp), intent(inout) :: values(:)
-      integer, intent(inout) :: used           !! number of values so far
+      real(dp), intent(inout) :: values(:)     !! more than the line has bytes; a missing number is NaN
+      integer, intent(out) :: used             !! number of values
       logical, intent(out) :: ends_open        !! whether the line ends in a separator: a last number may be missing
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
@@ -31,13 +30,14 @@ contains
       logical :: are_tabs, is_loose
 
       ends_open = .false.
+      used = 0
       behind = 1
       tight = 0
       is_loose = .false.
       do
          call next_word(line, behind, first, last, commas, separators, are_tabs)
          if (first > len(line)) exit
-         holes = separators - 1
+         holes = max(0, separators - 1)
          if (behind == 1) then
             holes = separators
             ! A line with blanks between its numbers may be indented by tabs.
@@ -54,8 +54,9 @@ contains
                return
             end if
          end if
-         call add_holes(holes, values, used)
-         call read_number(line(first:last), values, used, trouble)
+         values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
+         used = used + holes + 1
+         call read_number(line(first:last), values(used), trouble)
          if (allocated(trouble)) return
          behind = last + 1
       end do
@@ -66,19 +67,10 @@ contains
          return
       end if
       ends_open = separators > 0
-      call add_holes(separators - 1, values, used)
-   end subroutine read_line
-
-   !> Adds missing numbers.
-   subroutine add_holes(holes, values, used)
-      integer, intent(in) :: holes   !! none if it is not positive
-      real(dp), intent(inout) :: values(:)
-      integer, intent(inout) :: used
-
-      if (holes <= 0) return
-      if (size(values) > 0) values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
+      holes = max(0, separators - 1)
+      values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
       used = used + holes
-   end subroutine add_holes
+   end subroutine read_line
 
    !> The next word from a place on, and what stands before it; first > len(line) if there is none.
    pure subroutine next_word(line, place, first, last, commas, separators, are_tabs)
@@ -132,19 +124,16 @@ contains
       if (is_before_tab) is_before_tab = line(place + i - 1:place + i - 1) == tab
    end function is_before_tab
 
-   !> Reads a word as a number and adds it to the values.
-   subroutine read_number(word, values, used, trouble)
+   !> Reads a word as a number.
+   subroutine read_number(word, value, trouble)
       character(*), intent(in) :: word
-      real(dp), intent(inout) :: values(:)
-      integer, intent(inout) :: used
+      real(dp), intent(out) :: value
       character(:), allocatable, intent(out) :: trouble
 
       logical :: is_number
 
-      used = used + 1
-      if (size(values) == 0) return
-      call read_decimal(word, values(used), is_number)
-      if (is_number .and. abs(values(used)) <= largest_number) return
+      call read_decimal(word, value, is_number)
+      if (is_number .and. abs(value) <= largest_number) return
       if (is_number) then
          trouble = "'"//excerpt(word)//"' is too large: numbers may be up to "//short_number(largest_number)// &
                    ' in size; a number that stands for a missing height must be nan'
@@ -153,7 +142,7 @@ contains
       select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
       case ('nan', '-')
          if (word /= '+-') then
-            values(used) = ieee_value(0.0_dp, ieee_quiet_nan)
+            value = ieee_value(0.0_dp, ieee_quiet_nan)
             return
          end if
       case ('inf', 'infinity')

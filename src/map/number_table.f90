@@ -1,10 +1,9 @@
-!> Reads a file of lines of numbers.
+!> Reads a file of lines of numbers, as many on each.
 !>
 !> Comments, from '#' to the end of the line, and lines without numbers are ignored, and so is a head: lines before the
 !> first number that begin with a word. Lines end in LF, CR LF or CR.
 module wavycon_number_table
-   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
-      ieee_set_status, ieee_status_type
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_kinds, only: dp
@@ -17,36 +16,16 @@ module wavycon_number_table
 
    type :: number_table
       character(:), allocatable :: path         !! as the user named the file
-      real(dp), allocatable :: values(:)        !! a missing number is NaN
-      integer, allocatable :: first(:)          !! index of the first value of each row; one more: size(values) + 1
+      real(dp), allocatable :: values(:, :)     !! of each row, a line with numbers; a missing number is NaN
       integer, allocatable :: line(:)           !! line of the file of each row
-      logical, allocatable :: ends_open(:)      !! whether the row ends in a separator: a last number may be missing
       integer :: words = 0                      !! lines of the head that begin with a word
-      integer :: next_head = 0                  !! line behind the first row with the head of another map; 0: none
    contains
-      procedure :: rows
-      procedure :: length
       procedure :: refuse
    end type number_table
 
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
 
 contains
-
-   !> The number of rows: lines that have numbers.
-   pure integer function rows(self)
-      class(number_table), intent(in) :: self
-
-      rows = size(self%line)
-   end function rows
-
-   !> The number of values of a row.
-   pure integer function length(self, row)
-      class(number_table), intent(in) :: self
-      integer, intent(in) :: row
-
-      length = self%first(row + 1) - self%first(row)
-   end function length
 
    !> Makes an error with the name of the file and the line of a row, and the status exit_bad_input.
    pure subroutine refuse(self, row, words, error)
@@ -58,84 +37,111 @@ contains
       call fatal_error(error, exit_bad_input, escaped(self%path)//':'//integer_text(self%line(row))//': '//words)
    end subroutine refuse
 
-   !> Reads a file. Errors: exit_file_trouble if it cannot be read; exit_bad_input for a word that is not a number, a
-   !> number above largest_number, a possible decimal comma, a line of separators, and a file without numbers.
+   !> Reads a file. Callers must switch off traps of overflow. Errors: exit_file_trouble if it cannot be read;
+   !> exit_bad_input for a word that is not a number, a number above largest_number, a possible decimal comma, a line of
+   !> separators, rows of unequal length, a file of more than one map, and one without numbers.
    subroutine read_number_table(path, most_bytes, table, error)
       character(*), intent(in) :: path
       integer, intent(in) :: most_bytes   !! a larger file is not read
       type(number_table), intent(out) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: content
-      type(ieee_status_type) :: floating_point
-      integer :: numbers, rows, status
+      character(:), allocatable :: content, trouble
+      real(dp), allocatable :: row(:)
+      integer :: behind, columns, first, last, line, rows, status, used
+      logical :: ends_open, may_grow   ! whether all rows so far end open: a last number may be missing in all of them
 
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
       table%path = path
       call write_decimal_points(content)
-      ! The first pass counts, the second keeps.
-      allocate (table%values(0), table%first(0), table%line(0), table%ends_open(0))
-      call take_numbers(content, table, numbers, rows, error)
-      deallocate (table%values, table%first, table%line, table%ends_open)
-      allocate (table%values(numbers), table%first(rows + 1), table%line(rows), table%ends_open(rows), stat=status)
-      if (status /= 0) then
-         call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for its numbers')
-         return
-      end if
-      ! 1e999 must be reported as bad input in builds that trap overflow too.
-      call ieee_get_status(floating_point)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
-      call take_numbers(content, table, numbers, rows, error)
-      call ieee_set_status(floating_point)
-   end subroutine read_number_table
-
-   !> Takes the numbers of all lines, or counts them if the table has no room, up to the first line that is wrong.
-   !> Errors: exit_bad_input.
-   subroutine take_numbers(content, table, used, rows, error)
-      character(*), intent(in) :: content
-      type(number_table), intent(inout) :: table   !! with room for all numbers and rows, or for none
-      integer, intent(out) :: used, rows           !! how many numbers and rows there are
-      type(error_type), allocatable, intent(out) :: error
-
-      character(:), allocatable :: trouble
-      integer :: behind, first, last, line, used_before
-      logical :: ends_open
-
+      allocate (row(0), table%values(0, 0), table%line(0))
       rows = 0
-      used = 0
       line = 0
-      table%words = 0
+      columns = 0
+      status = 0
+      may_grow = .true.
       behind = 1
       if (index(content(:min(len(content), len(byte_order_mark))), byte_order_mark) == 1) &
          behind = len(byte_order_mark) + 1
       do while (behind <= len(content))
          line = line + 1
          call next_line(content, behind, first, last)
-         used_before = used
-         if (used == 0 .and. is_remark(content(first:last))) then
-            table%words = table%words + 1
-            cycle
-         end if
-         if (used > 0 .and. index(content(last + 1:behind - 1), '# Width:') == 1) table%next_head = line
-         call read_line(content(first:last), table%values, used, ends_open, trouble)
-         if (allocated(trouble)) then
-            call fatal_error(error, exit_bad_input, escaped(table%path)//':'//integer_text(line)//': '//trouble)
+         if (rows == 0) then
+            if (is_remark(content(first:last))) then
+               table%words = table%words + 1
+               cycle
+            end if
+         else if (index(content(last + 1:behind - 1), '# Width:') == 1) then
+            call trouble_in_line('another map begins here: write each map to a file of its own')
             return
          end if
-         if (used == used_before) cycle
+         if (size(row) < last - first + 2) then
+            deallocate (row)
+            allocate (row(last - first + 2), stat=status)
+            if (status /= 0) exit
+         end if
+         call read_line(content(first:last), row, used, ends_open, trouble)
+         if (allocated(trouble)) then
+            call trouble_in_line(trouble)
+            return
+         end if
+         if (used == 0) cycle
+         if (rows == 0 .or. (used == columns + 1 .and. may_grow)) columns = used
+         may_grow = may_grow .and. ends_open
+         if (used /= columns .and. .not. (used == columns - 1 .and. ends_open)) then
+            call trouble_in_line('this row has '//integer_text(used)//' numbers, the first has '// &
+                                 integer_text(columns)//': all must have the same number (write nan for one that '// &
+                                 'is missing)')
+            return
+         end if
+         if (rows == size(table%line) .or. columns > size(table%values, 1)) then
+            call resize(table, columns, max(64, 2*rows), status)
+            if (status /= 0) exit
+         end if
          rows = rows + 1
-         if (size(table%line) == 0) cycle
          table%line(rows) = line
-         table%first(rows) = used_before + 1
-         table%ends_open(rows) = ends_open
+         table%values(:used, rows) = row(:used)
+         table%values(used + 1:, rows) = ieee_value(0.0_dp, ieee_quiet_nan)
       end do
-      if (used == 0) then
-         call fatal_error(error, exit_bad_input, escaped(table%path)//': there are no numbers in this file')
-         return
+      if (status == 0) call resize(table, columns, rows, status)
+      if (status /= 0) then
+         call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for its numbers')
+      else if (rows == 0) then
+         call fatal_error(error, exit_bad_input, escaped(path)//': there are no numbers in this file')
       end if
-      if (size(table%line) > 0) table%first(rows + 1) = used + 1
-   end subroutine take_numbers
+
+   contains
+
+      subroutine trouble_in_line(words)
+         character(*), intent(in) :: words
+
+         call fatal_error(error, exit_bad_input, escaped(path)//':'//integer_text(line)//': '//words)
+      end subroutine trouble_in_line
+
+   end subroutine read_number_table
+
+   !> Gives a table room for other numbers of rows and columns; new places are missing numbers.
+   pure subroutine resize(table, columns, rows, status)
+      type(number_table), intent(inout) :: table
+      integer, intent(in) :: columns, rows
+      integer, intent(out) :: status   !! not 0 without memory: the table is as before
+
+      real(dp), allocatable :: values(:, :)
+      integer, allocatable :: line(:)
+      integer :: common, j
+
+      allocate (values(columns, rows), line(rows), stat=status)
+      if (status /= 0) return
+      common = min(columns, size(table%values, 1))
+      do j = 1, min(rows, size(table%line))
+         line(j) = table%line(j)
+         values(:common, j) = table%values(:common, j)
+         values(common + 1:, j) = ieee_value(0.0_dp, ieee_quiet_nan)
+      end do
+      call move_alloc(values, table%values)
+      call move_alloc(line, table%line)
+   end subroutine resize
 
    !> Whether a line begins with a word that is no number, and not `nan` or `inf` or their like.
    pure logical function is_remark(line)

@@ -12,10 +12,10 @@ module wavycon_point_map
    implicit none (type, external)
    private
 
-   public :: are_points, find_step, has_numbers, take_points
+   public :: take_points
 
    !> Largest deviation of a point from the grid, in steps: coordinates in files are often rounded.
-   real(dp), parameter :: tolerance = 0.01_dp
+   real(dp), parameter, public :: tolerance = 0.01_dp
 
    !> Equidistant coordinates.
    type :: axis_type
@@ -25,29 +25,6 @@ module wavycon_point_map
    end type axis_type
 
 contains
-
-   !> Whether all lines have so many numbers, coordinates and a height, and there are more than three lines.
-   pure logical function are_points(table, numbers)
-      type(number_table), intent(in) :: table
-      integer, intent(in) :: numbers
-
-      integer :: k
-
-      are_points = table%rows() > 3
-      if (are_points) are_points = any([(table%length(k) == numbers, k=1, table%rows())])
-      do k = 1, table%rows()
-         if (.not. are_points) return
-         are_points = has_numbers(table, k, numbers)
-      end do
-   end function are_points
-
-   !> Whether a line has so many numbers; the last, the height, may be missing behind a separator.
-   elemental logical function has_numbers(table, k, numbers)
-      type(number_table), intent(in) :: table
-      integer, intent(in) :: k, numbers
-
-      has_numbers = table%length(k) == numbers .or. (table%length(k) == numbers - 1 .and. table%ends_open(k))
-   end function has_numbers
 
    !> Makes a map from points in any order; heights of points without a line are NaN. x and y of the map rise. Errors:
    !> exit_bad_input if the points do not form a regular grid.
@@ -59,78 +36,60 @@ contains
       !> So few points are more likely points without a grid.
       integer, parameter :: least_percentage = 10
       type(axis_type) :: axis(2)
+      character(:), allocatable :: grid_words
       logical, allocatable :: is_there(:, :)
-      real(dp), allocatable :: coordinate(:)
-      integer :: i, j, k, points(2)
+      integer :: k, place(2), points(2)
 
-      do k = 1, table%rows()
-         if (.not. has_numbers(table, k, 3)) then
-            call table%refuse(k, 'this line has '//integer_text(table%length(k))// &
-                              " numbers: file_format = 'xyz' needs x, y and z", error)
-            return
-         else if (any(ieee_is_nan(table%values(table%first(k):table%first(k) + 1)))) then
-            call table%refuse(k, 'x and y must be numbers; a missing height is nan, or its line is left out', error)
-            return
-         end if
-      end do
-      if (table%rows() < 2) then
-         call table%refuse(1, 'one point is no map', error)
+      if (size(table%values, 1) /= 3) then
+         call table%refuse(1, 'this line has '//integer_text(size(table%values, 1))// &
+                           " numbers: file_format = 'xyz' needs x, y and z", error)
          return
       end if
-      do i = 1, 2
-         coordinate = table%values(table%first(:table%rows()) + i - 1)
-         axis(i) = axis_of(coordinate)
-      end do
+      k = findloc(any(ieee_is_nan(table%values(:2, :)), dim=1), .true., dim=1)
+      if (k > 0) then
+         call table%refuse(k, 'x and y must be numbers; a missing height is nan, or its line is left out', error)
+         return
+      end if
+      axis = [axis_of(table%values(1, :)), axis_of(table%values(2, :))]
       points = axis%number
-      call check_grid()
-      if (.not. allocated(error)) call check_map_size(table%path, laid_along_x(points), error)
-      if (.not. allocated(error)) call check_room(table%path, points, error)
+      grid_words = integer_text(points(1))//' x '//integer_text(points(2))//' points'
+      call check_map_size(table%path, laid_along_x(points), error)
       if (allocated(error)) return
-      if (int(least_percentage, int64)*product(int(points, int64)) > 100*int(table%rows(), int64)) then
-         call fatal_error(error, exit_bad_input, escaped(table%path)//': the grid of these points has '// &
-                          grid_words()//' and only '//integer_text(table%rows())//' of them are there: interpolate '// &
-                          'the heights to a regular grid')
+      if (int(least_percentage, int64)*product(int(points, int64)) > 100*int(size(table%line), int64)) then
+         call fatal_error(error, exit_bad_input, escaped(table%path)//': the grid of these points has '//grid_words// &
+                          ' and only '//integer_text(size(table%line))//' of them are there: interpolate the '// &
+                          'heights to a regular grid')
          return
       end if
+      call check_room(table%path, points, error)
+      if (allocated(error)) return
       allocate (map%height(points(1), points(2)), source=ieee_value(0.0_dp, ieee_quiet_nan))
       allocate (is_there(points(1), points(2)), source=.false.)
-      do k = 1, table%rows()
-         associate (point => table%values(table%first(k):table%first(k + 1) - 1))
-            i = index_on(axis(1), point(1))
-            j = index_on(axis(2), point(2))
-            if (is_there(i, j)) then
-               call table%refuse(k, 'x = '//short_number(point(1))//', y = '//short_number(point(2))// &
-                                 ' is a point of a line before', error)
+      do k = 1, size(table%line)
+         associate (point => table%values(:, k))
+            place = index_on(axis, point(:2))
+            if (.not. all(is_on(axis, point(:2)))) then
+               call refuse(' is out of step: the points must form a regular grid, of '//grid_words// &
+                           ' as it seems. Interpolate the heights to one')
+               return
+            else if (is_there(place(1), place(2))) then
+               call refuse(' is a point of a line before')
                return
             end if
-            is_there(i, j) = .true.
-            if (size(point) == 3) map%height(i, j) = point(3)
+            is_there(place(1), place(2)) = .true.
+            map%height(place(1), place(2)) = point(3)
          end associate
       end do
       map%step = axis%step
 
    contains
 
-      !> Checks that all points lie on the grid.
-      subroutine check_grid()
-         integer :: k
+      subroutine refuse(words)
+         character(*), intent(in) :: words
 
-         do k = 1, table%rows()
-            associate (x => table%values(table%first(k)), y => table%values(table%first(k) + 1))
-               if (is_on(axis(1), x) .and. is_on(axis(2), y)) cycle
-               call table%refuse(k, 'x = '//short_number(x)//', y = '//short_number(y)//' is out of step: the '// &
-                                 'points must form a regular grid, of '//grid_words()//' as it seems. Interpolate '// &
-                                 'the heights to one', error)
-               return
-            end associate
-         end do
-      end subroutine check_grid
-
-      function grid_words() result(words)
-         character(:), allocatable :: words
-
-         words = integer_text(points(1))//' x '//integer_text(points(2))//' points'
-      end function grid_words
+         call table%refuse(k, 'x = '//short_number(table%values(1, k))//', y = '//short_number(table%values(2, k))// &
+                           words, error)
+      end subroutine refuse
 
    end subroutine take_points
 
@@ -208,23 +167,5 @@ contains
 
       is_on = abs(coordinate - axis%first - (index_on(axis, coordinate) - 1)*axis%step) <= tolerance*axis%step
    end function is_on
-
-   !> The step between coordinates, and whether all steps are equal.
-   subroutine find_step(coordinate, step, is_regular)
-      real(dp), intent(in) :: coordinate(:)   !! at least two
-      real(dp), intent(out) :: step           !! their mean; may be negative
-      logical, intent(out) :: is_regular
-
-      integer :: i
-
-      step = 0.0_dp
-      is_regular = .not. any(ieee_is_nan(coordinate))
-      if (.not. is_regular) return
-      associate (n => size(coordinate))
-         step = (coordinate(n) - coordinate(1))/(n - 1)
-         is_regular = abs(step) > 0.0_dp .and. &
-                      all(abs(coordinate - coordinate(1) - step*[(i, i=0, n - 1)]) <= tolerance*abs(step))
-      end associate
-   end subroutine find_step
 
 end module wavycon_point_map

@@ -8,7 +8,7 @@ module wavycon_prepare_map
    use wavycon_kinds, only: dp
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map
-   use wavycon_plain_text, only: escaped, integer_text, percent, short_number
+   use wavycon_plain_text, only: escaped, integer_text, percent
    use wavycon_spikes, only: find_spikes
    use wavycon_window, only: taper_borders
    implicit none (type, external)
@@ -130,37 +130,28 @@ contains
    subroutine check_holes(source, preparation, map, error)
       character(*), intent(in) :: source
       type(map_preparation), intent(in) :: preparation
-      type(measured_map), intent(in) :: map
+      type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
       type(grid_slab) :: slab
-      integer(int64) :: holes(1)
-      real(dp) :: place(1), points
-      integer :: first(2), number
+      integer(int64) :: holes(1), points
+      integer :: first(2)
+      real(dp) :: unused
 
       slab = map%columns()
-      points = product(real(slab%points, dp))
+      points = product(int(slab%points, int64))
       holes = 0
-      place = -huge(place)
-      if (allocated(map%missing)) then
-         holes = count(map%missing, kind=int64)
-         first = findloc(map%missing, .true.)
-         ! Whole in a real number up to 2^53.
-         if (holes(1) > 0) place = -(real(slab%points(1), dp)*(slab%first + first(2) - 2) + first(1) - 1)
-      end if
+      if (allocated(map%missing)) holes = count(map%missing, kind=int64)
       call slab%add(holes)
-      call slab%largest(place)
       if (holes(1) == 0) return
-      number = int(min(holes(1), int(huge(number), int64)))
-      first(2) = int(-place(1)/slab%points(1))
-      first(1) = nint(-place(1) - real(slab%points(1), dp)*first(2))
-      first = first + 1
-      if (holes(1) == product(int(slab%points, int64))) then
+      if (holes(1) == points) then
          call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing: some must be numbers')
-      else if (number > 0 .and. preparation%fill_missing == 'none') then
-         call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(number)//' of '// &
-                          short_number(points)//' heights are missing ('// &
-                          percent(real(number, dp)/points)//'), the first is number '// &
+      else if (preparation%fill_missing == 'none') then
+         if (.not. allocated(map%missing)) allocate (map%missing(slab%points(1), slab%columns()), source=.false.)
+         call slab%find_largest(merge(1.0_dp, 0.0_dp, map%missing), unused, first)
+         call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes(1))//' of '// &
+                          integer_text(points)//' heights are missing ('// &
+                          percent(real(holes(1), dp)/points)//'), the first is number '// &
                           integer_text(first(1))//' along x and '//integer_text(first(2))//" along y: "// &
                           "fill_missing = 'harmonic' fills them")
       end if

@@ -1,16 +1,16 @@
 !> Makes profiles from lines of x and z.
 module wavycon_profile_map
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr, c_size_t
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_gsl, only: gsl_interp_alloc, gsl_interp_eval, gsl_interp_free, gsl_interp_init, gsl_interp_steffen, &
       return_gsl_errors
    use wavycon_kinds, only: dp
-   use wavycon_map_size, only: check_map_size, check_room
+   use wavycon_map_size, only: check_map_size
    use wavycon_measured_map, only: measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_point_map, only: find_step, has_numbers
+   use wavycon_point_map, only: tolerance
    implicit none (type, external)
    private
 
@@ -26,21 +26,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(dp), allocatable :: x(:)
-      integer :: k, n
-      logical :: is_regular
+      integer :: i, k, n
 
-      n = table%rows()
-      do k = 1, n
-         if (.not. has_numbers(table, k, 2)) then
-            call table%refuse(k, 'this line has '//integer_text(table%length(k))// &
-                              " numbers: file_format = 'xz' needs x and z", error)
-            return
-         end if
-      end do
+      n = size(table%line)
+      if (size(table%values, 1) /= 2) then
+         call table%refuse(1, 'this line has '//integer_text(size(table%values, 1))// &
+                           " numbers: file_format = 'xz' needs x and z", error)
+         return
+      end if
       call check_map_size(table%path, [n, 1], error)
-      if (.not. allocated(error)) call check_room(table%path, [n, 1], error)
       if (allocated(error)) return
-      x = table%values(table%first(:n))
+      x = table%values(1, :)
       k = findloc(ieee_is_nan(x), .true., dim=1)
       if (k > 0) then
          call table%refuse(k, 'x must be a number; a missing height is nan, or its line is left out', error)
@@ -52,16 +48,13 @@ contains
                            ': from line to line x must rise, or fall', error)
          return
       end do
-      allocate (map%height(n, 1), source=ieee_value(0.0_dp, ieee_quiet_nan))
-      do k = 1, n
-         if (table%length(k) == 2) map%height(k, 1) = table%values(table%first(k) + 1)
-      end do
+      map%height = reshape(table%values(2, :), [n, 1])
       if (x(n) < x(1)) then
          x = x(n:1:-1)
          map%height(:, 1) = map%height(n:1:-1, 1)
       end if
-      call find_step(x, map%step(1), is_regular)
-      if (.not. is_regular) call move_alloc(x, map%x)
+      map%step(1) = (x(n) - x(1))/(n - 1)
+      if (any(abs(x - x(1) - map%step(1)*[(i, i=0, n - 1)]) > tolerance*map%step(1))) call move_alloc(x, map%x)
    end subroutine take_profile
 
    !> Replaces the heights of a profile whose steps are not equal by those at as many points that are equally far apart,

@@ -99,7 +99,7 @@ contains
       self%name_now = results%scene%directory//'/.'//self%name(index(self%name, '/', back=.true.) + 1:)// &
                       '.'//integer_text(process_id())//'.part'
       call remove_others(results)
-      call remove_when_interrupted(self%name_now)
+      call remove_when_interrupted(self%name_now//c_null_char)
       open (newunit=self%unit, file=self%name_now, access='stream', form='unformatted', status='replace', &
             action='write', iostat=status)
       self%opened = status == 0

@@ -7,12 +7,10 @@ module wavycon_notes
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
-   use wavycon_method_list, only: method_of
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
-   use wavycon_solver_method, only: solver_method
    implicit none (type, external)
    private
 
@@ -110,9 +108,8 @@ contains
       type(run_log), intent(inout) :: log
       integer, intent(out) :: status
 
-      character(:), allocatable :: loads, words
-      type(solver_method) :: method
-      integer :: bad, i
+      character(:), allocatable :: loads
+      integer :: bad, i, without_area
 
       loads = integer_text(size(results%loads))
       associate (scene => results%scene, surface => results%solver%surface, all_measures => results%loads%measures)
@@ -137,14 +134,9 @@ contains
             if (surface%dimension == 1) call log%say('note: the approach of a profile with free edges is not '// &
                'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
          end if
-         associate (without_area => results%loads%status == converged .and. &
-                    all_measures%contact_area_fraction <= 0.0_dp)
-            if (any(without_area)) then
-               method = method_of(scene%method)
-               call method%why_no_area(scene%method, words)
-               call note(count(without_area), 'at ', ' loads '//words//', so that their contact area shows as 0')
-            end if
-         end associate
+         without_area = count(results%loads%status == converged .and. all_measures%contact_area_fraction <= 0.0_dp)
+         if (without_area > 0) call note(without_area, 'at ', ' loads no pressure reaches edge_level = '// &
+            short_number(scene%method%real('edge_level'))//' p*, so that their contact area shows as 0')
          if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
          call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
          bad = count([(.not. results%loads(i)%is_good(), i=1, size(results%loads))])

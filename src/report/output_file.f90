@@ -4,6 +4,7 @@
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
 module wavycon_output_file
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
@@ -71,7 +72,7 @@ contains
       if (present(head)) form = 'unformatted'
       self%name = directory//'/'//name
       self%working_name = directory//'/.'//name//'.'//integer_text(process_id())//'.part'
-      call remove_when_interrupted(self%working_name)
+      call remove_when_interrupted(self%working_name//c_null_char)
       ! As a stream, because close_file needs the number of bytes written.
       open (newunit=self%unit, file=self%working_name, access='stream', form=form, status='replace', &
             action='write', iostat=status, iomsg=message)

@@ -6,14 +6,14 @@ module wavycon_table
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_index, logical_value, text_value
    use wavycon_kinds, only: dp
-   use wavycon_method_list, only: solvers_with_coefficients, solvers_with_details
+   use wavycon_method_list, only: solvers_with
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: short_number
    use wavycon_results, only: results_type
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kinds, only: paper_waves
+   use wavycon_wave_kinds, only: paper_waves
    implicit none (type, external)
    private
 
@@ -132,16 +132,16 @@ contains
       select case (self%file)
       case ('coefficients')
          if (.not. traits%has_coefficients) words = "solver = '"//trim(solver_names(traits%solver))// &
-            "' has no series of given length; "//solvers_with_coefficients()//' has'
+            "' has no series of given length; "//solvers_with('coefficients')//' has'
       case ('details')
          if (.not. traits%has_details) words = "solver = '"//trim(solver_names(traits%solver))// &
-            "' does not compute them for every load; "//solvers_with_details()//' does'
+            "' does not compute them for every load; "//solvers_with('details')//' does'
       case ('spectrum')
          if (max(surface%amplitude, maxval(surface%length)) > largest_length) words = 'it has the fourth power of '// &
             'lengths, which may be up to '//short_number(largest_length)//'; choose another unit of length'
       case ('theory', 'theory_lines')
          if (surface%is_paper_wave()) return
-         words = 'closed forms exist only for the waves of the paper: '//paper_waves()
+         words = 'closed forms exist only for the waves of the paper: '//paper_waves
          if (self%file == 'theory_lines') return
          words = words//', and for a ball'
          if (surface%has_free_edges .and. all(surface%form(:surface%dimension) > 0.0_dp)) words = ''

@@ -26,9 +26,8 @@ behind it. Lines that start with '#' are remarks. The keywords are
    stdout:, stderr:    lines that must be there, one right after the other in this order; a line '...' stands for any
                        number of lines. All lines must be given.
    makes:              every file that exists after the run and did not before; a.{x,y} is a.x and a.y
-   refused:            in place of run, status and stderr: `wavycon` with all decks of the case in this order ends with
-                       status 1 and these messages, DECK:LINE:COLUMN: WORDS. Left out of them is what follows: their
-                       count ('error 1 of 2: ') and the line of the deck with a mark below the column.
+   refused:            in place of run, status and stderr: decks, each followed by the problems that are reported,
+                       LINE:COLUMN: WORDS or, without a place, -: WORDS. One run of `wavycon` reads all of them
    as a user other than root:
                        if root runs the tests this case runs as nobody, and is skipped, visibly, if nobody cannot
 
@@ -62,7 +61,6 @@ class Case:
         self.run = None
         self.status = 0
         self.unprivileged = False
-        self.decks = []
 
 
 def completed(deck):
@@ -73,18 +71,26 @@ def completed(deck):
     return deck
 
 
-def refusal(case, lines):
-    """What the program says of the decks of a case, from its messages without counts and lines of the deck."""
-    parts = [re.fullmatch(r"([^:]+):(?:(\d+):(\d+):)? (.*)", line) for line in lines]
-    if not all(parts):
-        raise LookupError
-    names, said = [part[1] for part in parts], []
-    for i, (deck, line, column, words) in enumerate(part.groups() for part in parts):
-        count = f"error {names[:i + 1].count(deck)} of {names.count(deck)}"
-        said.append(f"{deck}{f':{line}:{column}' if line else ''}: {count}: {words}")
-        if line:
-            text = case.files[deck].decode().splitlines()[int(line) - 1]
-            said += [f"   {line} | {text}", " "*(3 + len(line)) + " | " + " "*(int(column) - 1) + "^"]
+def refusals(case, lines):
+    """Takes decks that are refused; gives what the program says of them."""
+    decks, said = [], []
+    for line in lines:
+        problem = re.fullmatch(r"(?:(\d+):(\d+)|-): (.*)", line)
+        if problem:
+            decks[-1][1].append(problem.groups())
+        elif decks and not decks[-1][1]:
+            decks[-1][0].append(line)
+        else:
+            decks.append(([line], []))
+    for number, (deck, problems) in enumerate(decks, 1):
+        name = f"{number}.nml"
+        text = completed("".join(line + "\n" for line in deck))
+        case.files[name] = text.encode()
+        for i, (line, column, words) in enumerate(problems, 1):
+            said.append(f"{name}:{f'{line}:{column}:' if line else ''} error {i} of {len(problems)}: {words}")
+            if line:
+                said += [f"{line:>4} | {text.splitlines()[int(line) - 1]}", "     | " + " "*(int(column) - 1) + "^"]
+    case.run, case.status = shlex.join(["wavycon", *case.files]) + "\n", 1
     return said
 
 
@@ -108,8 +114,7 @@ def read_cases(path):
         if keyword.startswith("file "):
             case.files[keyword[5:]] = text.encode()
         elif keyword == "deck" or keyword.startswith("deck "):
-            case.decks.append(keyword[5:] or "deck.nml")
-            case.files[case.decks[-1]] = completed(text).encode()
+            case.files[keyword[5:] or "deck.nml"] = completed(text).encode()
         elif keyword.startswith("bytes "):
             case.files[keyword[6:]] = text[:-1].encode().decode("unicode_escape").encode("latin-1")
         elif keyword == "run":
@@ -119,11 +124,10 @@ def read_cases(path):
         elif keyword == "makes":
             case.expected[keyword] = [path for line in text.splitlines() for path in expanded(line)]
         elif keyword == "refused":
-            case.run, case.status = shlex.join(["wavycon", *case.decks]) + "\n", 1
             try:
-                case.expected["stderr"] = refusal(case, text.splitlines())
+                case.expected["stderr"] = refusals(case, text.splitlines())
             except LookupError:
-                raise SystemExit(f"{path}:{number}: expected in 'refused:' are lines DECK:LINE:COLUMN: WORDS") from None
+                raise SystemExit(f"{path}:{number}: expected in 'refused:' are decks and LINE:COLUMN: WORDS") from None
         else:
             raise SystemExit(f"{path}:{number}: no such keyword: {keyword}")
 

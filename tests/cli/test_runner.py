@@ -25,13 +25,13 @@ stderr:
    ...
 makes: outputs/deck/deck.{resolved.nml,summary.dat}
 case: decks that are refused
-deck: &method harmonics = 0, symmetry = 'half' /
-deck other.nml:
-   &surface kind = 'wave_2d', amplitude = -1 /
 refused:
-   deck.nml:1:21: harmonics must be an integer from 1 to 60, got '0'
-   deck.nml:1:35: symmetry must be 'full', 'diagonal' or 'none', got the text 'half'
-   other.nml:1:40: amplitude must be a number >= 0, got '-1'
+   &method harmonics = 0,
+      symmetry = 'half' /
+   1:21: harmonics must be an integer from 1 to 60, got '0'
+   2:15: symmetry must be 'full', 'diagonal' or 'none', got the text 'half'
+   &surface kind = 'wave_2d', amplitude = -1 /
+   1:40: amplitude must be a number >= 0, got '-1'
 """
 
 # Name of the test, lines of SOUND, their replacement, what the runner must print.
@@ -47,7 +47,7 @@ FAILURES = [
     ("the place of a refusal", "1:21", "1:20", "stderr is not as expected"),
     ("the words of a refusal", "from 1 to 60", "from 1 to 61", "stderr is not as expected"),
     ("a refusal too few", SOUND.splitlines(True)[-1], "", "stderr is not as expected"),
-    ("a refusal without a place", "deck.nml:1:21: ", "", "expected in 'refused:'"),
+    ("a refusal without a deck", "   &method harmonics = 0,\n      symmetry = 'half' /\n", "", "expected in 'refused:'"),
     ("a line that no deck has", "1:21", "9:21", "expected in 'refused:'"),
     ("a keyword misspelt", "stderr:\n", "sdterr:\n", "no such keyword: sdterr"),
     ("a line without a keyword", "status: 1\n", "status 1\n", "expected 'keyword:'"),

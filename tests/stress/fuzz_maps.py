@@ -541,7 +541,7 @@ def odd_files(program, work, failures):
     attempt("CR", good.replace("\n", "\r"), 0, "map       8 x 8 points")
     attempt("the deck itself", None, 1, "deck.nml: there are no numbers in this file", "deck.nml", lambda path: None)
     attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat: this is no text")
-    attempt("ragged", "1 2 3 4\n1 2 3 4\n1 2 3\n1 2 3 4\n", 1, "heights.dat:3: this row has 3 heights, the first has 4")
+    attempt("ragged", "1 2 3 4\n1 2 3 4\n1 2 3\n1 2 3 4\n", 1, "heights.dat:3: this row has 3 numbers, the first has 4")
     attempt("a decimal comma", "1,5 2,5\n"*4, 1, "heights.dat:1: is '1,5' a number with a decimal comma?")
     attempt("a hole", "1 2 3 4\n1 nan 3 4\n" + square, 1, "heights.dat: 1 of 24 heights are missing")
     attempt("too large", "1 2 3 4\n1 2 3 1e400\n" + square, 1, "heights.dat:2: '1e400' is too large")

@@ -1,157 +1,121 @@
-!> The assertions: expected value first, actual value second.
+!> The assertions: `@assertX(expected, actual, ..)` of a .pf file is `call funit_check('assertX', expected, actual, ..)`.
 !>
-!> Ranks are 0, 1 or 2; a scalar expected value is compared with every element, of which there must be one.
-!> Conditions of assertTrue and assertFalse are scalars or vectors.
-!> The arithmetic raises no floating-point exception, so that a failure is reported in builds that trap them.
+!> Ranks are 0, 1 or 2; a scalar expected value is compared with every element, of which there must be one. Integers and
+!> logical values are compared as real numbers, which hold them exactly. The arithmetic raises no floating-point
+!> exception, so that a failure is reported in builds that trap them.
 module funit_assert
-   use, intrinsic :: iso_fortran_env, only: dp => real64
+   use, intrinsic :: iso_fortran_env, only: dp => real64, int64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, ieee_value
    use funit_exception, only: SourceLocation, count_assertion, throw
    implicit none (type, external)
    private
 
-   public :: assertEqual, assertRelativelyEqual
-   public :: assertLessThan, assertLessThanOrEqual, assertGreaterThan, assertGreaterThanOrEqual
-   public :: assertTrue, assertFalse, assertIsFinite, assertIsNaN, assertFail
+   public :: funit_check, funit_fail
 
-   interface assertEqual
-      procedure :: equal_real, equal_integer, equal_logical, equal_string
-   end interface assertEqual
-
-   interface assertLessThan
-      procedure :: less_real, less_integer
-   end interface assertLessThan
-
-   interface assertLessThanOrEqual
-      procedure :: less_equal_real, less_equal_integer
-   end interface assertLessThanOrEqual
-
-   interface assertGreaterThan
-      procedure :: greater_real, greater_integer
-   end interface assertGreaterThan
-
-   interface assertGreaterThanOrEqual
-      procedure :: greater_equal_real, greater_equal_integer
-   end interface assertGreaterThanOrEqual
-
-   ! No array of rank 2, as in pFUnit.
-   interface assertTrue
-      procedure :: true_scalar, true_vector
-   end interface assertTrue
-
-   interface assertFalse
-      procedure :: false_scalar, false_vector
-   end interface assertFalse
+   interface funit_check
+      procedure :: check_reals, check_integers, check_logicals, check_strings, check_value
+   end interface funit_check
 
    character(*), parameter :: newline = new_line('a')
    character(*), parameter :: indent = newline//'      '
 
+   !> How numbers are written.
+   character(*), parameter :: as_real = '(es24.16e3)', as_integer = '(i0)', as_logical = '(l1)'
+
+   !> Numbers of one operand, in array element order.
+   type :: operand
+      real(dp), allocatable :: numbers(:)
+      integer, allocatable :: shape(:)
+   end type operand
+
 contains
 
-   ! ---- what a .pf file calls; `location` comes from the preprocessor ----
-
-   !> actual = expected, or |actual - expected| <= tolerance (by default 0).
-   subroutine equal_real(expected, actual, tolerance, message, location)
+   subroutine check_reals(assertion, expected, actual, tolerance, message, location)
+      character(*), intent(in) :: assertion   !! the name of the directive
       real(dp), intent(in) :: expected(..), actual(..)
       real(dp), intent(in), optional :: tolerance
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call check_reals('assertEqual', '==', expected, actual, message, location, tolerance)
-   end subroutine equal_real
+      call compare(assertion, as_real, of_reals(expected), of_reals(actual), tolerance, message, location)
 
-   !> |actual - expected| <= tolerance |expected|, with expected /= 0, actual finite and 0 <= tolerance < 1.
-   subroutine assertRelativelyEqual(expected, actual, tolerance, message, location)
-      real(dp), intent(in) :: expected(..), actual(..)
-      real(dp), intent(in) :: tolerance
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
+   contains
 
-      call check_reals('assertRelativelyEqual', '~', expected, actual, message, location, tolerance)
-   end subroutine assertRelativelyEqual
+      function of_reals(x) result(one)
+         real(dp), intent(in) :: x(..)
+         type(operand) :: one
 
-   subroutine less_real(expected, actual, message, location)
-      real(dp), intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
+         one%shape = shape_of(x)
+         select rank (x)
+         rank (0)
+            one%numbers = [x]
+         rank (1)
+            one%numbers = x
+         rank (2)
+            one%numbers = reshape(x, [size(x)])
+         end select
+      end function of_reals
 
-      call check_reals('assertLessThan', '<', expected, actual, message, location)
-   end subroutine less_real
+   end subroutine check_reals
 
-   subroutine less_equal_real(expected, actual, message, location)
-      real(dp), intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_reals('assertLessThanOrEqual', '<=', expected, actual, message, location)
-   end subroutine less_equal_real
-
-   subroutine greater_real(expected, actual, message, location)
-      real(dp), intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_reals('assertGreaterThan', '>', expected, actual, message, location)
-   end subroutine greater_real
-
-   subroutine greater_equal_real(expected, actual, message, location)
-      real(dp), intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_reals('assertGreaterThanOrEqual', '>=', expected, actual, message, location)
-   end subroutine greater_equal_real
-
-   subroutine equal_integer(expected, actual, message, location)
+   subroutine check_integers(assertion, expected, actual, message, location)
+      character(*), intent(in) :: assertion
       integer, intent(in) :: expected(..), actual(..)
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call check_integers('assertEqual', '==', expected, actual, message, location)
-   end subroutine equal_integer
+      call compare(assertion, as_integer, of_integers(expected), of_integers(actual), message=message, location=location)
 
-   subroutine less_integer(expected, actual, message, location)
-      integer, intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
+   contains
 
-      call check_integers('assertLessThan', '<', expected, actual, message, location)
-   end subroutine less_integer
+      function of_integers(x) result(one)
+         integer, intent(in) :: x(..)
+         type(operand) :: one
 
-   subroutine less_equal_integer(expected, actual, message, location)
-      integer, intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
+         one%shape = shape_of(x)
+         select rank (x)
+         rank (0)
+            one%numbers = [real(x, dp)]
+         rank (1)
+            one%numbers = real(x, dp)
+         rank (2)
+            one%numbers = reshape(real(x, dp), [size(x)])
+         end select
+      end function of_integers
 
-      call check_integers('assertLessThanOrEqual', '<=', expected, actual, message, location)
-   end subroutine less_equal_integer
+   end subroutine check_integers
 
-   subroutine greater_integer(expected, actual, message, location)
-      integer, intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_integers('assertGreaterThan', '>', expected, actual, message, location)
-   end subroutine greater_integer
-
-   subroutine greater_equal_integer(expected, actual, message, location)
-      integer, intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_integers('assertGreaterThanOrEqual', '>=', expected, actual, message, location)
-   end subroutine greater_equal_integer
-
-   subroutine equal_logical(expected, actual, message, location)
+   !> Also of assertTrue and assertFalse, which take no array of rank 2, as in pFUnit.
+   subroutine check_logicals(assertion, expected, actual, message, location)
+      character(*), intent(in) :: assertion
       logical, intent(in) :: expected(..), actual(..)
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call check_logicals('assertEqual', expected, actual, message, location)
-   end subroutine equal_logical
+      call compare(assertion, as_logical, of_logicals(expected), of_logicals(actual), message=message, location=location)
+
+   contains
+
+      function of_logicals(x) result(one)
+         logical, intent(in) :: x(..)
+         type(operand) :: one
+
+         one%shape = shape_of(x)
+         select rank (x)
+         rank (0)
+            one%numbers = [merge(1.0_dp, 0.0_dp, x)]
+         rank (1)
+            one%numbers = merge(1.0_dp, 0.0_dp, x)
+         rank (2)
+            one%numbers = reshape(merge(1.0_dp, 0.0_dp, x), [size(x)])
+         end select
+      end function of_logicals
+
+   end subroutine check_logicals
 
    !> Same length and same characters: trailing blanks count, unlike in Fortran's `==`.
-   subroutine equal_string(expected, actual, message, location)
+   subroutine check_strings(assertion, expected, actual, message, location)
+      character(*), intent(in) :: assertion
       character(*), intent(in) :: expected, actual
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
@@ -163,174 +127,134 @@ contains
       do i = 1, min(len(expected), len(actual))
          if (expected(i:i) /= actual(i:i)) exit
       end do
-      call fail('assertEqual', &
+      call fail(assertion, message, location, &
          indent//"expected:   '"//expected//"'"//indent//"actual:     '"//actual//"'"//indent// &
-         'difference: from character '//integer_text(i)//' on; lengths '// &
-         integer_text(len(expected))//' and '//integer_text(len(actual)), message, location)
-   end subroutine equal_string
+         'difference: from character '//list_text([i])//' on; lengths '// &
+         list_text([len(expected)])//' and '//list_text([len(actual)]))
+   end subroutine check_strings
 
-   subroutine true_scalar(condition, message, location)
-      logical, intent(in) :: condition
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_logicals('assertTrue', .true., condition, message, location)
-   end subroutine true_scalar
-
-   subroutine true_vector(condition, message, location)
-      logical, intent(in) :: condition(:)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_logicals('assertTrue', .true., condition, message, location)
-   end subroutine true_vector
-
-   subroutine false_scalar(condition, message, location)
-      logical, intent(in) :: condition
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_logicals('assertFalse', .false., condition, message, location)
-   end subroutine false_scalar
-
-   subroutine false_vector(condition, message, location)
-      logical, intent(in) :: condition(:)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call check_logicals('assertFalse', .false., condition, message, location)
-   end subroutine false_vector
-
-   subroutine assertIsFinite(x, message, location)
+   !> assertIsFinite and assertIsNaN.
+   subroutine check_value(assertion, x, message, location)
+      character(*), intent(in) :: assertion
       real(dp), intent(in) :: x
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
       call count_assertion()
-      if (ieee_is_finite(x)) return
-      call fail('assertIsFinite', indent//'actual:     '//real_text(x), message, location)
-   end subroutine assertIsFinite
+      if (merge(ieee_is_nan(x), ieee_is_finite(x), assertion == 'assertIsNaN')) return
+      call fail(assertion, message, location, indent//'actual:     '//number_text(x, as_real))
+   end subroutine check_value
 
-   subroutine assertIsNaN(x, message, location)
-      real(dp), intent(in) :: x
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      call count_assertion()
-      if (ieee_is_nan(x)) return
-      call fail('assertIsNaN', indent//'actual:     '//real_text(x), message, location)
-   end subroutine assertIsNaN
-
-   subroutine assertFail(message, location)
+   !> assertFail.
+   subroutine funit_fail(message, location)
       character(*), intent(in) :: message
       type(SourceLocation), intent(in) :: location
 
       call count_assertion()
-      call fail('assertFail', '', message, location)
-   end subroutine assertFail
+      call fail('assertFail', message, location, '')
+   end subroutine funit_fail
 
-   ! ---- one checker a type ----
-
-   subroutine check_reals(assertion, relation, expected, actual, message, location, tolerance)
-      character(*), intent(in) :: assertion, relation  !! relation: == ~ < <= > >=
-      real(dp), intent(in) :: expected(..), actual(..)
+   subroutine fail(assertion, message, location, details)
+      character(*), intent(in) :: assertion
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
-      real(dp), intent(in), optional :: tolerance
+      character(*), intent(in) :: details  !! lines, each begun by `indent`
 
+      if (present(message)) then
+         call throw(assertion//': '//message//details, location)
+      else
+         call throw(assertion//details, location)
+      end if
+   end subroutine fail
+
+   !> Reports the first pair of numbers for which the relation of an assertion does not hold.
+   subroutine compare(assertion, layout, expected, actual, tolerance, message, location)
+      character(*), intent(in) :: assertion
+      character(*), intent(in) :: layout       !! of the numbers, one of those above
+      type(operand), intent(in) :: expected, actual
+      real(dp), intent(in), optional :: tolerance
+      character(*), intent(in), optional :: message
+      type(SourceLocation), intent(in) :: location
+
+      character(:), allocatable :: details, found, relation, wanted
+      integer :: failures, first, highest_rank
+      logical, allocatable :: holds(:)
       real(dp) :: allowed
-      real(dp), allocatable :: e(:), a(:)
-      character(:), allocatable :: difference
-      integer :: first
-      logical :: conform
+      real(dp), allocatable :: e(:)
 
       call count_assertion()
+      relation = relation_of(assertion)
       allowed = 0.0_dp
       if (present(tolerance)) allowed = tolerance
       if (.not. tolerance_is_sound(allowed, relation)) then
-         call fail(assertion, indent//'the tolerance makes no sense: '//real_text(allowed), message, location)
+         call fail(assertion, message, location, &
+                   indent//'the tolerance makes no sense: '//number_text(allowed, as_real))
          return
       end if
-
-      call require_conformable(assertion, shape_of(expected), shape_of(actual), message, location, conform)
-      if (.not. conform) return
-      allocate (a, source=flat_reals(actual))
-      allocate (e, source=flat_reals(expected))
-      if (rank(expected) == 0) e = spread(e(1), 1, size(a))
-      first = findloc(holds_reals(relation, e, a, allowed), .false., dim=1)
-      if (first == 0) return
-
-      difference = 'none: one of them is NaN'
-      if (.not. (ieee_is_nan(a(first)) .or. ieee_is_nan(e(first)))) then
-         difference = real_text(signed_difference(a(first), e(first)))
+      highest_rank = merge(1, 2, assertion == 'assertTrue' .or. assertion == 'assertFalse')
+      if (.not. conform(expected%shape, actual%shape, highest_rank)) then
+         call fail(assertion, message, location, indent//'expected:   shape ('//list_text(expected%shape)//')'// &
+            indent//'actual:     shape ('//list_text(actual%shape)//'), which cannot be compared')
+         return
       end if
-      if (present(tolerance)) difference = difference//' (tolerance '//real_text(tolerance)//')'
-      call fail_elements(assertion, relation, real_text(e(first)), real_text(a(first)), difference, first, &
-         count(.not. holds_reals(relation, e, a, allowed)), shape_of(actual), message, location)
-   end subroutine check_reals
-
-   subroutine check_integers(assertion, relation, expected, actual, message, location)
-      character(*), intent(in) :: assertion, relation
-      integer, intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      integer, allocatable :: e(:), a(:)
-      integer :: first
-      logical :: conform
-
-      call count_assertion()
-      call require_conformable(assertion, shape_of(expected), shape_of(actual), message, location, conform)
-      if (.not. conform) return
-      allocate (a, source=flat_integers(actual))
-      allocate (e, source=flat_integers(expected))
-      if (rank(expected) == 0) e = spread(e(1), 1, size(a))
-      first = findloc(holds_integers(relation, e, a), .false., dim=1)
+      e = expected%numbers
+      if (size(expected%shape) == 0) e = spread(e(1), 1, size(actual%numbers))
+      holds = relation_holds(relation, e, actual%numbers, allowed)
+      first = findloc(holds, .false., dim=1)
       if (first == 0) return
-      ! In reals, which hold every difference of default integers exactly.
-      call fail_elements(assertion, relation, integer_text(e(first)), integer_text(a(first)), &
-         whole_text(real(a(first), dp) - real(e(first), dp)), first, &
-         count(.not. holds_integers(relation, e, a)), shape_of(actual), message, location)
-   end subroutine check_integers
 
-   subroutine check_logicals(assertion, expected, actual, message, location)
+      failures = count(.not. holds)
+      wanted = number_text(e(first), layout)
+      found = number_text(actual%numbers(first), layout)
+      if (scan(relation, '<>') > 0) then
+         details = indent//'required:   '//wanted//' '//relation//' '//found
+      else
+         details = indent//'expected:   '//wanted//indent//'actual:     '//found
+      end if
+      if (layout /= as_logical) details = details//indent//'difference: '// &
+         difference_text(e(first), actual%numbers(first), layout)
+      if (present(tolerance)) details = details//' (tolerance '//number_text(tolerance, as_real)//')'
+      if (size(actual%shape) == 1) then
+         details = details//indent//'element:    ('//list_text([first])//')'
+      else if (size(actual%shape) == 2) then
+         details = details//indent//'element:    ('// &
+            list_text([1 + modulo(first - 1, actual%shape(1)), 1 + (first - 1)/actual%shape(1)])//')'
+      end if
+      if (size(actual%shape) > 0) details = details//', the first of '//list_text([failures])// &
+         ' that fail, out of '//list_text([size(actual%numbers)])
+      call fail(assertion, message, location, details)
+   end subroutine compare
+
+   pure function relation_of(assertion) result(relation)
       character(*), intent(in) :: assertion
-      logical, intent(in) :: expected(..), actual(..)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
+      character(:), allocatable :: relation
 
-      logical, allocatable :: e(:), a(:)
-      integer :: first
-      logical :: conform
-
-      call count_assertion()
-      call require_conformable(assertion, shape_of(expected), shape_of(actual), message, location, conform)
-      if (.not. conform) return
-      allocate (a, source=flat_logicals(actual))
-      allocate (e, source=flat_logicals(expected))
-      if (rank(expected) == 0) e = spread(e(1), 1, size(a))
-      first = findloc(e .eqv. a, .false., dim=1)
-      if (first == 0) return
-      call fail_elements(assertion, '==', merge('.true. ', '.false.', e(first)), &
-         merge('.true. ', '.false.', a(first)), '', first, count(e .neqv. a), &
-         shape_of(actual), message, location)
-   end subroutine check_logicals
-
-   ! ---- comparing ----
+      select case (assertion)
+      case ('assertRelativelyEqual')
+         relation = '~'
+      case ('assertLessThan')
+         relation = '<'
+      case ('assertLessThanOrEqual')
+         relation = '<='
+      case ('assertGreaterThan')
+         relation = '>'
+      case ('assertGreaterThanOrEqual')
+         relation = '>='
+      case default
+         relation = '=='
+      end select
+   end function relation_of
 
    !> No relation holds for NaN.
-   elemental logical function holds_reals(relation, expected, actual, tolerance) result(holds)
+   elemental logical function relation_holds(relation, expected, actual, tolerance) result(holds)
       character(*), intent(in) :: relation
       real(dp), intent(in) :: expected, actual, tolerance
 
-      logical :: equal
-
       holds = .false.
       if (ieee_is_nan(expected) .or. ieee_is_nan(actual)) return
-      equal = actual <= expected .and. actual >= expected
       select case (relation)
       case ('==')
-         holds = equal
+         holds = actual <= expected .and. actual >= expected
          if (.not. holds) holds = abs(signed_difference(actual, expected)) <= tolerance
       case ('~')
          if (.not. (ieee_is_finite(actual) .and. ieee_is_finite(expected))) return
@@ -345,26 +269,7 @@ contains
       case ('>=')
          holds = expected >= actual
       end select
-   end function holds_reals
-
-   elemental logical function holds_integers(relation, expected, actual) result(holds)
-      character(*), intent(in) :: relation
-      integer, intent(in) :: expected, actual
-
-      holds = .false.
-      select case (relation)
-      case ('==')
-         holds = expected == actual
-      case ('<')
-         holds = expected < actual
-      case ('<=')
-         holds = expected <= actual
-      case ('>')
-         holds = expected > actual
-      case ('>=')
-         holds = expected >= actual
-      end select
-   end function holds_integers
+   end function relation_holds
 
    !> Not NaN, finite, not negative; a relative one of 1 or more would let zero pass.
    pure logical function tolerance_is_sound(tolerance, relation) result(sound)
@@ -390,20 +295,9 @@ contains
       end if
    end function signed_difference
 
-   !> Fails unless the shapes agree, or the expected value is a scalar and there is something to compare.
-   subroutine require_conformable(assertion, expected_shape, actual_shape, message, location, conform)
-      character(*), intent(in) :: assertion
-      integer, intent(in) :: expected_shape(:), actual_shape(:)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-      logical, intent(out) :: conform
-
-      integer, parameter :: highest_rank = 2
-      integer :: expected(size(expected_shape)), actual(size(actual_shape))
-
-      ! gfortran 12 gives an empty array of assumed rank the extent -1.
-      expected = max(expected_shape, 0)
-      actual = max(actual_shape, 0)
+   !> Whether the shapes agree, or the expected value is a scalar and there is something to compare.
+   pure logical function conform(expected, actual, highest_rank)
+      integer, intent(in) :: expected(:), actual(:), highest_rank
 
       conform = size(actual) <= highest_rank
       if (size(expected) == 0) then
@@ -412,13 +306,10 @@ contains
          conform = conform .and. size(expected) == size(actual)
          if (conform) conform = all(expected == actual)
       end if
-      if (.not. conform) then
-         call fail(assertion, indent//'expected:   shape '//list_text(expected)// &
-            indent//'actual:     shape '//list_text(actual)//', which cannot be compared', message, location)
-      end if
-   end subroutine require_conformable
+   end function conform
 
-   !> The shape. gfortran 11 writes beyond the result of `shape` for a scalar of assumed rank.
+   !> The shape. gfortran 11 writes beyond the result of `shape` for a scalar of assumed rank, and gfortran 12 gives an
+   !> empty array of assumed rank the extent -1.
    function shape_of(x) result(extents)
       type(*), intent(in) :: x(..)
       integer, allocatable :: extents(:)
@@ -427,143 +318,51 @@ contains
 
       allocate (extents(rank(x)))
       do i = 1, size(extents)
-         extents(i) = size(x, i)
+         extents(i) = max(size(x, i), 0)
       end do
    end function shape_of
 
-   function flat_reals(x) result(flat)
-      real(dp), intent(in) :: x(..)
-      real(dp), allocatable :: flat(:)
+   function difference_text(expected, actual, layout) result(text)
+      real(dp), intent(in) :: expected, actual
+      character(*), intent(in) :: layout
+      character(:), allocatable :: text
 
-      select rank (x)
-      rank (0)
-         flat = [x]
-      rank (1)
-         flat = x
-      rank (2)
-         flat = reshape(x, [size(x)])
-      end select
-   end function flat_reals
+      text = 'none: one of them is NaN'
+      if (.not. (ieee_is_nan(actual) .or. ieee_is_nan(expected))) &
+         text = number_text(signed_difference(actual, expected), layout)
+   end function difference_text
 
-   function flat_integers(x) result(flat)
-      integer, intent(in) :: x(..)
-      integer, allocatable :: flat(:)
-
-      select rank (x)
-      rank (0)
-         flat = [x]
-      rank (1)
-         flat = x
-      rank (2)
-         flat = reshape(x, [size(x)])
-      end select
-   end function flat_integers
-
-   function flat_logicals(x) result(flat)
-      logical, intent(in) :: x(..)
-      logical, allocatable :: flat(:)
-
-      select rank (x)
-      rank (0)
-         flat = [x]
-      rank (1)
-         flat = x
-      rank (2)
-         flat = reshape(x, [size(x)])
-      end select
-   end function flat_logicals
-
-   ! ---- reporting ----
-
-   subroutine fail(assertion, details, message, location)
-      character(*), intent(in) :: assertion
-      character(*), intent(in) :: details  !! lines, each begun by `indent`
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      character(:), allocatable :: heading
-
-      heading = assertion
-      if (present(message)) heading = heading//': '//message
-      call throw(heading//details, location)
-   end subroutine fail
-
-   subroutine fail_elements(assertion, relation, expected, actual, difference, first, failures, &
-         actual_shape, message, location)
-      character(*), intent(in) :: assertion, relation
-      character(*), intent(in) :: expected, actual  !! of the first failing element
-      character(*), intent(in) :: difference        !! likewise; may be empty
-      integer, intent(in) :: first       !! its place in array element order
-      integer, intent(in) :: failures    !! how many elements fail
-      integer, intent(in) :: actual_shape(:)
-      character(*), intent(in), optional :: message
-      type(SourceLocation), intent(in) :: location
-
-      character(:), allocatable :: details
-
-      if (scan(relation, '<>') > 0) then
-         details = indent//'required:   '//trim(expected)//' '//relation//' '//trim(actual)
-      else
-         details = indent//'expected:   '//trim(expected)//indent//'actual:     '//trim(actual)
-      end if
-      if (difference /= '') details = details//indent//'difference: '//difference
-      if (size(actual_shape) == 1) then
-         details = details//indent//'element:    '//list_text([first])
-      else if (size(actual_shape) == 2) then
-         details = details//indent//'element:    '// &
-            list_text([1 + modulo(first - 1, actual_shape(1)), 1 + (first - 1)/actual_shape(1)])
-      end if
-      if (size(actual_shape) > 0) then
-         details = details//', the first of '//integer_text(failures)//' that fail, out of '// &
-            integer_text(product(actual_shape))
-      end if
-      call fail(assertion, details, message, location)
-   end subroutine fail_elements
-
-   !> Every digit that a double has.
-   pure function real_text(x) result(text)
+   !> A number with every digit that it has.
+   pure function number_text(x, layout) result(text)
       real(dp), intent(in) :: x
+      character(*), intent(in) :: layout
       character(:), allocatable :: text
 
       character(32) :: buffer
 
-      write (buffer, '(es24.16e3)') x
+      select case (layout)
+      case (as_real)
+         write (buffer, layout) x
+      case (as_integer)
+         write (buffer, layout) nint(x, int64)
+      case default
+         buffer = merge('.true. ', '.false.', x > 0.5_dp)
+      end select
       text = trim(adjustl(buffer))
-   end function real_text
+   end function number_text
 
-   pure function whole_text(x) result(text)
-      real(dp), intent(in) :: x  !! a whole number
-      character(:), allocatable :: text
-
-      character(32) :: buffer
-
-      write (buffer, '(f24.0)') x
-      text = trim(adjustl(buffer))
-      text = text(:len(text) - 1)
-   end function whole_text
-
-   pure function integer_text(i) result(text)
-      integer, intent(in) :: i
-      character(:), allocatable :: text
-
-      character(32) :: buffer
-
-      write (buffer, '(i0)') i
-      text = trim(buffer)
-   end function integer_text
-
+   !> Integers, with commas between them.
    pure function list_text(list) result(text)
       integer, intent(in) :: list(:)
       character(:), allocatable :: text
 
       integer :: i
 
-      text = '('
+      text = ''
       do i = 1, size(list)
          if (i > 1) text = text//', '
-         text = text//integer_text(list(i))
+         text = text//number_text(real(list(i), dp), as_integer)
       end do
-      text = text//')'
    end function list_text
 
 end module funit_assert

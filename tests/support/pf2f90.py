@@ -13,23 +13,25 @@ import re
 import sys
 
 LINE_LIMIT = 120   # a generated call must stay within Fortran's 132 columns
-OPERANDS = {       # operands before the keywords, whether tolerance= is allowed, whether it is required
-    'assertEqual': (2, True, False),
-    'assertRelativelyEqual': (2, True, True),
-    'assertLessThan': (2, False, False),
-    'assertLessThanOrEqual': (2, False, False),
-    'assertGreaterThan': (2, False, False),
-    'assertGreaterThanOrEqual': (2, False, False),
-    'assertTrue': (1, False, False),
-    'assertFalse': (1, False, False),
-    'assertIsFinite': (1, False, False),
-    'assertIsNaN': (1, False, False),
-    'assertFail': (0, False, False),
+OPERANDS = {       # operands before the keywords, keywords besides message=
+    'assertEqual': (2, {'tolerance'}),
+    'assertRelativelyEqual': (2, {'tolerance'}),
+    'assertLessThan': (2, set()),
+    'assertLessThanOrEqual': (2, set()),
+    'assertGreaterThan': (2, set()),
+    'assertGreaterThanOrEqual': (2, set()),
+    'assertTrue': (1, set()),
+    'assertFalse': (1, set()),
+    'assertIsFinite': (1, set()),
+    'assertIsNaN': (1, set()),
+    'assertFail': (1, set()),
 }
+NEEDS_TOLERANCE = 'assertRelativelyEqual'
 PROCEDURES = ('test', 'before', 'after')
 # What pFUnit 4.14 makes visible by `use funit` besides assert*. A test module that declares such a name does not
 # compile there. Nor does one whose procedure has a local variable of such a name and passes it on before it sets it:
-# gfortran 12 then takes it for pFUnit's generic or type.
+# gfortran 12 then takes it for pFUnit's generic or type. And what pFUnit declares in its suite functions, which use the
+# whole test module: suite and t, of which a local variable may be called t.
 FORBIDDEN = set("""
     abstractmatcher abstracttestparameter all_of allof any_of anyexceptions anyof array_with_size
     basetestrunner catch catchnext contains_string debuglistener disable empty_array ends_with equal_to
@@ -39,15 +41,14 @@ FORBIDDEN = set("""
     near not output_unit parallelcontext parameterizedtestcase predicate relatively_near remoterunner
     resultprinter robustrunner run serialcontext sourcelocation starts_with stringcontains
     stringdescription stringendswith stringstartswith stub subject taplistener test testannotation
-    testcase testlistener testlistenervector testmethod testresult testrunner testsuite throw
+    suite t testcase testlistener testlistenervector testmethod testresult testrunner testsuite throw
     timeoutannotation trim_all true wascalled wascalledonce wasnotcalled whitespaceoptions xmlprinter
 """.split())
-# What pFUnit declares in its suite functions, which use the whole test module. Local names do not meet these.
-FORBIDDEN_IN_MODULE = {'suite', 't'}
 
 PLAIN_SUBROUTINE = re.compile(r'\s*subroutine\s+(\w+)\s*(\(\s*\))?\s*$')
 PROCEDURE = re.compile(r'(?!\s*end\b)(?:[\w()=*,: ]+\s|\s*)(?:subroutine|function)\s+(\w+)', re.I)
-TYPE = re.compile(r'\s*type\s*(?:,[^:!]*)?(?:::\s*|\s)\s*(\w+)\s*(?:!.*)?$', re.I)
+BLOCK = re.compile(r'\s*(?:type\s*(?:,[^:!]*)?(?:::\s*|\s)\s*(\w+)\s*$|(?:abstract\s+)?interface\b\s*(\w*))', re.I)
+END_OF_BLOCK = re.compile(r'\s*end\s*(?:type|interface)\b', re.I)
 DIRECTIVE = re.compile(r'\s*@\s*(\w*)\s*(.*?)\s*$')
 
 
@@ -138,26 +139,23 @@ class TestFile:
         """The generated source; raises BadTestFile."""
         lines = self.path.read_text(encoding='utf-8').splitlines()
         self.check_module(lines)
-        state = {'pending': None, 'continued': False, 'contains': False}
+        pending, continued, after_contains = None, False, False
         self.output = [f'#line 1 "{self.path.resolve()}"']
-        for number, line in enumerate(lines, 1):
-            self.check_line(number, line)
-            pending, state['pending'] = state['pending'], None
-            if line.lstrip().startswith('@'):
-                if pending:
-                    self.refuse(number, f'@{pending} must stand directly above a plain subroutine')
-                if state['continued']:
-                    self.refuse(number, 'a directive cannot stand inside a continued statement')
-                state['pending'] = self.directive(number, line, state['contains'])
-                continue
+        for number, line in enumerate([*lines, ''], 1):
+            if number <= len(lines):
+                self.check_line(number, line)
             if pending:
-                self.procedure_below(number, line, pending)
+                self.procedure_below(min(number, len(lines)), line, pending)
+                pending = None
+            if line.lstrip().startswith('@'):
+                if continued:
+                    self.refuse(number, 'a directive cannot stand inside a continued statement')
+                pending = self.directive(number, line, after_contains)
+                continue
             code = code_of(line)
-            state['continued'] = code.endswith('&') or (state['continued'] and not code)
-            state['contains'] = state['contains'] or code.strip().lower() == 'contains'
+            continued = code.endswith('&') or (continued and not code)
+            after_contains = after_contains or code.strip().lower() == 'contains'
             self.output.append(line)
-        if state['pending']:
-            self.refuse(len(lines), f'@{state["pending"]} must stand directly above a plain subroutine')
         if not self.tests:
             self.refuse(len(lines), 'the file has no @test: zero tests is a failure')
         if self.problems:
@@ -179,37 +177,26 @@ class TestFile:
 
         in_block = in_procedures = False  # a block: a type definition or an interface
         for number, code in statements(codes):
-            if re.match(r'\s*end\s*(?:type|interface)\b', code, re.I):
-                in_block = False
-            elif in_block:
+            names, block = declared_names(code), BLOCK.match(code)
+            in_block = in_block and not END_OF_BLOCK.match(code)
+            if in_block or END_OF_BLOCK.match(code):
                 continue
-            elif match := TYPE.match(code):
-                in_block = True
-                self.check_names(number, [match[1].lower()])
+            in_block = bool(block)
+            if block:
+                names = [(block[1] or block[2]).lower()]
             elif match := PROCEDURE.match(code):
-                self.check_names(number, [match[1].lower()])
+                names = [match[1].lower()]
             elif code.strip().lower() == 'contains':
                 in_procedures = True
-            elif match := re.match(r'\s*(?:abstract\s+)?interface\b\s*(\w*)', code, re.I):
-                in_block = True
-                self.check_names(number, [match[1].lower()])
             elif in_procedures:
-                if not re.match(r'[^:]*,\s*parameter\b', code, re.I):  # a named constant compiles
-                    self.check_local_names(number, declared_names(code))
+                # Of local names, the variables alone: a named constant compiles.
+                names = [] if re.match(r'[^:]*,\s*parameter\b', code, re.I) else [name for name in names if name != 't']
             elif re.match(r'\s*private\b', code, re.I):
                 self.refuse(number, 'a test module is not private: its suite function lies outside')
-            else:
-                self.check_names(number, declared_names(code))
-
-    def check_names(self, number, names):
-        for name in names:
-            if name in FORBIDDEN | FORBIDDEN_IN_MODULE or name.startswith('assert'):
-                self.refuse(number, f"a test module cannot declare '{name}': pFUnit has that name")
-
-    def check_local_names(self, number, names):
-        for name in names:
-            if name in FORBIDDEN or name.startswith('assert'):
-                self.refuse(number, f"rename the variable '{name}': pFUnit has that name, and gfortran mixes them up")
+            for name in names:
+                if name in FORBIDDEN or name.startswith('assert'):
+                    self.refuse(number, f"a test module cannot declare '{name}': pFUnit has that name, and gfortran "
+                                        'mixes them up')
 
     def check_line(self, number, line):
         if len(line) >= LINE_LIMIT:
@@ -253,24 +240,23 @@ class TestFile:
         named = [re.match(r'(\w+)\s*=(?!=)', text) for text in arguments]
         keywords = [match[1].lower() for match in named if match]
         positional = arguments[:len(arguments) - len(keywords)]
-        operands, tolerance_allowed, tolerance_required = OPERANDS[name]
-        allowed = ['message'] + ['tolerance'] * tolerance_allowed
+        operands, more = OPERANDS[name]
+        allowed = {'message'} | more if name != 'assertFail' else set()
         if any(named[:len(positional)]) or '' in arguments:
             self.refuse(number, f'@{name}: keyword arguments come last and none may be empty')
-        elif name == 'assertFail' and (len(positional), keywords) in ((1, []), (0, ['message'])):
-            pass
         elif len(positional) != operands:
-            self.refuse(number, f'@{name} takes {operands} arguments before keywords, found {len(positional)}'
-                                '; message= and tolerance= are given by keyword')
-        elif name == 'assertFail':
-            self.refuse(number, '@assertFail takes one message')
-        elif len(set(keywords)) != len(keywords) or not set(keywords) <= set(allowed):
-            self.refuse(number, f'@{name} takes the keywords {" and ".join(allowed)}, each once; '
+            self.refuse(number, f'@{name} takes {operands} arguments before keywords, found {len(positional)}; '
+                                'message= and tolerance= are given by keyword, but not to @assertFail')
+        elif len(set(keywords)) != len(keywords) or not set(keywords) <= allowed:
+            self.refuse(number, f'@{name} takes the keywords {" and ".join(sorted(allowed))}, each once; '
                                 f'found {", ".join(keywords)}')
-        elif tolerance_required and 'tolerance' not in keywords:
+        elif name == NEEDS_TOLERANCE and 'tolerance' not in keywords:
             self.refuse(number, f'@{name} needs tolerance=')
         blank = line[:len(line) - len(line.lstrip())]
-        self.output += [f'{blank}call {name}({", ".join(arguments)}, &',
+        constant = {'assertTrue': '.true., ', 'assertFalse': '.false., '}.get(name, '')
+        self.output += [f'{blank}call funit_fail( &' if name == 'assertFail' else
+                        f"{blank}call funit_check('{name}', {constant}&",
+                        f'{blank}{", ".join(arguments)}, &',
                         '   location=SourceLocation( &',
                         f"   '{self.shown_path}', &",
                         f'   {number}))',

@@ -5,7 +5,7 @@ module wavycon_auto_method
    use wavycon_closed_form_method, only: closed_form_in_words
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_fitted_method, only: fitted_in_words
-   use wavycon_grid_method, only: check_grid_points, grid_in_words, grid_keys, set_grid_defaults, start_on_grids
+   use wavycon_grid_method, only: check_grid_keys, grid_in_words, grid_keys, start_on_grids
    use wavycon_group_values, only: group_values
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
@@ -24,8 +24,7 @@ contains
                        "'grid' for loads at which these are not accurate enough, otherwise and with a hardness 'grid'"
       allocate (method%keys, source=grid_keys())
       method%traits = solver%traits()
-      method%set_defaults => set_grid_defaults
-      method%check => check_grid_points
+      method%check => check_grid_keys
       method%make => make
    end function auto_method
 

@@ -11,7 +11,7 @@ module wavycon_beale_method
    use wavycon_problems, only: problem_list_type
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kinds, only: paper_waves
+   use wavycon_wave_kinds, only: paper_waves
    implicit none (type, external)
    private
 
@@ -51,15 +51,9 @@ contains
             real_key('edge_level', short_number(default%edge_level), 'p*', &
                'the isobar that is taken as the edge of contact.', above=0.0_dp, below=1.0_dp)])
       method%traits = solver%traits()
-      method%lacks = ['accuracy   ', 'grid_points']
-      method%because = [character(40) :: ': its series has no error estimate', &
-                        ': it has harmonics and constraint_points']
       method%refusal => refusal
-      method%is_for_paper_waves = .true.
-      method%set_defaults => set_defaults
       method%check => check
       method%make => make
-      method%why_no_area => why_no_area
    end function beale_method
 
    subroutine refusal(surface, words)
@@ -67,28 +61,24 @@ contains
       character(:), allocatable, intent(out) :: words
 
       words = ''
-      if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves()
+      if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves
    end subroutine refusal
 
-   subroutine set_defaults(values, surface)
-      type(group_values), intent(inout) :: values
-      type(surface_type), intent(in) :: surface
-
-      call values%set_default('harmonics', [paper_harmonics(surface%dimension)])
-      call values%set_default('constraint_points', [paper_constraint_points(surface%dimension, &
-                                                                            values%integer('harmonics'))])
-      if (surface%dimension == 1) call values%leave_out('symmetry')
-   end subroutine set_defaults
-
    subroutine check(values, surface, problems)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
       integer :: constraints, harmonics, points, unknowns
 
-      if (surface%dimension == 1 .and. values%has('symmetry')) call values%complain(problems, 'symmetry', &
-         'symmetry means nothing in 1-D: leave it out')
+      call values%set_default('harmonics', [real(paper_harmonics(surface%dimension), dp)])
+      call values%set_default('constraint_points', &
+                              [real(paper_constraint_points(surface%dimension, values%integer('harmonics')), dp)])
+      if (surface%dimension == 1) then
+         call values%leave_out('symmetry')
+         if (values%has('symmetry')) call values%complain(problems, 'symmetry', &
+                                                          'symmetry means nothing in 1-D: leave it out')
+      end if
       if (values%is_bad('harmonics') .or. values%is_bad('constraint_points')) return
       harmonics = values%integer('harmonics')
       points = values%integer('constraint_points')
@@ -159,12 +149,5 @@ contains
                     ' unknowns), '//integer_text(constraints*merge(2, 1, surface%has_hardness()))// &
                     ' constraint points, edge_level[p*] = '//short_number(values%real('edge_level'))
    end subroutine make
-
-   subroutine why_no_area(values, words)
-      type(group_values), intent(in) :: values
-      character(:), allocatable, intent(out) :: words
-
-      words = 'no pressure reaches edge_level = '//short_number(values%real('edge_level'))//' p*'
-   end subroutine why_no_area
 
 end module wavycon_beale_method

@@ -24,8 +24,6 @@ contains
       method%meaning = 'collocation fitted to the edge of contact, of spots or of closed pools of gap'
       allocate (method%keys, source=[accuracy_key()])
       method%traits = solver%traits()
-      method%lacks(1) = 'grid_points'
-      method%because(1) = ': it has no grid'
       method%refusal => refusal
       method%make => make
    end function fitted_method

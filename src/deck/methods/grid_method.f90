@@ -13,8 +13,7 @@ module wavycon_grid_method
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_points, grid_in_words, grid_keys, grid_method, points_of_grid, &
-      set_grid_defaults, start_on_grids
+   public :: accuracy_key, check_grid_keys, grid_in_words, grid_keys, grid_method, points_of_grid, start_on_grids
 
 contains
 
@@ -25,8 +24,7 @@ contains
       method%meaning = 'ever finer grids until mean gap, area and peak pressure are accurate'
       allocate (method%keys, source=grid_keys())
       method%traits = solver%traits()
-      method%set_defaults => set_grid_defaults
-      method%check => check_grid_points
+      method%check => check_grid_keys
       method%make => make
    end function grid_method
 
@@ -50,7 +48,7 @@ contains
       key = real_key('accuracy', short_number(default_accuracy), '-', &
          'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
          '''fitted'' with lines, map, contours, spots, histograms or details also of the gap at a trough. A load '// &
-         'that misses it has the status not_accurate.', least=1.0e-12_dp, most=0.1_dp, way=1)
+         'that misses it has the status not_accurate.', least=1.0e-12_dp, most=0.1_dp, way=10)
    end function accuracy_key
 
    !> The keys of solvers on grids.
@@ -61,12 +59,12 @@ contains
       keys(2) = integer_key('grid_points', '', &
          'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
          'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated '// &
-         'from 64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, way=2)
+         'from 64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, way=11)
       keys(3) = real_key('residual', '', '-', &
          'with grid_points or a height map on its own points: largest root mean square over the grid of gaps in '// &
          'contact and of overlaps, over the mean gap, for comparisons with other programs. The default keeps the '// &
          'iteration error below a tenth of the error estimates.', &
-         least=1.0e-13_dp, most=0.1_dp)
+         least=1.0e-13_dp, most=0.1_dp, way=11)
    end function grid_keys
 
    !> The grid in effect on the whole cell, along x and y: that of the deck, which refers to surface%parts(), or,
@@ -92,38 +90,30 @@ contains
    end subroutine start_on_grids
 
    !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
-   !> solved on one given grid. Writes grid_points in full to the resolved deck.
-   subroutine set_grid_defaults(values, surface)
+   !> solved on one given grid. Writes grid_points in full to the resolved deck. Reports a residual without a given
+   !> grid, and odd numbers of points.
+   subroutine check_grid_keys(values, surface, problems)
       type(group_values), intent(inout) :: values  !! of &method
-      type(surface_type), intent(in) :: surface
-
-      integer :: points(2)
-
-      if (values%has('grid_points') .and. .not. values%is_bad('grid_points')) then
-         points = points_of_grid(values, surface)/surface%parts()
-         call values%set('grid_points', points(:surface%dimension))
-      end if
-      if (values%has('accuracy') .or. .not. (values%has('grid_points') .or. all(surface%points > 0))) return
-      call values%set_default('accuracy', [0.0_dp])
-      call values%leave_out('accuracy')
-   end subroutine set_grid_defaults
-
-   !> Reports grid_points or residual beside accuracy, a residual without a given grid, and odd numbers of points.
-   subroutine check_grid_points(values, surface, problems)
-      type(group_values), intent(in) :: values     !! of &method
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
-      call values%forbid(problems, 'accuracy', 'grid_points', 'give the one or the other')
-      call values%forbid(problems, 'accuracy', 'residual', &
-                         'grids solved to an accuracy have the residual that it takes')
+      real(dp) :: points(2)
+
+      if (values%has('grid_points') .and. .not. values%is_bad('grid_points')) then
+         points = values%pair('grid_points')
+         call values%set('grid_points', points(:surface%dimension))
+      end if
+      if (.not. values%has('accuracy') .and. (values%has('grid_points') .or. all(surface%points > 0))) then
+         call values%set_default('accuracy', [0.0_dp])
+         call values%leave_out('accuracy')
+      end if
       if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
          call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on '// &
                               'its own points: other grids have the residual that their accuracy takes')
       if (.not. surface%mirrored .and. any(mod(values%integers('grid_points'), 2) /= 0)) &
          call values%complain(problems, 'grid_points', &
          'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
-   end subroutine check_grid_points
+   end subroutine check_grid_keys
 
    !> The grid in words.
    pure function grid_in_words(values, surface) result(words)

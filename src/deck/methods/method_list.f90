@@ -10,18 +10,17 @@ module wavycon_method_list
    use wavycon_plain_text, only: in_quotes, listed
    use wavycon_solver_method, only: solver_method
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kinds, only: is_paper_kind
+   use wavycon_wave_kinds, only: paper_kinds
    implicit none (type, external)
    private
 
-   public :: get_methods, method_of, default_solver, refusal, solvers_for, solvers_with_coefficients, &
-      solvers_with_details, start_solver
+   public :: get_methods, method_of, default_solver, refusal, solvers_for, solvers_with, start_solver
 
    integer, parameter, public :: number_of_methods = 5
 
 contains
 
-   !> All solvers, in the order of the key reference. The last is the default but for waves of the paper.
+   !> All solvers, in the order of the key reference.
    subroutine get_methods(methods)
       type(solver_method), intent(out) :: methods(number_of_methods)
 
@@ -50,14 +49,9 @@ contains
       character(*), intent(in) :: kind           !! of the surface, as the deck names it
       character(:), allocatable :: name
 
-      type(solver_method) :: methods(number_of_methods)
-      integer :: i
-
-      call get_methods(methods)
-      i = number_of_methods
+      name = 'auto'
       ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
-      if (is_paper_kind(kind) .and. surface%is_paper_wave()) i = findloc(methods%is_for_paper_waves, .true., dim=1)
-      name = trim(methods(i)%name)
+      if (any(paper_kinds == kind) .and. surface%is_paper_wave()) name = 'beale'
    end function default_solver
 
    !> Why a solver cannot solve a surface; empty if it can.
@@ -82,25 +76,16 @@ contains
       words = names_of(methods, [(refusal(methods(i), surface) == '', i=1, number_of_methods)])
    end function solvers_for
 
-   !> The solvers whose solutions have details.
-   function solvers_with_details() result(words)
+   !> The solvers whose solutions have details, or the coefficients of a series.
+   function solvers_with(trait) result(words)
+      character(*), intent(in) :: trait   !! 'details' or 'coefficients'
       character(:), allocatable :: words
 
       type(solver_method) :: methods(number_of_methods)
 
       call get_methods(methods)
-      words = names_of(methods, methods%traits%has_details)
-   end function solvers_with_details
-
-   !> The solvers whose solutions have the coefficients of a series.
-   function solvers_with_coefficients() result(words)
-      character(:), allocatable :: words
-
-      type(solver_method) :: methods(number_of_methods)
-
-      call get_methods(methods)
-      words = names_of(methods, methods%traits%has_coefficients)
-   end function solvers_with_coefficients
+      words = names_of(methods, merge(methods%traits%has_details, methods%traits%has_coefficients, trait == 'details'))
+   end function solvers_with
 
    function names_of(methods, selected) result(words)
       type(solver_method), intent(in) :: methods(:)

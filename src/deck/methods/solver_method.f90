@@ -3,7 +3,7 @@
 module wavycon_solver_method
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_group_values, only: group_values
-   use wavycon_key_alternatives, only: alternative_type
+   use wavycon_key_relations, only: alternative_type
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -15,12 +15,9 @@ module wavycon_solver_method
    !> meaning may differ.
    type, extends(alternative_type) :: solver_method
       type(solver_traits) :: traits         !! of the solver before it is started
-      procedure(refusal_interface), pointer, nopass :: refusal => null()          !! null: it refuses no surface
-      logical :: is_for_paper_waves = .false.   !! whether it is the default for the kinds that are waves of the paper
-      procedure(defaults_interface), pointer, nopass :: set_defaults => null()    !! null: none depends on the surface
-      procedure(check_interface), pointer, nopass :: check => null()              !! null: none contradicts another
+      procedure(refusal_interface), pointer, nopass :: refusal => null()   !! null: it refuses no surface
+      procedure(check_interface), pointer, nopass :: check => null()   !! null: there is nothing to check or to set
       procedure(make_interface), pointer, nopass :: make => null()
-      procedure(reason_interface), pointer, nopass :: why_no_area => null()       !! null: contact always has an area
    end type solver_method
 
    abstract interface
@@ -32,38 +29,24 @@ module wavycon_solver_method
          character(:), allocatable, intent(out) :: words
       end subroutine refusal_interface
 
-      !> `set_defaults`: sets the defaults that depend on the surface and leaves keys without a meaning for it out of
-      !> the resolved deck.
-      subroutine defaults_interface(values, surface)
-         import :: group_values, surface_type
-         type(group_values), intent(inout) :: values   !! of &method
-         type(surface_type), intent(in) :: surface
-      end subroutine defaults_interface
-
-      !> `check`: reports values that contradict each other or the surface.
+      !> `check`: sets the defaults that depend on the surface, leaves keys without a meaning for it out of the resolved
+      !> deck, and reports values that contradict each other or the surface.
       subroutine check_interface(values, surface, problems)
          import :: group_values, problem_list_type, surface_type
-         type(group_values), intent(in) :: values             !! after `set_defaults`
-         type(surface_type), intent(in) :: surface
+         type(group_values), intent(inout) :: values          !! of &method, after check_relations
+         type(surface_type), intent(in) :: surface            !! for which `refusal` is empty
          type(problem_list_type), intent(inout) :: problems   !! to which they are added
       end subroutine check_interface
 
       !> `make`: starts the solver with the values of &method.
       subroutine make_interface(values, surface, keep_fields, solver, description)
          import :: contact_solver, group_values, surface_type
-         type(group_values), intent(in) :: values      !! of &method, after `set_defaults` and `check`, without problems
+         type(group_values), intent(in) :: values      !! of &method, after `check`, without problems
          type(surface_type), intent(in) :: surface     !! for which `refusal` is empty
          logical, intent(in) :: keep_fields            !! whether fields, edges or details of solutions will be needed
          class(contact_solver), allocatable, intent(out) :: solver
          character(:), allocatable, intent(out) :: description   !! the discretisation, for log and heads of tables
       end subroutine make_interface
-
-      !> `why_no_area`: why a converged solution may have no contact area, such as 'no pressure reaches 0.1 p*'.
-      subroutine reason_interface(values, words)
-         import :: group_values
-         type(group_values), intent(in) :: values      !! of &method
-         character(:), allocatable, intent(out) :: words
-      end subroutine reason_interface
    end interface
 
 end module wavycon_solver_method

@@ -10,11 +10,11 @@ module wavycon_ball_kind
    use wavycon_map_statistics, only: map_statistics
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_of_ball, surface_type
-   use wavycon_surface_kind, only: check_radii, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
+   use wavycon_surface_kind, only: check_radii, length_x_key, length_y_key, radii_of, radius_keys, surface_kind
    implicit none (type, external)
    private
 
-   public :: ball_kind
+   public :: ball_kind, set_ball_sides
 
    !> Sides of the rectangle that is computed, over the half axes of Hertz's contact under the largest load: twice the
    !> contact, so that a hardness or a rough estimate of the load does not bring its edge to the border.
@@ -26,30 +26,27 @@ contains
       kind%name = 'ball'
       kind%meaning = 'a ball on a half-space, not repeated'
       allocate (kind%keys, source=[ &
-         form_radius_keys('radius', 'the ball'), &
-         length_x_key(), length_y_key(), &
+         radius_keys('radius', 'the ball', 20, '', required=.true.), length_x_key(), length_y_key(), &
          integer_key('points', 'as kind says', 'points of the rectangle length_x x length_y along x and y on which '// &
                      'the ball is solved; one number for both. Without it grids are refined to the accuracy of '// &
                      '&method.', &
                      1, most_points, most_values=2)])
       kind%make => make
       kind%check => check
-      kind%set_sides => set_sides
    end function ball_kind
 
-   !> Reports a missing radius, and one side without the other.
+   !> Reports radii too unlike each other, and one side without the other.
    subroutine check(values, problems)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      if (.not. (values%has('radius') .or. values%has('radius_x') .or. values%has('radius_y'))) &
-         call values%complain(problems, 'kind', "kind = 'ball' needs radius, or radius_x and radius_y")
       call check_radii(values, problems, 'radius')
-      call values%require(problems, 'length_y', 'length_x')
+      if (values%has('length_y') .and. .not. values%has('length_x')) &
+         call values%complain(problems, 'length_y', 'length_y needs length_x beside it')
    end subroutine check
 
    !> Sets the default sides: some half axes of Hertz's contact at the largest load, or what carries it at the hardness.
-   subroutine set_sides(values, e_star, hardness, key, largest)
+   subroutine set_ball_sides(values, e_star, hardness, key, largest)
       type(group_values), intent(inout) :: values
       real(dp), intent(in) :: e_star, hardness    !! [pressure]; the second huge if there is none
       character(*), intent(in) :: key             !! of the loads: 'force', 'approach', 'contact_area' or another
@@ -80,7 +77,7 @@ contains
       if (.not. minval(half_axis) > 0.0_dp) half_axis = minval(radii)/10
       call values%set_default('length_x', sides_over_half_axes*half_axis(1:1))
       call values%set_default('length_y', sides_over_half_axes*half_axis(2:2))
-   end subroutine set_sides
+   end subroutine set_ball_sides
 
    subroutine make(values, surface, map, error)
       type(group_values), intent(inout) :: values

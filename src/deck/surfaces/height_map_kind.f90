@@ -16,7 +16,7 @@ module wavycon_height_map_kind
    use wavycon_prepare_map, only: map_preparation
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kind, only: check_form, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
+   use wavycon_surface_kind, only: check_radii, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
    use wavycon_system, only: full_path, path_absent, path_kind
    implicit none (type, external)
    private
@@ -63,21 +63,20 @@ contains
             "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders; 'free', "// &
             'not at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
          real_key('window_width', short_number(usual_window_width), '-', &
-            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp), &
+            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp, &
+            needs="edges='window'"), &
          real_key('short_wavelength', '', 'length', 'shortest wave that stays in the map; without it all stay.', &
                   above=0.0_dp), &
-         form_radius_keys('form_radius', "a ball that the map lies on, with edges = 'free'")])
+         form_radius_keys('the map')])
       kind%make => make
       kind%check => check
    end function height_map_kind
 
    subroutine check(values, problems)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
-      if (values%has('window_width') .and. values%text('edges') /= 'window') &
-         call values%complain(problems, 'window_width', "window_width is for edges = 'window'")
-      call check_form(values, problems)
+      call check_radii(values, problems, 'form_radius')
    end subroutine check
 
    !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes

@@ -11,7 +11,7 @@ module wavycon_self_affine_kind
    use wavycon_self_affine, only: self_affine_surface
    use wavycon_self_affine_heights, only: has_waves, least_points_of, self_affine_spectrum
    use wavycon_surface, only: surface_type
-   use wavycon_surface_kind, only: check_form, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
+   use wavycon_surface_kind, only: check_radii, form_radius_keys, length_x_key, length_y_key, radii_of, surface_kind
    implicit none (type, external)
    private
 
@@ -30,12 +30,12 @@ contains
          length_x_key(), length_y_key(), &
          real_key('hurst', '0.8', '-', 'Hurst exponent of the roughness.', least=0.0_dp, most=1.0_dp), &
          real_key('rms_height', '', 'length', 'root mean square of the height; or give rms_slope.', &
-                  above=0.0_dp, way=1), &
+                  above=0.0_dp, way=10, required=.true.), &
          real_key('rms_slope', '', '-', 'root mean square of the slope, the size of the gradient; or give '// &
-                  'rms_height.', above=0.0_dp, way=2), &
+                  'rms_height.', above=0.0_dp, way=11), &
          real_key('spectral_density', '', 'length^4', 'in place of rms_height or rms_slope: the spectral density '// &
                   'of waves longer than rolloff_wavelength, as &output spectrum has it; of a profile in length^3.', &
-                  above=0.0_dp, way=3), &
+                  above=0.0_dp, way=12), &
          real_key('long_wavelength', 'the longer side of the cell', 'length', 'longest wave, the long cut-off.', &
                   above=0.0_dp), &
          real_key('rolloff_wavelength', 'long_wavelength', 'length', &
@@ -56,12 +56,12 @@ contains
          choice_key('edges', "'periodic'", "how the surface continues beyond its borders: 'periodic'; 'free', not "// &
                     'at all: it is pressed on a half-space.', &
                     [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
-         form_radius_keys('form_radius', "a ball that the surface lies on, with edges = 'free'")])
+         form_radius_keys('the surface')])
       kind%make => make
-      kind%set_defaults => set_defaults
       kind%check => check
    end function self_affine_kind
 
+   !> Sets the defaults that depend on other keys.
    subroutine set_defaults(values)
       type(group_values), intent(inout) :: values
 
@@ -79,7 +79,7 @@ contains
       call values%set_default('rolloff_wavelength', values%reals('long_wavelength'))
       call values%set_default('short_wavelength', values%reals('rolloff_wavelength')/64)
       if (points(1) == 0) points = default_points(length/values%real('short_wavelength'))
-      if (.not. values%is_bad('points')) call values%set('points', points)
+      if (.not. values%is_bad('points')) call values%set('points', real(points, dp))
    end subroutine set_defaults
 
    !> The least power of two with four points to the shortest wave.
@@ -92,23 +92,18 @@ contains
       end do
    end function default_points
 
-   !> Reports a missing or second measure of the roughness, cut-offs out of order, too few points, and cut-offs between
-   !> which the cell has no wave.
+   !> Reports cut-offs out of order, too few points, and cut-offs between which the cell has no wave.
    subroutine check(values, problems)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
       type(self_affine_spectrum) :: spectrum
       integer :: before
 
-      if (.not. any([values%has('rms_height'), values%has('rms_slope'), values%has('spectral_density')])) &
-         call values%complain(problems, 'kind', "kind = 'self_affine' needs rms_height, rms_slope or spectral_density")
-      call values%forbid(problems, 'rms_height', 'rms_slope', 'give one of them')
-      call values%forbid(problems, 'rms_height', 'spectral_density', 'give one of them')
-      call values%forbid(problems, 'rms_slope', 'spectral_density', 'give one of them')
+      call set_defaults(values)
       if (all(values%text('edges') /= ['periodic', 'free    '])) call values%complain(problems, 'edges', &
          "a random surface is made periodic: edges must be 'periodic' or 'free'")
-      call check_form(values, problems)
+      call check_radii(values, problems, 'form_radius')
       if (values%any_bad()) return
       before = problems%number
       spectrum = spectrum_of(values)

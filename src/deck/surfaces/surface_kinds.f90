@@ -3,7 +3,6 @@ module wavycon_surface_kinds
    use wavycon_ball_kind, only: ball_kind
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: height_map_kind
-   use wavycon_plain_text, only: listed
    use wavycon_self_affine_kind, only: self_affine_kind
    use wavycon_surface_kind, only: surface_kind
    use wavycon_wave_kinds, only: get_wave_kinds, number_of_wave_kinds
@@ -11,7 +10,7 @@ module wavycon_surface_kinds
    implicit none (type, external)
    private
 
-   public :: get_surface_kinds, kind_of, paper_waves, is_paper_kind
+   public :: get_surface_kinds, kind_of
 
    integer, parameter, public :: number_of_kinds = 8
 
@@ -39,29 +38,5 @@ contains
       i = findloc(kinds%name == values%text('kind'), .true., dim=1)
       if (i > 0) kind = kinds(i)
    end function kind_of
-
-   !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions, for
-   !> messages.
-   function paper_waves() result(words)
-      character(:), allocatable :: words
-
-      type(surface_kind) :: kinds(number_of_kinds)
-      character(len(kinds%paper_wave_if)) :: conditions(number_of_kinds)
-
-      call get_surface_kinds(kinds)
-      conditions = kinds%paper_wave_if
-      words = listed(pack(conditions, conditions /= ''))
-   end function paper_waves
-
-   !> Whether a kind is by definition a wave of the paper, perhaps on a condition. A sum of waves may equal one; use
-   !> surface_type%is_paper_wave to find out.
-   logical function is_paper_kind(name)
-      character(*), intent(in) :: name   !! of a kind; .false. for any other text
-
-      type(surface_kind) :: kinds(number_of_kinds)
-
-      call get_surface_kinds(kinds)
-      is_paper_kind = any(kinds%name == name .and. kinds%paper_wave_if /= '')
-   end function is_paper_kind
 
 end module wavycon_surface_kinds

@@ -18,6 +18,10 @@ module wavycon_wave_kinds
 
    integer, parameter, public :: number_of_wave_kinds = 4
 
+   !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions.
+   character(*), parameter, public :: paper_kinds(*) = ['wave_1d   ', 'wave_2d   ', 'crossed_1d'], &
+      paper_waves = 'wave_1d, wave_2d with one wavelength, crossed_1d with equal waves'
+
 contains
 
    subroutine get_wave_kinds(kinds)
@@ -30,14 +34,11 @@ contains
       kinds(1)%name = 'wave_1d'
       kinds(1)%meaning = 'gap amplitude (1 - cos phi), phi = 2 pi x/wavelength'
       kinds(1)%keys = [amplitude_key('amplitude', mean_gap), wavelength_key('wavelength', 'wavelength along x.')]
-      kinds(1)%paper_wave_if = 'wave_1d'
 
       kinds(2)%name = 'wave_2d'
       kinds(2)%meaning = 'amplitude (1 - cos phi cos theta), theta = 2 pi y/wavelength_y'
       kinds(2)%keys = [amplitude_key('amplitude', mean_gap), wavelength_key('wavelength', 'wavelength along x.'), &
                        real_key('wavelength_y', 'wavelength', 'length', 'wavelength along y.', above=0.0_dp)]
-      kinds(2)%paper_wave_if = 'wave_2d with one wavelength'
-      kinds(2)%set_defaults => set_wavelength_y
 
       kinds(3)%name = 'crossed_1d'
       kinds(3)%meaning = 'a wave on each of two blocks'
@@ -46,7 +47,6 @@ contains
          wavelength_key('wavelength1', 'wavelength along x.', required=.true.), &
          amplitude_key('amplitude2', 'amplitude of the wave along y, on the second block.', required=.true.), &
          wavelength_key('wavelength2', 'wavelength along y.', required=.true.)]
-      kinds(3)%paper_wave_if = 'crossed_1d with equal waves'
 
       kinds(4)%name = 'hexagonal'
       kinds(4)%meaning = 'three equal waves at 60 degrees to each other'
@@ -75,12 +75,6 @@ contains
       if (key%required) key%default = ''
    end function wavelength_key
 
-   subroutine set_wavelength_y(values)
-      type(group_values), intent(inout) :: values
-
-      call values%set_default('wavelength_y', values%reals('wavelength'))
-   end subroutine set_wavelength_y
-
    subroutine make(values, surface, map, error)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(out) :: surface
@@ -91,6 +85,7 @@ contains
       case ('wave_1d')
          surface = wave_1d(values%real('amplitude'), values%real('wavelength'))
       case ('wave_2d')
+         call values%set_default('wavelength_y', values%reals('wavelength'))
          surface = wave_2d(values%real('amplitude'), values%real('wavelength'), values%real('wavelength_y'))
       case ('crossed_1d')
          surface = crossed_1d(values%real('amplitude1'), values%real('wavelength1'), values%real('amplitude2'), &

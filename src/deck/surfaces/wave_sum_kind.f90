@@ -36,22 +36,16 @@ contains
          real_key('phases', '0', 'degree', 'phase of each wave.', least=-360.0_dp, most=360.0_dp, &
             most_values=most_waves)])
       kind%make => make
-      kind%set_defaults => set_defaults
       kind%check => check
    end function wave_sum_kind
 
-   subroutine set_defaults(values)
-      type(group_values), intent(inout) :: values
-
-      call values%set_default('length_y', values%reals('length_x'))
-      call values%set_default('waves_y', 0*values%integers('waves_x'))
-      call values%set_default('phases', 0*values%reals('amplitudes'))
-   end subroutine set_defaults
-
    subroutine check(values, problems)
-      type(group_values), intent(in) :: values
+      type(group_values), intent(inout) :: values
       type(problem_list_type), intent(inout) :: problems
 
+      call values%set_default('length_y', values%reals('length_x'))
+      call values%set_default('waves_y', 0*values%reals('waves_x'))
+      call values%set_default('phases', 0*values%reals('amplitudes'))
       call check_count(values, problems, 'waves_x', size(values%integers('waves_x')))
       call check_count(values, problems, 'waves_y', size(values%integers('waves_y')))
       call check_count(values, problems, 'phases', size(values%reals('phases')))
