@@ -15,20 +15,20 @@ module wavycon_collected_table
 
    public :: collected_table
 
-   integer, parameter :: longest_name = 49, longest_word = 32
+   !> Width of the narrowest column, as in other tables; length of the longest line of a summary.
+   integer, parameter :: narrowest = 25, longest_line = 4096
 
    !> A deck that was run.
    type :: collected_deck
       character(:), allocatable :: deck, case
       character(:), allocatable :: summary     !! path of its summary table
       type(deck_key), allocatable :: keys(:)   !! the same of each deck
-      character(longest_word), allocatable :: units(:)   !! of the columns of the summary
+      character(:), allocatable :: units       !! line of the units of the summary
    end type collected_deck
 
    type :: collected_table
       private
       type(collected_deck), allocatable :: decks(:)
-      character(longest_name), allocatable :: columns(:)   !! name[unit] of those of the summary
       integer :: number = 0                    !! of decks that have been added
       character(:), allocatable :: failed      !! lines of the head, for the decks that were not run
    contains
@@ -51,7 +51,6 @@ contains
       character(:), allocatable :: failure
 
       allocate (self%decks(most_decks))
-      self%columns = column_list(summary_columns)
       self%failed = ''
       call make_directories(directory_of(path), failure)
       if (allocated(failure)) then
@@ -86,7 +85,8 @@ contains
    end subroutine note_failure
 
    !> Writes the table. Columns of keys are those that are set on the command line, and those that a deck gives and that
-   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word.
+   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word. Units are those of the
+   !> summaries if these agree, otherwise 'length' or the like.
    !>
    !> Errors: exit_file_trouble, also for a summary that cannot be read.
    subroutine write_table(self, path, settings, error)
@@ -95,38 +95,84 @@ contains
       type(setting_type), intent(in) :: settings(:)   !! of the command line
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: columns(:)
+      character(:), allocatable :: line, names, units
+      integer, allocatable :: columns(:), width(:)
       type(output_file) :: file
-      integer :: d
+      integer :: d, k
+      logical :: agree
 
-      do d = 1, self%number
-         call read_summary(self%decks(d), size(self%columns), error)
-         if (allocated(error)) return
-      end do
       call choose_columns(self, settings, columns)
+      allocate (width(2 + size(columns)), source=narrowest)
+      names = ''
+      units = ''
+      associate (summary => column_list(summary_columns))
+         do k = 1, size(summary)
+            names = names//' '//trim(column_name(summary(k)))
+            units = units//' ['//trim(column_unit(summary(k)))//']'
+         end do
+      end associate
+      agree = self%number > 0
+      do d = 1, self%number
+         associate (deck => self%decks(d))
+            call read_summary(deck, names, error)
+            if (allocated(error)) return
+            agree = agree .and. deck%units == self%decks(1)%units
+            width(:2) = max(width(:2), [len(deck%deck), len(deck%case)] + 1)
+            do k = 1, size(columns)
+               width(2 + k) = max(width(2 + k), len(deck%keys(columns(k))%word) + 1, &
+                                  len_trim(deck%keys(columns(k))%name) + 1)
+            end do
+         end associate
+      end do
+      if (agree) units = self%decks(1)%units
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
       call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
-      call put_columns(self, columns, file)
+      line = ''
+      do k = 1, size(width)
+         line = line//cell(k, '[-]')
+      end do
+      call file%put('#'//line(2:)//' '//units)
+      line = cell(1, 'deck')//cell(2, 'case')
+      do k = 1, size(columns)
+         line = line//cell(2 + k, trim(self%decks(1)%keys(columns(k))%name))
+      end do
+      call file%put(line//names)
       do d = 1, self%number
-         call read_summary(self%decks(d), size(self%columns), error, columns, file)
-         if (allocated(error)) return
+         associate (deck => self%decks(d))
+            line = cell(1, deck%deck)//cell(2, deck%case)
+            do k = 1, size(columns)
+               line = line//cell(2 + k, deck%keys(columns(k))%word)
+            end do
+            call read_summary(deck, names, error, file, line)
+            if (allocated(error)) return
+         end associate
       end do
       call file%finish(error)
+
+   contains
+
+      !> A word at the right of a column.
+      pure function cell(column, word) result(text)
+         integer, intent(in) :: column
+         character(*), intent(in) :: word
+         character(:), allocatable :: text
+
+         text = repeat(' ', width(column) - len(word))//word
+      end function cell
+
    end subroutine write_table
 
-   !> Reads the units of a summary, or adds its rows to the table. Errors: exit_file_trouble.
-   subroutine read_summary(deck, number, error, columns, file)
+   !> Reads the lines of the units and the names of a summary, or adds its rows to the table. Errors: exit_file_trouble.
+   subroutine read_summary(deck, names, error, file, before)
       type(collected_deck), intent(inout) :: deck
-      integer, intent(in) :: number   !! of the columns of the summary
+      character(:), allocatable, intent(inout) :: names
       type(error_type), allocatable, intent(out) :: error
-      integer, intent(in), optional :: columns(:)              !! the keys that have a column
-      type(output_file), intent(inout), optional :: file       !! present with `columns`: rows are added to it
+      type(output_file), intent(inout), optional :: file   !! rows are added to it
+      character(*), intent(in), optional :: before         !! of each row
 
-      character(longest_word) :: words(number + 1)   ! the line of the units begins with a '#'
-      character(2*longest_word*size(words)) :: line
+      character(longest_line) :: line
       character(200) :: message
-      character(:), allocatable :: head   ! of rows: deck, case, keys
-      integer :: k, status, unit
+      integer :: status, unit
       logical :: in_head
 
       open (newunit=unit, file=deck%summary, status='old', action='read', iostat=status, iomsg=message)
@@ -134,81 +180,22 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(deck%summary)//': cannot be read: '//system_words(message))
          return
       end if
-      head = ''
-      if (present(columns)) then
-         head = deck%deck//' '//deck%case
-         do k = 1, size(columns)
-            head = head//' '//deck%keys(columns(k))%word
-         end do
-      end if
       in_head = .true.
       do
          read (unit, '(a)', iostat=status) line
          if (status /= 0) exit
          if (line(1:1) == '#') then
-            call split(line, words)
-            cycle
+            deck%units = trim(line(2:))
          else if (in_head) then
-            ! The line of the names, behind that of the units.
             in_head = .false.
-            deck%units = words(2:)
+            names = trim(line)
             if (.not. present(file)) exit
-            cycle
+         else
+            call file%put(before//trim(line))
          end if
-         call file%put_words(head//' '//trim(line))
       end do
       close (unit)
    end subroutine read_summary
-
-   !> The first words of a line, without the brackets of units.
-   pure subroutine split(line, words)
-      character(*), intent(in) :: line
-      character(*), intent(out) :: words(:)
-
-      integer :: first, k, length
-
-      words = ''
-      first = 1
-      do k = 1, size(words)
-         first = first + verify(line(first:), ' ') - 1
-         length = scan(line(first:), ' ') - 1
-         if (length <= 0) return
-         words(k) = line(first:first + length - 1)
-         if (words(k)(1:1) == '[') words(k) = words(k)(2:length - 1)
-         first = first + length
-      end do
-   end subroutine split
-
-   !> Sets the names, units and widths of all columns.
-   subroutine put_columns(table, columns, file)
-      type(collected_table), intent(in) :: table
-      integer, intent(in) :: columns(:)   !! the keys that have one
-      type(output_file), intent(inout) :: file
-
-      integer, parameter :: before = 2   !! columns before those of the keys
-      character(longest_name) :: names(before + size(columns) + size(table%columns))
-      character(longest_word) :: units(size(names))
-      integer :: d, k, longest(size(names))
-
-      names(:before) = [character(4) :: 'deck', 'case']
-      units = '-'
-      longest = 0
-      do k = 1, size(columns)
-         names(before + k) = table%decks(1)%keys(columns(k))%name
-      end do
-      do k = 1, size(table%columns)
-         names(before + size(columns) + k) = column_name(table%columns(k))
-         units(before + size(columns) + k) = common_unit(table, k)
-      end do
-      do d = 1, table%number
-         longest(1) = max(longest(1), len(table%decks(d)%deck))
-         longest(2) = max(longest(2), len(table%decks(d)%case))
-         do k = 1, size(columns)
-            longest(before + k) = max(longest(before + k), len(table%decks(d)%keys(columns(k))%word))
-         end do
-      end do
-      call file%put_columns(names, units, longest)
-   end subroutine put_columns
 
    !> The keys that have a column, in the order of the first deck in which they have an effect.
    subroutine choose_columns(table, settings, columns)
@@ -254,21 +241,6 @@ contains
          differs = differs .or. table%decks(d)%keys(k)%word /= table%decks(1)%keys(k)%word
       end do
    end function differs
-
-   !> The unit of a column: as the decks name it if they agree, otherwise 'length' or the like.
-   pure function common_unit(table, column) result(unit)
-      type(collected_table), intent(in) :: table
-      integer, intent(in) :: column
-      character(longest_word) :: unit
-
-      integer :: d
-
-      unit = column_unit(table%columns(column))
-      do d = 1, table%number
-         if (table%decks(d)%units(column) /= table%decks(1)%units(column)) return
-      end do
-      if (table%number > 0) unit = table%decks(1)%units(column)
-   end function common_unit
 
    !> A text as one word of a table.
    pure function without_blanks(text) result(word)

@@ -49,7 +49,6 @@ module wavycon_output_file
       procedure, private :: add_integers, add_reals, add_word
       generic :: add => add_integers, add_reals, add_word
       procedure :: end_row
-      procedure :: put_words
       procedure :: put_rows
       procedure :: note_trouble
       procedure :: finish
@@ -124,11 +123,10 @@ contains
 
    !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
    !> or, without blocks, before the first row.
-   subroutine put_columns(self, names, units, longest)
+   subroutine put_columns(self, names, units)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! without blanks
       character(*), intent(in) :: units(:)   !! as many; shown in brackets
-      integer, intent(in), optional :: longest(:)   !! as many: bytes of the longest word of each column
 
       character(len(units) + 2) :: in_brackets(size(units))
       character(:), allocatable :: line
@@ -145,7 +143,6 @@ contains
       do i = 1, size(names)
          in_brackets(i) = '['//trim(units(i))//']'
          width = max(narrowest, len_trim(names(i)) + 1, len_trim(in_brackets(i)) + merge(2, 1, i == 1))
-         if (present(longest)) width = max(width, longest(i) + 1)
          last = last + width
          self%column_end(i) = last
       end do
@@ -153,27 +150,6 @@ contains
       line(1:1) = '#'
       call self%put(line)
    end subroutine put_columns
-
-   !> Writes a row of words.
-   subroutine put_words(self, text)
-      class(output_file), intent(inout) :: self
-      character(*), intent(in) :: text   !! a word for each column, not longer than it is wide, and blanks between them
-
-      character(self%column_end(size(self%column_end))) :: line
-      integer :: first, i, length
-
-      if (.not. self%has_names) call put_names(self)
-      line = ''
-      first = 1
-      do i = 1, size(self%column_end)
-         first = first + verify(text(first:), ' ') - 1
-         length = scan(text(first:), ' ') - 1
-         if (length < 0) length = len(text) - first + 1
-         line(self%column_end(i) - length + 1:self%column_end(i)) = text(first:first + length - 1)
-         first = first + length
-      end do
-      call self%put(line)
-   end subroutine put_words
 
    !> A line with words at the right of their columns.
    pure function aligned(self, words) result(line)
