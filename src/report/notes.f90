@@ -29,7 +29,7 @@ contains
       associate (scene => results%scene, surface => results%solver%surface)
          call log%say(head_lines(scene, surface, results%method, '', 'some'))
          loads = scene%target
-         words = target_words(scene%loads_by)
+         words = trim(target_words(scene%loads_by))
          if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
             loads = surface%nominal_area()*scene%mean_pressure
             words = 'force'

@@ -46,8 +46,8 @@ module wavycon_output_file
       procedure :: put_numbers
       procedure :: put_columns
       procedure :: begin_block
-      procedure, private :: add_integers, add_reals, add_word
-      generic :: add => add_integers, add_reals, add_word
+      procedure, private :: add_integers, add_long, add_reals, add_word
+      generic :: add => add_integers, add_long, add_reals, add_word
       procedure :: end_row
       procedure :: put_rows
       procedure :: note_trouble
@@ -193,9 +193,16 @@ contains
       class(output_file), intent(inout) :: self
       integer, intent(in) :: values(:)
 
+      call self%add_long(int(values, int64))
+   end subroutine add_integers
+
+   subroutine add_long(self, values)
+      class(output_file), intent(inout) :: self
+      integer(int64), intent(in) :: values(:)   !! of at most 15 digits
+
       call self%add(real(values, dp))
       self%kinds(self%columns_filled - size(values) + 1:self%columns_filled) = of_integers
-   end subroutine add_integers
+   end subroutine add_long
 
    subroutine add_reals(self, values)
       class(output_file), intent(inout) :: self
@@ -228,7 +235,7 @@ contains
             if (self%kinds(k) /= of_reals) self%memory%kinds(k) = self%kinds(k)
             if (self%kinds(k) == of_words) self%numbers(k) = self%memory%number_of_word(trim(self%words(k)))
          else if (self%kinds(k) == of_integers) then
-            write (self%words(k), '(i0)') nint(self%numbers(k))
+            write (self%words(k), '(i0)') nint(self%numbers(k), int64)
          else if (self%kinds(k) == of_reals) then
             write (self%words(k), real_format) self%numbers(k)
             self%words(k) = adjustl(self%words(k))

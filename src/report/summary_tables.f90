@@ -77,7 +77,8 @@ contains
                         surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
                         results%peak_pressure(load), scene%p_star*errors(3), results%in_p_star(energy), &
                         scene%p_star*surface%amplitude*surface%nominal_area()*energy])
-         call file%add([int(solution%active_constraints), solution%iterations])
+         call file%add([solution%active_constraints])
+         call file%add([solution%iterations])
          call file%add([solution%residual])
          call file%add(trim(solver_names(solution%solver)))
       end associate
