@@ -1,23 +1,26 @@
 !> Tables of numbers at the points of a grid over the whole cell: a text in gnuplot's grid format, with a blank line
 !> between rows, or an array of records for numpy.
 module wavycon_cell_file
-   use, intrinsic :: iso_fortran_env, only: int64
+   use, intrinsic :: iso_fortran_env, only: int64, int8
    use wavycon_contact_fields, only: contact_fields
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: column_list, column_name, longest_column
-   use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: integer_text
+   use wavycon_plain_text, only: integer_text, newline
    use wavycon_results, only: results_type
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
-   public :: cell_file, check_memory, is_text, map_offset, map_points
+   public :: cell_file, check_memory, is_text, map_offset, map_points, npy_header
 
    !> A map of more points than the square of this, or planes of more points together, are written in numpy's format,
    !> unless the deck says otherwise.
    integer, parameter, public :: text_side = 257
+
+   !> The header of numpy's format, version 1.0 (numpy.lib.format), is a multiple of so many bytes, the same for all maps
+   !> of a kind, so that readers that do not know the format skip it.
+   integer, parameter, public :: npy_header_step = 256
 
    type :: cell_file
       type(output_file) :: file
@@ -138,5 +141,43 @@ contains
       ! The points of a mirrored map are in the middle of their steps, so that none lies on a border.
       offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
    end function map_offset
+
+   !> The bytes of numpy's file format before the elements, double precision numbers or records of them. These follow
+   !> with the last index changing fastest.
+   pure function npy_header(elements, names) result(header)
+      integer, intent(in) :: elements(:)     !! their number along each index
+      !> Names of the numbers of a record, short enough for the header; absent: the elements are numbers.
+      character(*), intent(in), optional :: names(:)
+      character(:), allocatable :: header
+
+      !> Followed by two bytes for the length of the rest, the lower one first.
+      character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)
+      integer, parameter :: before_words = len(magic) + 2
+      character(:), allocatable :: number, words
+      integer :: i, length
+
+      number = "'"//byte_order()//"f8'"
+      words = number
+      if (present(names)) then
+         words = '['
+         do i = 1, size(names)
+            words = words//"('"//trim(names(i))//"', "//number//'), '
+         end do
+         words = words//']'
+      end if
+      words = "{'descr': "//words//", 'fortran_order': False, 'shape': ("
+      do i = 1, size(elements)
+         words = words//integer_text(elements(i))//', '
+      end do
+      words = words//'), }'
+      length = npy_header_step*((before_words + len(words) + npy_header_step)/npy_header_step)
+      header = magic//char(modulo(length - before_words, 256))//char((length - before_words)/256)//words
+      header = header//repeat(' ', length - len(header) - 1)//newline
+   end function npy_header
+
+   !> '<' where the lowest byte of a number is the first, '>' elsewhere.
+   pure character function byte_order()
+      byte_order = merge('<', '>', transfer(1, 1_int8) == 1_int8)
+   end function byte_order
 
 end module wavycon_cell_file

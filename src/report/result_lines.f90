@@ -27,6 +27,7 @@ contains
       integer :: i, load, solver_width
       real(dp) :: approach(2), errors(3), unit(3), values(3)
 
+      if (log%quiet) return
       ! The longest name of a solver among the loads.
       solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
       names = [character(9) :: 'gap/Delta', 'area/A0', 'peak/p*']

@@ -15,7 +15,7 @@ module wavycon_run_log
 
    type :: run_log
       private
-      logical :: quiet = .false.
+      logical, public :: quiet = .false.   !! whether nothing is written
       integer :: columns = 0          !! of the terminal; 0: there is none
       integer :: shown = 0            !! of them by the progress line
       integer(int64) :: started = 0, last_progress = 0, rate = 1

@@ -3,12 +3,11 @@
 !> <case>.spectrum.dat: its power spectra, a block for the isotropic one and one for lines along x and y.
 !> <case>.height.npy: its heights, for numpy and for kind = 'file'.
 module wavycon_surface_tables
-   use wavycon_cell_file, only: check_memory, map_points
+   use wavycon_cell_file, only: check_memory, map_points, npy_header
    use wavycon_error, only: error_type
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_npy_header, only: npy_header
    use wavycon_output_file, only: output_file
    use wavycon_power_spectrum, only: line_spectrum, power_spectrum, radial_spectrum
    use wavycon_results, only: not_a_number, results_type
