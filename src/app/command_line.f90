@@ -46,17 +46,18 @@ module wavycon_command_line
    type(option_type), parameter :: options(*) = [ &
       option_type('--check', '', 'validate the decks, say what a run would do, and stop'), &
       option_type('--set', 'GROUP.KEY=VALUE', 'set a key in place of those of the decks, such as '// &
-         'surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,0.2; may be repeated. Keys of the deck that contradict '// &
-         'it are left out: other ways to give the loads or the stiffness, accuracy or grid_points, keys of another '// &
-         'kind of surface or solver. The name of the case gets key and value, unless scene.case is set too'), &
+         'surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,0.2; may be repeated. Keys of the deck that '// &
+         'contradict it are left out: other ways to give the loads or the stiffness, accuracy or grid_points, keys '// &
+         'of another kind of surface or solver. The name of the case gets key and value, unless scene.case is set '// &
+         'too'), &
       option_type('--sweep', 'GROUP.KEY=VALUE,...', 'run each deck once for each value, as with --set; several '// &
          'sweeps: for all combinations'), &
       option_type('--output', 'DIR', 'write the results to DIR, not to the directory of &output'), &
       option_type('--table', 'FILE', 'write one table of all decks: a row for each deck and load, with the values '// &
          'of the keys that are set or differ, and the columns of the summary'), &
       option_type('--keep-going', '', 'a bad deck does not keep the others from being run'), &
-      option_type('--resume', '', 'continue an interrupted run, to the same tables. Loads that were solved on grids '// &
-         'are read from <case>.checkpoint; loads of the other solvers are fast and are solved again'), &
+      option_type('--resume', '', 'continue an interrupted run, to the same tables. Loads that were solved on '// &
+         'grids are read from <case>.checkpoint; loads of the other solvers are fast and are solved again'), &
       option_type('--jobs', 'N', 'run N decks at a time, each in a process of its own; 1 if not given'), &
       option_type('--threads', 'N', 'work on large grids with N threads; 1 if not given'), &
       option_type('--quiet', '', 'write nothing but errors'), &
@@ -308,9 +309,9 @@ contains
          call add_wrapped(text, indent, trim(options(i)%meaning), head)
       end do
       text = text//newline
-      if (is_parallel) call add_wrapped(text, 0, 'The RANKS processes share the work: large grids are divided among '// &
-         'them, or else the loads. Each needs the memory of its part, and has N threads of its own. The results are '// &
-         'those of wavycon.')
+      if (is_parallel) call add_wrapped(text, 0, 'The RANKS processes share the work: large grids are divided '// &
+         'among them, or else the loads. Each needs the memory of its part, and has N threads of its own. The '// &
+         'results are those of wavycon.')
       if (is_parallel) text = text//newline
       call add_wrapped(text, 0, 'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of '// &
                        'several decks the worst.')

@@ -18,8 +18,8 @@ module wavycon_cell_file
    !> unless the deck says otherwise.
    integer, parameter, public :: text_side = 257
 
-   !> The header of numpy's format, version 1.0 (numpy.lib.format), is a multiple of so many bytes, the same for all maps
-   !> of a kind, so that readers that do not know the format skip it.
+   !> The header of numpy's format, version 1.0 (numpy.lib.format), is a multiple of so many bytes, the same for all
+   !> maps of a kind, so that readers that do not know the format skip it.
    integer, parameter, public :: npy_header_step = 256
 
    type :: cell_file

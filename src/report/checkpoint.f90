@@ -153,8 +153,8 @@ contains
       words = integer_text(self%kept)//' of '//integer_text(self%loads)//' loads are kept in '//self%name
    end function kept_words
 
-   !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile: as `put` sees by
-   !> its size.
+   !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile: as `put` sees
+   !> by its size.
    subroutine remove(self)
       class(checkpoint_file), intent(inout) :: self
 

@@ -16,11 +16,11 @@ module wavycon_interface_tables
    use wavycon_partial_slip, only: cycle_energy, relative_displacement, slip_loop
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: adhesion_table, interface_table, partial_slip_table, slip_loop_table
+   public :: add_interface_tables
 
    character(*), parameter :: adhesion_columns = &
       'load[-] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
@@ -30,15 +30,30 @@ module wavycon_interface_tables
 
 contains
 
-   type(table_type) function interface_table() result(table)
-      table = table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
-                         columns='load[-] pbar_over_pstar[-] mean_pressure[pressure] '// &
+   !> Adds the tables of this file to a list.
+   subroutine add_interface_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
+         columns='load[-] pbar_over_pstar[-] mean_pressure[pressure] '// &
          'contact_stiffness[pressure/length] contact_stiffness_error[pressure/length] '// &
          'contact_stiffness_normalised[-] contact_stiffness_normalised_error[-] contact_area_slope[-] '// &
          'contact_area_slope_error[-] mean_gap_curvature[-] mean_gap_curvature_error[-] '// &
          'contact_resistance[resistivity*length] contact_resistance_error[resistivity*length] status_code[-] '// &
-         'status[-]')
-   end function interface_table
+         'status[-]'))
+      call add_table(tables, table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
+         needs_fields=.true., put_load=put_slip, &
+         columns='load[-] tangential[-] mean_pressure[pressure] tangential_load[pressure] '// &
+         'tangential_over_limit[-] stick_pbar_over_pstar[-] contact_area_fraction[-] stick_area_fraction[-] '// &
+         'stick_area_error[-] displacement[length] displacement_error[length] least_displacement[length] '// &
+         'most_displacement[length] tangential_stiffness[pressure/length] cycle_energy[pressure*length] '// &
+         'cycle_energy_error[pressure*length] status_code[-] status[-]'))
+      call add_table(tables, table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
+         columns='load[-] tangential[-] branch[-] tangential_load[pressure] displacement[length]'))
+      call add_table(tables, table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
+         ''], &
+         needs_fields=.true., write_all=write_adhesion, columns=adhesion_columns))
+   end subroutine add_interface_tables
 
    !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
    !> resistance of a nominal area follows from it (I8).
@@ -73,16 +88,6 @@ contains
       end associate
       call results%end_row(file, load)
    end subroutine put_interface
-
-   type(table_type) function partial_slip_table() result(table)
-      table = table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
-                         needs_fields=.true., put_load=put_slip, &
-                         columns='load[-] tangential[-] mean_pressure[pressure] tangential_load[pressure] '// &
-         'tangential_over_limit[-] stick_pbar_over_pstar[-] contact_area_fraction[-] stick_area_fraction[-] '// &
-         'stick_area_error[-] displacement[length] displacement_error[length] least_displacement[length] '// &
-         'most_displacement[length] tangential_stiffness[pressure/length] cycle_energy[pressure*length] '// &
-         'cycle_energy_error[pressure*length] status_code[-] status[-]')
-   end function partial_slip_table
 
    !> The tangential stiffness is that of the next increase of the load.
    subroutine put_slip(results, load, file)
@@ -129,11 +134,6 @@ contains
       end associate
    end subroutine put_slip
 
-   type(table_type) function slip_loop_table() result(table)
-      table = table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
-                         columns='load[-] tangential[-] branch[-] tangential_load[pressure] displacement[length]')
-   end function slip_loop_table
-
    subroutine put_loop(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -160,11 +160,6 @@ contains
          end do
       end associate
    end subroutine put_loop
-
-   type(table_type) function adhesion_table() result(table)
-      table = table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', ''], &
-                         needs_fields=.true., write_all=write_adhesion, columns=adhesion_columns)
-   end function adhesion_table
 
    !> Errors: exit_file_trouble.
    subroutine write_adhesion(results, error)

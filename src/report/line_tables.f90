@@ -10,11 +10,11 @@ module wavycon_line_tables
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: lines_table, put_surface_line, start_surface_line, surface_line
+   public :: add_line_tables, put_surface_line, start_surface_line, surface_line
 
    !> Columns of a line, before those of its values.
    character(*), parameter, public :: line_columns = &
@@ -32,12 +32,15 @@ module wavycon_line_tables
 
 contains
 
-   type(table_type) function lines_table() result(table)
-      table = table_type('lines', 'lines', needs_fields=.true., put_load=put_lines, &
-                         columns=line_columns//' pressure_over_pstar[-] displacement_over_amplitude[-] '// &
+   !> Adds the tables of this file to a list.
+   subroutine add_line_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('lines', 'lines', needs_fields=.true., put_load=put_lines, &
+         columns=line_columns//' pressure_over_pstar[-] displacement_over_amplitude[-] '// &
          'gap_over_amplitude[-] undeformed_gap_over_amplitude[-] pressure[pressure] displacement[length] gap[length]', &
-                         meaning='Pressures and gaps along lines.')
-   end function lines_table
+         meaning='Pressures and gaps along lines.'))
+   end subroutine add_line_tables
 
    subroutine put_lines(results, load, file)
       type(results_type), intent(in) :: results

@@ -14,11 +14,11 @@ module wavycon_map_tables
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: map_table, slip_map_table
+   public :: add_map_tables
 
    !> Numbers in memory for each point of a map: three fields and the surface, the spectrum of one, and those of the
    !> solution; of a slip map: three fields of two contacts.
@@ -34,11 +34,17 @@ module wavycon_map_tables
 
 contains
 
-   type(table_type) function map_table() result(table)
-      table = table_type('map', 'map', needs_fields=.true., written_by_all=is_written_by_all, &
-                         write_all=write_map_table, columns=map_columns, &
-                         meaning='Pressures and gaps over the whole cell.')
-   end function map_table
+   !> Adds the tables of this file to a list.
+   subroutine add_map_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('map', 'map', needs_fields=.true., written_by_all=is_written_by_all, &
+         write_all=write_map_table, columns=map_columns, &
+         meaning='Pressures and gaps over the whole cell.'))
+      call add_table(tables, table_type('slip_map', 'slip_map', 'interface', needs_fields=.true., &
+         write_all=write_slip_map, &
+         columns=slip_columns))
+   end subroutine add_map_tables
 
    !> All ranks write a map in numpy's format at the points of the grid that all loads are solved on.
    logical function is_written_by_all(results)
@@ -144,11 +150,6 @@ contains
       values(3, :) = results%solver%surface%amplitude*u
       values(4, :) = results%solver%surface%amplitude*(1.0_dp - shape)
    end function row_of
-
-   type(table_type) function slip_map_table() result(table)
-      table = table_type('slip_map', 'slip_map', 'interface', needs_fields=.true., write_all=write_slip_map, &
-                         columns=slip_columns)
-   end function slip_map_table
 
    !> Errors: exit_file_trouble.
    subroutine write_slip_map(results, error)

@@ -22,19 +22,37 @@ module wavycon_spot_tables
    use wavycon_measure_tuning, only: line_samples, plane_samples
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: contour_table, histogram_table, spot_sizes_table, spots_table
+   public :: add_spot_tables
 
 contains
 
-   type(table_type) function contour_table() result(table)
-      table = table_type('contour', 'contours', needs_fields=.true., put_load=put_curves, &
-                         columns='load[-] curve[-] x[length] y[length]', &
-                         meaning='The edge of contact as closed curves.')
-   end function contour_table
+   !> Adds the tables of this file to a list.
+   subroutine add_spot_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('contour', 'contours', needs_fields=.true., put_load=put_curves, &
+         columns='load[-] curve[-] x[length] y[length]', &
+         meaning='The edge of contact as closed curves.'))
+      call add_table(tables, table_type('spots', 'spots', needs_fields=.true., put_load=put_spots, &
+         columns='load[-] pbar_over_pstar[-] contact_area_fraction[-] spots[-] '// &
+         'spots_area_fraction[-] largest_spot_area_fraction[-] closed_pools[-] closed_pools_area_fraction[-] '// &
+         'largest_pool_area_fraction[-] perimeter[length] contact_percolates_x[-] contact_percolates_y[-] '// &
+         'gap_percolates_x[-] gap_percolates_y[-] status_code[-] status[-]', &
+         meaning='Number and sizes of contact spots and of pools of gap; percolation of both.'))
+      call add_table(tables, table_type('spot_sizes', asked_by=[character(16) :: 'spots', ''], needs_fields=.true., &
+         put_load=put_spot_sizes, &
+         columns='load[-] rank[-] area[area] area_fraction[-] equivalent_radius[length] '// &
+         'perimeter[length] load_fraction[-] mean_pressure[pressure] x[length] y[length] holes[-] percolates_x[-] '// &
+         'percolates_y[-] region[-]'))
+      call add_table(tables, table_type('histogram', 'histograms', needs_fields=.true., put_load=put_histogram, &
+         columns='load[-] bin[-] pressure[pressure] pressure_mean[pressure] pressure_fraction[-] '// &
+         'pressure_density[1/pressure] gap[length] gap_mean[length] gap_fraction[-] gap_density[1/length]', &
+         meaning='How pressures are distributed over the contact, and gaps over the open area.'))
+   end subroutine add_spot_tables
 
    subroutine put_curves(results, load, file)
       type(results_type), intent(in) :: results
@@ -58,15 +76,6 @@ contains
          end do
       end associate
    end subroutine put_curves
-
-   type(table_type) function spots_table() result(table)
-      table = table_type('spots', 'spots', needs_fields=.true., put_load=put_spots, &
-                         columns='load[-] pbar_over_pstar[-] contact_area_fraction[-] spots[-] '// &
-         'spots_area_fraction[-] largest_spot_area_fraction[-] closed_pools[-] closed_pools_area_fraction[-] '// &
-         'largest_pool_area_fraction[-] perimeter[length] contact_percolates_x[-] contact_percolates_y[-] '// &
-         'gap_percolates_x[-] gap_percolates_y[-] status_code[-] status[-]', &
-                         meaning='Number and sizes of contact spots and of pools of gap; percolation of both.')
-   end function spots_table
 
    subroutine put_spots(results, load, file)
       type(results_type), intent(in) :: results
@@ -97,14 +106,6 @@ contains
       end if
       call results%end_row(file, load)
    end subroutine put_spots
-
-   type(table_type) function spot_sizes_table() result(table)
-      table = table_type('spot_sizes', asked_by=[character(16) :: 'spots', ''], needs_fields=.true., &
-                         put_load=put_spot_sizes, &
-                         columns='load[-] rank[-] area[area] area_fraction[-] equivalent_radius[length] '// &
-         'perimeter[length] load_fraction[-] mean_pressure[pressure] x[length] y[length] holes[-] percolates_x[-] '// &
-         'percolates_y[-] region[-]')
-   end function spot_sizes_table
 
    subroutine put_spot_sizes(results, load, file)
       type(results_type), intent(in) :: results
@@ -159,13 +160,6 @@ contains
       radius = sqrt(area/pi)
       if (dimension == 1) radius = 0.5_dp*area
    end function equivalent_radius
-
-   type(table_type) function histogram_table() result(table)
-      table = table_type('histogram', 'histograms', needs_fields=.true., put_load=put_histogram, &
-                         columns='load[-] bin[-] pressure[pressure] pressure_mean[pressure] pressure_fraction[-] '// &
-         'pressure_density[1/pressure] gap[length] gap_mean[length] gap_fraction[-] gap_density[1/length]', &
-                         meaning='How pressures are distributed over the contact, and gaps over the open area.')
-   end function histogram_table
 
    !> Writes the block of a load, if it has a solution.
    subroutine put_histogram(results, load, file)

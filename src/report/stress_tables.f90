@@ -18,11 +18,11 @@ module wavycon_stress_tables
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
    use wavycon_surface, only: surface_type
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: largest_stress_table, stress_line_table, stress_planes_table, stress_section_table
+   public :: add_stress_tables
 
    !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
    character(*), parameter :: stress_columns = &
@@ -37,16 +37,28 @@ module wavycon_stress_tables
 
 contains
 
-   !> The ratio to the yield stress is that of the criterion in use.
-   type(table_type) function largest_stress_table() result(table)
-      table = table_type('stress_largest', 'largest', 'stress', put_load=put_largest_stresses, &
-                         columns='load[-] body[-] nu[-] pbar_over_pstar[-] '// &
+   !> Adds the tables of this file to a list.
+   subroutine add_stress_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      ! The ratio to the yield stress is that of the criterion in use.
+      call add_table(tables, table_type('stress_largest', 'largest', 'stress', put_load=put_largest_stresses, &
+         columns='load[-] body[-] nu[-] pbar_over_pstar[-] '// &
          'largest_von_mises_over_pstar[-] largest_von_mises_over_pstar_error[-] largest_shear_over_pstar[-] '// &
          'largest_shear_over_pstar_error[-] stress_over_yield_stress[-] stress_over_yield_stress_error[-] '// &
-         'mean_pressure[pressure] largest_von_mises[pressure] largest_von_mises_error[pressure] von_mises_x[length] '// &
+         'mean_pressure[pressure] largest_von_mises[pressure] largest_von_mises_error[pressure] '// &
+         'von_mises_x[length] '// &
          'von_mises_y[length] von_mises_depth[length] largest_shear[pressure] largest_shear_error[pressure] '// &
-         'shear_x[length] shear_y[length] shear_depth[length] status_code[-] status[-]')
-   end function largest_stress_table
+         'shear_x[length] shear_y[length] shear_depth[length] status_code[-] status[-]'))
+      call add_table(tables, table_type('stress_line', 'line', 'stress', needs_fields=.true., put_load=put_line, &
+         columns='load[-] body[-] depth[length] depth_over_cell_x[-] '//stress_columns))
+      call add_table(tables, table_type('stress_section', 'section', 'stress', needs_fields=.true., &
+         put_load=put_section, &
+         columns='load[-] body[-] distance[length] x[length] y[length] depth[length] '// &
+         stress_columns))
+      call add_table(tables, table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
+         write_all=write_stress_planes_table, columns=planes_columns))
+   end subroutine add_stress_tables
 
    !> The largest stresses are found before the tables are written.
    subroutine put_largest_stresses(results, load, file)
@@ -88,11 +100,6 @@ contains
 
    end subroutine put_largest_stresses
 
-   type(table_type) function stress_line_table() result(table)
-      table = table_type('stress_line', 'line', 'stress', needs_fields=.true., put_load=put_line, &
-                         columns='load[-] body[-] depth[length] depth_over_cell_x[-] '//stress_columns)
-   end function stress_line_table
-
    subroutine put_line(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -116,12 +123,6 @@ contains
       end associate
       call put_stresses(results, load, fields%pbar_over_pstar, places, parts, errors, file)
    end subroutine put_line
-
-   type(table_type) function stress_section_table() result(table)
-      table = table_type('stress_section', 'section', 'stress', needs_fields=.true., put_load=put_section, &
-                         columns='load[-] body[-] distance[length] x[length] y[length] depth[length] '// &
-                                 stress_columns)
-   end function stress_section_table
 
    subroutine put_section(results, load, file)
       type(results_type), intent(in) :: results
@@ -153,11 +154,6 @@ contains
       call put_stresses(results, load, fields%pbar_over_pstar, places, parts, errors, file)
    end subroutine put_section
 
-   type(table_type) function stress_planes_table() result(table)
-      table = table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
-                         write_all=write_stress_planes_table, columns=planes_columns)
-   end function stress_planes_table
-
    !> Errors: exit_file_trouble.
    subroutine write_stress_planes_table(results, error)
       type(results_type), intent(in) :: results
@@ -169,7 +165,8 @@ contains
       real(dp) :: here(6)
       integer :: body, i, k, l, load
 
-      associate (scene => results%scene, surface => results%solver%surface, bodies => size(results%scene%stress_setting%body))
+      associate (scene => results%scene, surface => results%solver%surface, &
+                 bodies => size(results%scene%stress_setting%body))
          call stress_depths(scene%stress, surface, .true., depths)
          call planes%open(results, 'stress_planes', planes_columns, 2, [size(results%loads), bodies, size(depths)], &
                           numbers_a_point, 'planes of ')

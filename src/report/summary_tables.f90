@@ -15,11 +15,11 @@ module wavycon_summary_tables
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_solution_record, only: solver_names
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: coefficients_table, details_table, summary_table
+   public :: add_summary_tables
 
    !> With free edges numbers in p* are NaN. The errors are estimates, NaN if unknown or if the solver has none. NaN
    !> too: what is at the hardness without a hardness, areas by points without a grid, the linear law if the surface is
@@ -38,10 +38,28 @@ module wavycon_summary_tables
 
 contains
 
-   type(table_type) function summary_table() result(table)
-      table = table_type('summary', needs_surface=.false., is_for_flat_surfaces=.true., put_load=put_summary_row, &
-                         columns=summary_columns)
-   end function summary_table
+   !> Adds the tables of this file to a list.
+   subroutine add_summary_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('summary', needs_surface=.false., is_for_flat_surfaces=.true., &
+         put_load=put_summary_row, columns=summary_columns))
+      ! The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open pool;
+      ! the paper's cell has two of each.
+      call add_table(tables, table_type('details', 'details', needs_fields=.true., put_load=put_details, &
+         columns='load[-] pbar_over_pstar[-] '// &
+         'mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] contact_area_fraction[-] '// &
+         'contact_area_fraction_error[-] peak_pressure_over_pstar[-] peak_pressure_over_pstar_error[-] '// &
+         'trough_gap_over_amplitude[-] trough_gap_over_amplitude_error[-] saddle_gap_over_amplitude[-] '// &
+         'saddle_gap_over_amplitude_error[-] saddle_pressure_over_pstar[-] saddle_pressure_over_pstar_error[-] '// &
+         'elastic_energy_over_pstar_amplitude[-] elastic_energy_over_pstar_amplitude_error[-] perimeter[length] '// &
+         'perimeter_error[length] degree[-] status_code[-] status[-]', &
+         meaning='Gaps at trough and saddle, strain energy, perimeter and the numbers of the '// &
+         'summary, each with its error estimate.'))
+      call add_table(tables, table_type('coefficients', 'coefficients', put_load=put_coefficients, &
+         columns='load[-] i[-] j[-] pressure_over_pstar[-]', &
+         meaning='The Fourier coefficients of the pressure.'))
+   end subroutine add_summary_tables
 
    subroutine put_summary_row(results, load, file)
       type(results_type), intent(in) :: results
@@ -85,21 +103,6 @@ contains
       call results%end_row(file, load)
    end subroutine put_summary_row
 
-   !> The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open pool; the
-   !> paper's cell has two of each.
-   type(table_type) function details_table() result(table)
-      table = table_type('details', 'details', needs_fields=.true., put_load=put_details, &
-                         columns='load[-] pbar_over_pstar[-] '// &
-         'mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] contact_area_fraction[-] '// &
-         'contact_area_fraction_error[-] peak_pressure_over_pstar[-] peak_pressure_over_pstar_error[-] '// &
-         'trough_gap_over_amplitude[-] trough_gap_over_amplitude_error[-] saddle_gap_over_amplitude[-] '// &
-         'saddle_gap_over_amplitude_error[-] saddle_pressure_over_pstar[-] saddle_pressure_over_pstar_error[-] '// &
-         'elastic_energy_over_pstar_amplitude[-] elastic_energy_over_pstar_amplitude_error[-] perimeter[length] '// &
-         'perimeter_error[length] degree[-] status_code[-] status[-]', &
-                         meaning='Gaps at trough and saddle, strain energy, perimeter and the numbers of the '// &
-                                 'summary, each with its error estimate.')
-   end function details_table
-
    subroutine put_details(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -124,12 +127,6 @@ contains
       end associate
       call results%end_row(file, load)
    end subroutine put_details
-
-   type(table_type) function coefficients_table() result(table)
-      table = table_type('coefficients', 'coefficients', put_load=put_coefficients, &
-                         columns='load[-] i[-] j[-] pressure_over_pstar[-]', &
-                         meaning='The Fourier coefficients of the pressure.')
-   end function coefficients_table
 
    subroutine put_coefficients(results, load, file)
       type(results_type), intent(in) :: results

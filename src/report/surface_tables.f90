@@ -11,11 +11,11 @@ module wavycon_surface_tables
    use wavycon_output_file, only: output_file
    use wavycon_power_spectrum, only: line_spectrum, power_spectrum, radial_spectrum
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: height_table, spectrum_table
+   public :: add_surface_tables
 
    !> Numbers in memory for each point: the height and its spectrum.
    integer, parameter :: numbers_a_point = 2
@@ -28,10 +28,18 @@ module wavycon_surface_tables
 
 contains
 
-   type(table_type) function spectrum_table() result(table)
-      table = table_type('spectrum', 'spectrum', write_all=write_spectrum_table, columns=spectrum_columns, &
-                         meaning='The power spectrum of the surface.')
-   end function spectrum_table
+   !> Adds the tables of this file to a list.
+   subroutine add_surface_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('spectrum', 'spectrum', write_all=write_spectrum_table, &
+         columns=spectrum_columns, &
+         meaning='The power spectrum of the surface.'))
+      call add_table(tables, table_type('height', 'height', written_by_all=is_written_by_all, &
+         write_all=write_height_table, &
+         columns=height_columns, &
+         meaning="The heights that are solved, as a file of numpy that kind = 'file' reads."))
+   end subroutine add_surface_tables
 
    !> Errors: exit_file_trouble.
    subroutine write_spectrum_table(results, error)
@@ -76,12 +84,6 @@ contains
          call file%end_row()
       end do
    end subroutine put_spectrum
-
-   type(table_type) function height_table() result(table)
-      table = table_type('height', 'height', written_by_all=is_written_by_all, write_all=write_height_table, &
-                         columns=height_columns, &
-                         meaning="The heights that are solved, as a file of numpy that kind = 'file' reads.")
-   end function height_table
 
    !> All ranks write the heights of a map that is distributed over them.
    logical function is_written_by_all(results)

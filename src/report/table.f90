@@ -17,7 +17,7 @@ module wavycon_table
    implicit none (type, external)
    private
 
-   public :: table_type
+   public :: add_table, table_type
 
    type :: table_type
       character(16) :: file = ''          !! the table is <case>.<file>.dat
@@ -177,5 +177,18 @@ contains
       end do
       call file%finish(error)
    end subroutine write_table
+
+   !> Adds a table to a list.
+   subroutine add_table(tables, table)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+      type(table_type), intent(in) :: table
+
+      type(table_type), allocatable :: longer(:)
+
+      allocate (longer(size(tables) + 1))
+      longer(:size(tables)) = tables
+      longer(size(longer)) = table
+      call move_alloc(longer, tables)
+   end subroutine add_table
 
 end module wavycon_table

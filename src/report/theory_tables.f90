@@ -1,7 +1,7 @@
-!> <case>.theory.dat: the closed forms at the loads of the scene, a line for each load. Of a ball, and of a map with free
-!> edges on a ball: Hertz's contact of the ball. In 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8), (11). In
-!> 2-D: the asymptotes (23), (24), (29), (30) of the paper; (29) with the coefficient of the whole lattice; asymptotes
-!> with further terms; and the radii of the contact spot at light load and of the crack at heavy load.
+!> <case>.theory.dat: the closed forms at the loads of the scene, a line for each load. Of a ball, and of a map with
+!> free edges on a ball: Hertz's contact of the ball. In 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8),
+!> (11). In 2-D: the asymptotes (23), (24), (29), (30) of the paper; (29) with the coefficient of the whole lattice;
+!> asymptotes with further terms; and the radii of the contact spot at light load and of the crack at heavy load.
 !>
 !> <case>.theory_lines.dat: closed forms along the lines of <case>.lines.dat. In 1-D Westergaard's solution and the
 !> Dundurs-Tsai-Keer series with as many terms as the solver's; in 2-D the Hertz pressure about the nearest crest (light
@@ -25,14 +25,14 @@ module wavycon_theory_tables
                                   penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
                                   penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: table_type
+   use wavycon_table, only: add_table, table_type
    use wavycon_westergaard, only: westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
                                   westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
                                   westergaard_pressure_over_pstar
    implicit none (type, external)
    private
 
-   public :: theory_lines_table, theory_table
+   public :: add_theory_tables
 
    !> Columns for the wave in one dimension, for that in two and for a ball, after the first three columns, and the
    !> first two of them along lines. Those of the others are NaN.
@@ -40,9 +40,12 @@ module wavycon_theory_tables
 
 contains
 
-   type(table_type) function theory_table() result(table)
-      table = table_type('theory', 'theory', put_load=put_theory, &
-                         columns='load[-] pbar_over_pstar[-] force[force] '// &
+   !> Adds the tables of this file to a list.
+   subroutine add_theory_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('theory', 'theory', put_load=put_theory, &
+         columns='load[-] pbar_over_pstar[-] force[force] '// &
          'kuznetsov_mean_gap_over_amplitude[-] westergaard_contact_area_fraction[-] '// &
          'westergaard_peak_pressure_over_pstar[-] hertz_line_contact_area_fraction[-] '// &
          'line_crack_contact_area_fraction[-] '// &
@@ -53,8 +56,14 @@ contains
          'hertz_peak_pressure_over_pstar[-] hertz_radius[length] crack_radius[length] '// &
          'ball_contact_area[area] ball_approach[length] ball_peak_pressure[pressure] ball_half_axis_x[length] '// &
          'ball_half_axis_y[length]', &
-                         meaning='The closed forms beside the numbers.')
-   end function theory_table
+         meaning='The closed forms beside the numbers.'))
+      call add_table(tables, table_type('theory_lines', asked_by=[character(16) :: 'lines', 'theory'], &
+         put_load=put_theory_lines, &
+         columns=line_columns//' westergaard_pressure_over_pstar[-] '// &
+         'westergaard_displacement_over_amplitude[-] westergaard_gap_over_amplitude[-] '// &
+         'dundurs_pressure_over_pstar[-] hertz_pressure_over_pstar[-] crack_pressure_over_pstar[-] '// &
+         'crack_gap_over_amplitude[-]'))
+   end subroutine add_theory_tables
 
    subroutine put_theory(results, load, file)
       type(results_type), intent(in) :: results
@@ -111,14 +120,6 @@ contains
          end if
       end associate
    end function values_of_ball
-
-   type(table_type) function theory_lines_table() result(table)
-      table = table_type('theory_lines', asked_by=[character(16) :: 'lines', 'theory'], put_load=put_theory_lines, &
-                         columns=line_columns//' westergaard_pressure_over_pstar[-] '// &
-         'westergaard_displacement_over_amplitude[-] westergaard_gap_over_amplitude[-] '// &
-         'dundurs_pressure_over_pstar[-] hertz_pressure_over_pstar[-] crack_pressure_over_pstar[-] '// &
-         'crack_gap_over_amplitude[-]')
-   end function theory_lines_table
 
    subroutine put_theory_lines(results, load, file)
       type(results_type), intent(in) :: results

@@ -17,8 +17,8 @@ module wavycon_run_scene
    use wavycon_solve_loads, only: order_loads, solve_loads
    use wavycon_surface, only: whole_surface
    use wavycon_system, only: has_memory_for, make_directories
-   use wavycon_table, only: table_type
-   use wavycon_tables, only: add_table, all_tables
+   use wavycon_table, only: add_table, table_type
+   use wavycon_tables, only: all_tables
    use wavycon_work_sharing, only: choose_sharing, distributed_grids
    implicit none (type, external)
    private
