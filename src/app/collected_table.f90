@@ -203,44 +203,21 @@ contains
       type(setting_type), intent(in) :: settings(:)
       integer, allocatable, intent(out) :: columns(:)
 
-      integer :: d, k
+      integer :: d, i, k
+      logical :: differs, is_set
 
       allocate (columns(0))
       do d = 1, table%number
          do k = 1, size(table%decks(d)%keys)
             associate (key => table%decks(d)%keys(k))
                if (any(columns == k) .or. .not. key%in_effect) cycle
-               if (is_set(key%name, settings) .or. (key%given .and. differs(table, k))) columns = [columns, k]
+               is_set = any([(settings(i)%group//'_'//settings(i)%key == key%name, i=1, size(settings))])
+               differs = any([(table%decks(i)%keys(k)%word /= table%decks(1)%keys(k)%word, i=2, table%number)])
+               if (is_set .or. (key%given .and. differs)) columns = [columns, k]
             end associate
          end do
       end do
    end subroutine choose_columns
-
-   !> Whether the command line sets a key.
-   pure logical function is_set(name, settings)
-      character(*), intent(in) :: name
-      type(setting_type), intent(in) :: settings(:)
-
-      integer :: i
-
-      is_set = .false.
-      do i = 1, size(settings)
-         is_set = is_set .or. settings(i)%group//'_'//settings(i)%key == name
-      end do
-   end function is_set
-
-   !> Whether the decks have different values of a key.
-   pure logical function differs(table, k)
-      type(collected_table), intent(in) :: table
-      integer, intent(in) :: k
-
-      integer :: d
-
-      differs = .false.
-      do d = 2, table%number
-         differs = differs .or. table%decks(d)%keys(k)%word /= table%decks(1)%keys(k)%word
-      end do
-   end function differs
 
    !> A text as one word of a table.
    pure function without_blanks(text) result(word)
