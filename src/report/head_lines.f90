@@ -10,7 +10,7 @@ module wavycon_head_lines
    implicit none (type, external)
    private
 
-   public :: head_lines
+   public :: head_lines, preparation_words
 
 contains
 

@@ -22,7 +22,7 @@ module wavycon_stress_tables
    implicit none (type, external)
    private
 
-   public :: add_stress_tables
+   public :: add_stress_tables, angle_of_depth, stress_depths, stress_numbers
 
    !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
    character(*), parameter :: stress_columns = &
