@@ -36,7 +36,7 @@ contains
    subroutine find_table(name, table, names)
       character(*), intent(in) :: name
       type(table_type), allocatable, intent(out) :: table
-      character(:), allocatable, intent(out) :: names   !! of all tables, such as 'summary, lines and map'
+      character(:), allocatable, intent(out) :: names   !! of all tables, such as 'summary, details and lines'
 
       type(table_type), allocatable :: tables(:)
       integer :: i
