@@ -9,7 +9,7 @@ module wavycon_command_line
    implicit none (type, external)
    private
 
-   public :: command_line_type, help_text, read_command_line
+   public :: command_line_type, command_to_resume, read_command_line, help_text
 
    !> A deck, with keys set in place of its own.
    type :: run_type
@@ -329,5 +329,32 @@ contains
       allocate (character(length) :: word)
       if (length > 0) call get_command_argument(i, word)
    end function argument
+
+   !> The command that continues this run, for a shell.
+   function command_to_resume() result(command)
+      character(:), allocatable :: command
+
+      character(*), parameter :: plain = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%'
+      character(:), allocatable :: word, words
+      integer :: i, k
+
+      command = ''
+      do i = 0, command_argument_count()
+         word = argument(i)
+         if (i > 0 .and. word == '--resume') cycle
+         if (verify(word, plain) > 0 .or. word == '') then
+            words = "'"
+            do k = 1, len(word)
+               words = words//word(k:k)
+               ! A quote ends the quoted text, stands escaped, and begins it again.
+               if (word(k:k) == "'") words = words//"\''"
+            end do
+            word = words//"'"
+         end if
+         command = command//word//' '
+         if (i == 0) command = command//'--resume '
+      end do
+      command = trim(command)
+   end function command_to_resume
 
 end module wavycon_command_line

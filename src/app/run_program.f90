@@ -2,10 +2,11 @@
 !>
 !> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: collected_table
-   use wavycon_command_line, only: command_line_type, help_text, read_command_line
+   use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_deck, only: deck_type
    use wavycon_deck_jobs, only: await_job, begin_job, job_has_ended, most_waiting, show_job, signal_status
    use wavycon_deck_keys, only: deck_key, list_keys
@@ -13,12 +14,12 @@ module wavycon_run_program
    use wavycon_make_scene, only: make_scene
    use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: end_ranks, is_first_rank, rank_library, share_error
+   use wavycon_ranks, only: end_ranks, is_first_rank, rank_count, rank_library, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: outlive_file_size_limit
+   use wavycon_system, only: note_command, outlive_file_size_limit
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -44,7 +45,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
-      character(:), allocatable :: library
+      character(:), allocatable :: command, library
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -78,6 +79,9 @@ contains
          end do
          call finish(worst)
       end if
+      command = command_to_resume()
+      if (rank_count() > 1) command = 'mpirun -n '//integer_text(rank_count())//' '//command
+      if (is_first_rank()) call note_command(command//c_null_char)
       call run_scenes(command_line, scenes, worst)
       call finish(worst)
    end subroutine run_program

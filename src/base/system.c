@@ -40,8 +40,8 @@ int wavycon_make_directory(const char *path)
 /* The file to be removed if the program is interrupted; empty if there is none. */
 static char unfinished[4096];
 
-/* What a user is told to be kept if the program is interrupted; empty: nothing. */
-static char kept[4096];
+/* What a user is told if the program is interrupted: what is kept, and the command that goes on; empty: nothing. */
+static char kept[4096], command[8192];
 
 static void tell(const char *words)
 {
@@ -53,10 +53,12 @@ static void remove_unfinished(int number)
 {
     if (unfinished[0] != '\0')
         unlink(unfinished);
-    if (kept[0] != '\0') {
+    if (kept[0] != '\0' && command[0] != '\0') {
         tell("\nwavycon: interrupted: ");
         tell(kept);
-        tell("; the same command with --resume goes on\n");
+        tell("; go on with\n   ");
+        tell(command);
+        tell("\n");
     }
     signal(number, SIG_DFL);
     raise(number);
@@ -77,6 +79,11 @@ static void note(char *text, size_t size, const char *words)
 void wavycon_note_kept(const char *words)
 {
     note(kept, sizeof kept, words);
+}
+
+void wavycon_note_command(const char *words)
+{
+    note(command, sizeof command, words);
 }
 
 /* Removes a file if the program is interrupted before it is renamed or removed; only the file of the last call. Signals

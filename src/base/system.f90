@@ -8,7 +8,7 @@ module wavycon_system
 
    public :: available_memory, has_memory_for
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
-   public :: note_kept, outlive_file_size_limit, parse_number, process_id, terminal_columns
+   public :: note_command, note_kept, outlive_file_size_limit, parse_number, process_id, terminal_columns
 
    !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
@@ -57,11 +57,17 @@ module wavycon_system
          import :: c_int
       end function terminal_columns
 
-      !> What is told to be kept if the program is interrupted, '' for nothing; it ends in a null character.
+      !> What is told if the program is interrupted: what of the run is kept, '' for nothing; and the command that goes
+      !> on, without which nothing is told. Both end in a null character.
       subroutine note_kept(words) bind(c, name='wavycon_note_kept')
          import :: c_char
          character(kind=c_char), intent(in) :: words(*)
       end subroutine note_kept
+
+      subroutine note_command(words) bind(c, name='wavycon_note_command')
+         import :: c_char
+         character(kind=c_char), intent(in) :: words(*)
+      end subroutine note_command
 
       !> Memory that this process may still allocate and use without swapping [byte]: memory of the machine that is free
       !> or can be freed, but at most what is left by the limits of a container or a batch job (control groups of Linux)

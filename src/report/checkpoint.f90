@@ -40,7 +40,6 @@ module wavycon_checkpoint
       integer :: unit = -1
       logical :: opened = .false.
       integer :: kept = 0, loads = 0                  !! solutions added; all loads of the run
-      logical :: tells = .false.                      !! whether this rank tells what an interruption leaves
       integer(int64) :: bytes = 0                     !! written
       character(:), allocatable :: name, name_now     !! final name; present name, temporary at first
    contains
@@ -106,8 +105,7 @@ contains
       if (self%opened) write (self%unit, iostat=status) mark
       call put(self, words_of(description(results)))
       self%loads = size(results%loads)
-      self%tells = results%sharing%is_first()
-      if (self%tells) call note_kept(kept_words(self)//c_null_char)
+      call note_kept(kept_words(self)//c_null_char)
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
@@ -139,7 +137,7 @@ contains
       if (allocated(words)) then
          call put(self, [int(load, int64), words])
          self%kept = self%kept + 1
-         if (self%tells) call note_kept(kept_words(self)//c_null_char)
+         call note_kept(kept_words(self)//c_null_char)
       else
          call close_file(self)
       end if

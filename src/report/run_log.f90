@@ -8,7 +8,7 @@ module wavycon_run_log
    implicit none (type, external)
    private
 
-   public :: log_progress, run_log
+   public :: duration, log_progress, run_log
 
    !> Seconds between two progress lines on a terminal.
    real(dp), parameter :: progress_interval = 0.2_dp

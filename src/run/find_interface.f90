@@ -1,6 +1,6 @@
 !> Solves what a scene asks of the interface beyond its loads: partial slip and adhesion.
 module wavycon_find_interface
-   use wavycon_adhesive_curve, only: add_load, follow_curve
+   use wavycon_adhesive_curve, only: add_load, adhesive_point, follow_curve, point_names
    use wavycon_kinds, only: dp
    use wavycon_partial_slip, only: solve_partial_slip
    use wavycon_plain_text, only: integer_text, short_number
@@ -83,7 +83,28 @@ contains
          if (.not. all(curve%points%exists)) call log%say('note: '// &
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
             ' points of the curve have no solution')
+         do i = 1, size(curve%critical)
+            call log%say('adhesion: '//trim(point_names(curve%critical(i)%kind))//words_of_point(curve%critical(i)))
+         end do
       end associate
+   contains
+
+      !> The load, with free edges as a force, and the area.
+      function words_of_point(point) result(words)
+         type(adhesive_point), intent(in) :: point
+         character(:), allocatable :: words
+
+         associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
+            if (surface%has_free_edges) then
+               words = ', force = '//short_number(mean_pressure*surface%nominal_area())//', area = '// &
+                       short_number(surface%nominal_area()*point%area)
+            else
+               words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
+                       ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
+            end if
+         end associate
+      end function words_of_point
+
    end subroutine find_adhesion
 
 end module wavycon_find_interface

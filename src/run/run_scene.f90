@@ -10,7 +10,7 @@ module wavycon_run_scene
    use wavycon_notes, only: show_scene, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_result_lines, only: show_loads
+   use wavycon_result_lines, only: show_loads, show_stresses
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
@@ -142,6 +142,7 @@ contains
          if (asks_for_largest(results%scene)) then
             call find_stresses(results, log)
             call log%say_timed('largest stresses found')
+            call show_stresses(results, log)
          end if
          if (allocated(results%scene%interface_setting)) call find_interface(results, log)
       end if

@@ -85,9 +85,10 @@ class Terminal(ProgramTest):
         _, said = process.communicate(timeout=PATIENCE)
         self.assertEqual(-signal.SIGINT, process.returncode)
         found = re.fullmatch(r"\nwavycon: interrupted: ([1-4]) of 4 loads are kept in kept/deck.checkpoint; "
-                             r"the same command with --resume goes on\n", said)
+                             r"go on with\n   (.*)\n", said)
         self.assertIsNotNone(found, said)
-        done = subprocess.run([*process.args, "--resume"], cwd=self.folder, capture_output=True, text=True, check=True)
+        self.assertIn(" --resume 'a place/deck.nml' --set 'scene.title=it'\\''s' --output kept", found[2])
+        done = subprocess.run(found[2], shell=True, cwd=self.folder, capture_output=True, text=True, check=True)
         self.assertIn(f"resumed: {found[1]} of 4 loads", done.stdout)
 
 
