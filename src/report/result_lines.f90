@@ -79,7 +79,8 @@ contains
       type(results_type), intent(in) :: results   !! with the largest stresses
       type(run_log), intent(inout) :: log
 
-      character(:), allocatable :: in_unit, names(:)
+      character(40) :: names(3)
+      character(:), allocatable :: in_unit
       integer :: body, load
       real(dp) :: depth_unit, stress_unit
       type(log_line) :: line
