@@ -7,7 +7,8 @@ module wavycon_check_scene
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_methods, only: why_chosen
-   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_notes, only: show_scene
+   use wavycon_plain_text, only: escaped, integer_text, listed
    use wavycon_results, only: results_type
    use wavycon_run_log, only: duration, run_log
    use wavycon_run_scene, only: keep_fields, start_results
@@ -32,15 +33,16 @@ contains
 
       call log%start(quiet)
       call start_results(scene, results, tables)
-      call log%show_scene(results)
-      if (reason(results) /= '') call log%say('because   '//reason(results))
+      call show_scene(results, log)
+      if (reason(results) /= '') call log%say('because: '//reason(results))
       if (all(results%traits%finest_grid > 0)) then
-         call log%say('memory    '//memory(results, keep_fields(results%scene, tables)))
-         call log%say('time      some '// &
+         call log%say('memory: '//memory(results, keep_fields(results%scene, tables)))
+         call log%say('time: some '// &
             duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
             ' if all loads need that grid, by its transforms as measured now')
       end if
-      call log%say('tables    '//names_of(tables)//' in '//escaped(results%scene%directory))
+      call log%say('tables: '//listed(pack(tables%name(), tables%key /= '' .or. tables%file == 'summary'))//' in '// &
+                   escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene
 
@@ -114,34 +116,12 @@ contains
       seconds = pairs*(ended - begun)/rate*product(real(points, dp)/part)
    end function seconds_of_load
 
-   !> Bytes as a number of MB.
+   !> Bytes as a number of MB, rounded up.
    function megabytes(bytes) result(words)
       integer(int64), intent(in) :: bytes
       character(:), allocatable :: words
 
-      real(dp), parameter :: million = 1.0e6_dp
-      real(dp) :: number
-
-      number = bytes/million
-      if (number >= 10) then
-         number = anint(number)
-      else
-         number = anint(100*number)/100
-      end if
-      words = short_number(number)//' MB'
+      words = integer_text((bytes - 1)/1000000 + 1)//' MB'
    end function megabytes
-
-   !> The tables by their keys, such as "summary, lines, map".
-   function names_of(tables) result(words)
-      type(table_type), intent(in) :: tables(:)
-      character(:), allocatable :: words
-
-      integer :: i
-
-      words = 'summary'
-      do i = 1, size(tables)
-         if (tables(i)%key /= '') words = words//', '//trim(tables(i)%name())
-      end do
-   end function names_of
 
 end module wavycon_check_scene

@@ -1,15 +1,13 @@
-!> The table of --table: a row for each load of each deck, with the columns of the summary.
+!> The table of --table: a row for each load of each deck, with the columns of the summary. Its rows are read from the
+!> summaries that the runs have written.
 module wavycon_collected_table
-   use, intrinsic :: iso_fortran_env, only: int8
-   use wavycon_deck_jobs, only: send_bytes, take_bytes
    use wavycon_deck_keys, only: deck_key
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_memory_table, only: column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_list, column_name, column_unit
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped
-   use wavycon_results, only: results_type
+   use wavycon_plain_text, only: escaped, system_words
    use wavycon_settings, only: setting_type
-   use wavycon_summary_table, only: put_summary_row, summary_columns
+   use wavycon_summary_tables, only: summary_columns
    use wavycon_system, only: make_directories, path_directory, path_kind
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -17,26 +15,25 @@ module wavycon_collected_table
 
    public :: collected_table
 
-   integer, parameter :: longest_name = 49, longest_unit = 24
+   !> Width of the narrowest column, as in other tables; length of the longest line of a summary.
+   integer, parameter :: narrowest = 25, longest_line = 4096
 
-   !> The rows of one deck.
-   type :: deck_rows
+   !> A deck that was run.
+   type :: collected_deck
       character(:), allocatable :: deck, case
+      character(:), allocatable :: summary     !! path of its summary table
       type(deck_key), allocatable :: keys(:)   !! the same of each deck
-      character(longest_unit) :: units(size(summary_columns)) = ''
-      type(memory_table) :: summary
-   end type deck_rows
+      character(:), allocatable :: units       !! line of the units of the summary
+   end type collected_deck
 
    type :: collected_table
       private
-      type(deck_rows), allocatable :: decks(:)
+      type(collected_deck), allocatable :: decks(:)
       integer :: number = 0                    !! of decks that have been added
       character(:), allocatable :: failed      !! lines of the head, for the decks that were not run
    contains
       procedure :: start
       procedure :: add
-      procedure :: send
-      procedure :: take
       procedure :: note_failure
       procedure :: write => write_table
    end type collected_table
@@ -63,87 +60,21 @@ contains
       end if
    end subroutine start
 
-   !> Adds the loads of a deck.
-   subroutine add(self, results, keys)
-      class(collected_table), intent(inout), target :: self
-      type(results_type), intent(in) :: results   !! with a solution for each load
+   !> Adds a deck whose summary has been written.
+   subroutine add(self, deck, case, summary, keys)
+      class(collected_table), intent(inout) :: self
+      character(*), intent(in) :: deck, case      !! its path; the name of its case
+      character(*), intent(in) :: summary         !! path of its summary table
       type(deck_key), intent(in) :: keys(:)       !! of the deck
 
-      type(output_file) :: file
-      integer :: i
-
       self%number = self%number + 1
-      associate (rows => self%decks(self%number))
-         rows%deck = without_blanks(results%scene%deck_path)
-         rows%case = results%scene%case
-         rows%keys = keys
-         do i = 1, size(summary_columns)
-            rows%units(i) = results%unit_in_words(trim(column_unit(summary_columns(i))))
-         end do
+      associate (added => self%decks(self%number))
+         added%deck = without_blanks(deck)
+         added%case = case
+         added%summary = summary
+         added%keys = keys
       end associate
-      call file%open_in_memory(self%decks(self%number)%summary)
-      call file%put_columns(column_name(summary_columns), column_unit(summary_columns))
-      do i = 1, size(results%loads)
-         call put_summary_row(results, i, file)
-      end do
    end subroutine add
-
-   !> Sends the rows of the last deck, in the process of a job.
-   subroutine send(self)
-      class(collected_table), intent(in) :: self
-
-      integer(int8), parameter :: byte(1) = 0_int8
-
-      associate (rows => self%decks(self%number), summary => self%decks(self%number)%summary)
-         call send_bytes(transfer([len(rows%deck), len(rows%case), summary%rows, size(summary%words)], byte))
-         call send_bytes(transfer(rows%deck//rows%case, byte))
-         call send_bytes(transfer(rows%units, byte))
-         call send_bytes(transfer(summary%kinds, byte))
-         call send_bytes(transfer(summary%values(:, :summary%rows), byte))
-         call send_bytes(transfer(summary%words, byte))
-      end associate
-   end subroutine send
-
-   !> Takes the rows that a job has sent. Errors: exit_file_trouble if they are not all there.
-   subroutine take(self, job, keys, error)
-      class(collected_table), intent(inout), target :: self
-      integer, intent(in) :: job
-      type(deck_key), intent(in) :: keys(:)       !! of its deck
-      type(error_type), allocatable, intent(out) :: error
-
-      character(:), allocatable :: names
-      integer :: numbers(4)
-      integer(int8), allocatable :: bytes(:)
-      type(output_file) :: file
-
-      call take_bytes(job, storage_size(numbers)*4/8, bytes)
-      if (size(bytes) == 0) then
-         call fatal_error(error, exit_file_trouble, 'the rows of a deck for the table are not there')
-         return
-      end if
-      numbers = transfer(bytes, numbers)
-      self%number = self%number + 1
-      call file%open_in_memory(self%decks(self%number)%summary)
-      call file%put_columns(column_name(summary_columns), column_unit(summary_columns))
-      associate (rows => self%decks(self%number), summary => self%decks(self%number)%summary)
-         rows%keys = keys
-         call take_bytes(job, numbers(1) + numbers(2), bytes)
-         names = transfer(bytes, repeat(' ', size(bytes)))
-         rows%deck = names(:numbers(1))
-         rows%case = names(numbers(1) + 1:)
-         call take_bytes(job, longest_unit*size(rows%units), bytes)
-         rows%units = transfer(bytes, rows%units)
-         call take_bytes(job, storage_size(summary%kinds)/8*size(summary%kinds), bytes)
-         summary%kinds = transfer(bytes, summary%kinds)
-         summary%rows = numbers(3)
-         deallocate (summary%values, summary%words)
-         allocate (summary%values(size(summary%kinds), numbers(3)), summary%words(numbers(4)))
-         call take_bytes(job, storage_size(summary%values)/8*size(summary%values), bytes)
-         summary%values = reshape(transfer(bytes, summary%values), shape(summary%values))
-         call take_bytes(job, len(summary%words)*size(summary%words), bytes)
-         summary%words = transfer(bytes, summary%words)
-      end associate
-   end subroutine take
 
    !> Notes a deck that was not run to its end, for the head of the table.
    pure subroutine note_failure(self, deck)
@@ -154,69 +85,117 @@ contains
    end subroutine note_failure
 
    !> Writes the table. Columns of keys are those that are set on the command line, and those that a deck gives and that
-   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word.
+   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word. Units are those of the
+   !> summaries if these agree, otherwise 'length' or the like.
    !>
-   !> Errors: exit_file_trouble.
+   !> Errors: exit_file_trouble, also for a summary that cannot be read.
    subroutine write_table(self, path, settings, error)
-      class(collected_table), intent(in) :: self
+      class(collected_table), intent(inout) :: self
       character(*), intent(in) :: path
       type(setting_type), intent(in) :: settings(:)   !! of the command line
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: columns(:)
+      character(:), allocatable :: line, names, units
+      integer, allocatable :: columns(:), width(:)
       type(output_file) :: file
-      integer :: d, i, k
+      integer :: d, k
+      logical :: agree
 
       call choose_columns(self, settings, columns)
-      call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
-      call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
-      call put_columns(self, columns, file)
+      allocate (width(2 + size(columns)), source=narrowest)
+      names = ''
+      units = ''
+      associate (summary => column_list(summary_columns))
+         do k = 1, size(summary)
+            names = names//' '//trim(column_name(summary(k)))
+            units = units//' ['//trim(column_unit(summary(k)))//']'
+         end do
+      end associate
+      agree = self%number > 0
       do d = 1, self%number
-         associate (rows => self%decks(d))
-            do i = 1, rows%summary%rows
-               call file%add(rows%deck)
-               call file%add(rows%case)
-               do k = 1, size(columns)
-                  call file%add(rows%keys(columns(k))%word)
-               end do
-               call file%add_row_of(rows%summary, i)
-               call file%end_row()
+         associate (deck => self%decks(d))
+            call read_summary(deck, names, error)
+            if (allocated(error)) return
+            agree = agree .and. deck%units == self%decks(1)%units
+            width(:2) = max(width(:2), [len(deck%deck), len(deck%case)] + 1)
+            do k = 1, size(columns)
+               width(2 + k) = max(width(2 + k), len(deck%keys(columns(k))%word) + 1, &
+                                  len_trim(deck%keys(columns(k))%name) + 1)
             end do
          end associate
       end do
+      if (agree) units = self%decks(1)%units
+      call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
+      call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
+      line = ''
+      do k = 1, size(width)
+         line = line//cell(k, '[-]')
+      end do
+      call file%put('#'//line(2:)//' '//units)
+      line = cell(1, 'deck')//cell(2, 'case')
+      do k = 1, size(columns)
+         line = line//cell(2 + k, trim(self%decks(1)%keys(columns(k))%name))
+      end do
+      call file%put(line//names)
+      do d = 1, self%number
+         associate (deck => self%decks(d))
+            line = cell(1, deck%deck)//cell(2, deck%case)
+            do k = 1, size(columns)
+               line = line//cell(2 + k, deck%keys(columns(k))%word)
+            end do
+            call read_summary(deck, names, error, file, line)
+            if (allocated(error)) return
+         end associate
+      end do
       call file%finish(error)
+
+   contains
+
+      !> A word at the right of a column.
+      pure function cell(column, word) result(text)
+         integer, intent(in) :: column
+         character(*), intent(in) :: word
+         character(:), allocatable :: text
+
+         text = repeat(' ', width(column) - len(word))//word
+      end function cell
+
    end subroutine write_table
 
-   !> Sets the names, units and widths of all columns.
-   subroutine put_columns(table, columns, file)
-      type(collected_table), intent(in) :: table
-      integer, intent(in) :: columns(:)   !! the keys that have one
-      type(output_file), intent(inout) :: file
+   !> Reads the lines of the units and the names of a summary, or adds its rows to the table. Errors: exit_file_trouble.
+   subroutine read_summary(deck, names, error, file, before)
+      type(collected_deck), intent(inout) :: deck
+      character(:), allocatable, intent(inout) :: names
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file), intent(inout), optional :: file   !! rows are added to it
+      character(*), intent(in), optional :: before         !! of each row
 
-      integer, parameter :: before = 2   !! columns before those of the keys
-      character(longest_name) :: names(before + size(columns) + size(summary_columns))
-      character(longest_unit) :: units(size(names))
-      integer :: d, k, longest(size(names))
+      character(longest_line) :: line
+      character(200) :: message
+      integer :: status, unit
+      logical :: in_head
 
-      names(:before) = [character(4) :: 'deck', 'case']
-      units = '-'
-      longest = 0
-      do k = 1, size(columns)
-         names(before + k) = table%decks(1)%keys(columns(k))%name
+      open (newunit=unit, file=deck%summary, status='old', action='read', iostat=status, iomsg=message)
+      if (status /= 0) then
+         call fatal_error(error, exit_file_trouble, escaped(deck%summary)//': cannot be read: '//system_words(message))
+         return
+      end if
+      in_head = .true.
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         if (line(1:1) == '#') then
+            deck%units = trim(line(2:))
+         else if (in_head) then
+            in_head = .false.
+            names = trim(line)
+            if (.not. present(file)) exit
+         else
+            call file%put(before//trim(line))
+         end if
       end do
-      do k = 1, size(summary_columns)
-         names(before + size(columns) + k) = column_name(summary_columns(k))
-         units(before + size(columns) + k) = common_unit(table, k)
-      end do
-      do d = 1, table%number
-         longest(1) = max(longest(1), len(table%decks(d)%deck))
-         longest(2) = max(longest(2), len(table%decks(d)%case))
-         do k = 1, size(columns)
-            longest(before + k) = max(longest(before + k), len(table%decks(d)%keys(columns(k))%word))
-         end do
-      end do
-      call file%put_columns(names, units, longest)
-   end subroutine put_columns
+      close (unit)
+   end subroutine read_summary
 
    !> The keys that have a column, in the order of the first deck in which they have an effect.
    subroutine choose_columns(table, settings, columns)
@@ -224,56 +203,21 @@ contains
       type(setting_type), intent(in) :: settings(:)
       integer, allocatable, intent(out) :: columns(:)
 
-      integer :: d, k
+      integer :: d, i, k
+      logical :: differs, is_set
 
       allocate (columns(0))
       do d = 1, table%number
          do k = 1, size(table%decks(d)%keys)
             associate (key => table%decks(d)%keys(k))
                if (any(columns == k) .or. .not. key%in_effect) cycle
-               if (is_set(key%name, settings) .or. (key%given .and. differs(table, k))) columns = [columns, k]
+               is_set = any([(settings(i)%group//'_'//settings(i)%key == key%name, i=1, size(settings))])
+               differs = any([(table%decks(i)%keys(k)%word /= table%decks(1)%keys(k)%word, i=2, table%number)])
+               if (is_set .or. (key%given .and. differs)) columns = [columns, k]
             end associate
          end do
       end do
    end subroutine choose_columns
-
-   !> Whether the command line sets a key.
-   pure logical function is_set(name, settings)
-      character(*), intent(in) :: name
-      type(setting_type), intent(in) :: settings(:)
-
-      integer :: i
-
-      is_set = .false.
-      do i = 1, size(settings)
-         is_set = is_set .or. settings(i)%group//'_'//settings(i)%key == name
-      end do
-   end function is_set
-
-   !> Whether the decks have different values of a key.
-   pure logical function differs(table, k)
-      type(collected_table), intent(in) :: table
-      integer, intent(in) :: k
-
-      integer :: d
-
-      differs = .false.
-      do d = 2, table%number
-         differs = differs .or. table%decks(d)%keys(k)%word /= table%decks(1)%keys(k)%word
-      end do
-   end function differs
-
-   !> The unit of a column: as the decks name it if they agree, otherwise 'length' or the like.
-   pure function common_unit(table, column) result(unit)
-      type(collected_table), intent(in) :: table
-      integer, intent(in) :: column
-      character(longest_unit) :: unit
-
-      unit = column_unit(summary_columns(column))
-      if (table%number == 0) return
-      if (all(table%decks(:table%number)%units(column) == table%decks(1)%units(column))) &
-         unit = table%decks(1)%units(column)
-   end function common_unit
 
    !> A text as one word of a table.
    pure function without_blanks(text) result(word)

@@ -1,15 +1,15 @@
 !> Reads the command line; the texts of --help.
 module wavycon_command_line
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_key_reference, only: key_reference
+   use wavycon_key_reference, only: add_wrapped, key_reference
    use wavycon_nearest_name, only: nearest_name
    use wavycon_output_group, only: longest_directory
-   use wavycon_plain_text, only: escaped, integer_text, is_printable
+   use wavycon_plain_text, only: escaped, integer_text, is_printable, newline
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
 
-   public :: command_line_type, command_to_resume, read_command_line, help_text, usage
+   public :: command_line_type, command_to_resume, read_command_line, help_text
 
    !> A deck, with keys set in place of its own.
    type :: run_type
@@ -36,14 +36,33 @@ module wavycon_command_line
       logical :: help = .false.
    end type command_line_type
 
-   character(*), parameter :: options(*) = [character(12) :: '--check', '--set', '--sweep', '--output', &
-      '--table', '--keep-going', '--resume', '--jobs', '--threads', '--quiet', '--version', '--help']
-   character(*), parameter :: options_with_values(*) = [character(9) :: '--set', '--sweep', '--output', '--table', &
-      '--jobs', '--threads']
-   character(*), parameter :: arguments = &
-      ' DECK... [--check] [--set GROUP.KEY=VALUE]... [--sweep GROUP.KEY=VALUE,...]...'//new_line('a')// &
-      '               [--output DIR] [--table FILE] [--keep-going] [--resume] [--jobs N] [--threads N]'// &
-      new_line('a')//'               [--quiet] [--version] [--help]'
+   !> An option, as --help has it.
+   type :: option_type
+      character(12) :: name
+      character(27) :: value       !! what follows it; empty: nothing
+      character(440) :: meaning
+   end type option_type
+
+   type(option_type), parameter :: options(*) = [ &
+      option_type('--check', '', 'validate the decks, say what a run would do, and stop'), &
+      option_type('--set', 'GROUP.KEY=VALUE', 'set a key in place of those of the decks, such as '// &
+         'surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,0.2; may be repeated. Keys of the deck that '// &
+         'contradict it are left out: other ways to give the loads or the stiffness, accuracy or grid_points, keys '// &
+         'of another kind of surface or solver. The name of the case gets key and value, unless scene.case is set '// &
+         'too'), &
+      option_type('--sweep', 'GROUP.KEY=VALUE,...', 'run each deck once for each value, as with --set; several '// &
+         'sweeps: for all combinations'), &
+      option_type('--output', 'DIR', 'write the results to DIR, not to the directory of &output'), &
+      option_type('--table', 'FILE', 'write one table of all decks: a row for each deck and load, with the values '// &
+         'of the keys that are set or differ, and the columns of the summary'), &
+      option_type('--keep-going', '', 'a bad deck does not keep the others from being run'), &
+      option_type('--resume', '', 'continue an interrupted run, to the same tables. Loads that were solved on '// &
+         'grids are read from <case>.checkpoint; loads of the other solvers are fast and are solved again'), &
+      option_type('--jobs', 'N', 'run N decks at a time, each in a process of its own; 1 if not given'), &
+      option_type('--threads', 'N', 'work on large grids with N threads; 1 if not given'), &
+      option_type('--quiet', '', 'write nothing but errors'), &
+      option_type('--version', '', 'show the version and stop'), &
+      option_type('--help', '', 'show this and stop')]
    integer, parameter :: most_runs = 100000
 
 contains
@@ -77,7 +96,7 @@ contains
          end if
          equals = index(word, '=')
          if (equals > 0) then
-            if (any(word(:equals - 1) == options_with_values)) then
+            if (any(word(:equals - 1) == options%name .and. options%value /= '')) then
                given = word(equals + 1:)
                word = word(:equals - 1)
             end if
@@ -119,13 +138,10 @@ contains
             call take_value(value)
             call read_number('--jobs', value, command_line%jobs, error)
          case default
-            near = nearest_name(word, options)
-            if (near > 0) then
-               call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"': did you mean "// &
-                                trim(options(near))//'?')
-            else
-               call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'")
-            end if
+            near = nearest_name(word, options%name)
+            value = ''
+            if (near > 0) value = ': did you mean '//trim(options(near)%name)//'?'
+            call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'"//value)
          end select
          if (allocated(error)) return
       end do
@@ -179,7 +195,8 @@ contains
 
       character :: quote
       character(:), allocatable :: trouble
-      integer :: first, i, number, pass
+      integer :: i
+      integer, allocatable :: commas(:)
       type(setting_type) :: setting
 
       call read_setting(word, setting, trouble)
@@ -188,28 +205,25 @@ contains
                           "surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'")
          return
       end if
-      do pass = 1, 2
-         number = 0
-         first = 1
-         quote = ' '
-         do i = 1, len(setting%value) + 1
-            if (i <= len(setting%value)) then
-               if (setting%value(i:i) == quote) then
-                  quote = ' '
-               else if (quote == ' ' .and. scan(setting%value(i:i), '''"') == 1) then
-                  quote = setting%value(i:i)
-               end if
-               if (quote /= ' ' .or. setting%value(i:i) /= ',') cycle
+      commas = [0]
+      quote = ' '
+      do i = 1, len(setting%value)
+         associate (byte => setting%value(i:i))
+            if (quote == ' ' .and. scan(byte, '''"') == 1) then
+               quote = byte
+            else if (byte == quote) then
+               quote = ' '
+            else if (quote == ' ' .and. byte == ',') then
+               commas = [commas, i]
             end if
-            number = number + 1
-            if (pass == 2) then
-               values(number)%group = setting%group
-               values(number)%key = setting%key
-               values(number)%value = trim(adjustl(setting%value(first:i - 1)))
-            end if
-            first = i + 1
-         end do
-         if (pass == 1) allocate (values(number))
+         end associate
+      end do
+      commas = [commas, len(setting%value) + 1]
+      allocate (values(size(commas) - 1))
+      do i = 1, size(values)
+         values(i)%group = setting%group
+         values(i)%key = setting%key
+         values(i)%value = trim(adjustl(setting%value(commas(i) + 1:commas(i + 1) - 1)))
       end do
    end subroutine read_sweep
 
@@ -264,52 +278,44 @@ contains
       end if
    end subroutine check_path
 
-   !> The text of --help: the options, then the reference of all keys.
+   !> The text of --help: usage and options, then the reference of all keys.
    function help_text(is_parallel) result(text)
       logical, intent(in) :: is_parallel   !! whether this is the parallel program
       character(:), allocatable :: text
 
-      character, parameter :: newline = new_line('a')
-      character(:), allocatable :: note
+      integer, parameter :: indent = 18
+      character(:), allocatable :: head, usage
+      integer :: i
 
-      note = ''
-      if (is_parallel) &
-         note = 'The RANKS processes share the work: large grids are divided among them, or else the loads.'// &
-                newline//'Each needs the memory of its part, and has N threads of its own. The results are those of'// &
-                newline// &
-                'wavycon.'//newline//newline
-      text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline// &
-             newline// &
-             usage(is_parallel)//newline// &
-             newline// &
-             '   --check        validate the decks, say what a run would do, and stop'//newline// &
-             '   --set GROUP.KEY=VALUE'//newline// &
-             '                  set a key in place of those of the decks, such as surface.amplitude=2e-6'//newline// &
-             '                  or load.pbar_over_pstar=0.1,0.2; may be repeated. Keys of the deck that'//newline// &
-             '                  contradict it are left out: other ways to give the loads or the stiffness,'//newline// &
-             '                  accuracy or grid_points, keys of another kind of surface or solver. The'//newline// &
-             '                  name of the case gets key and value, unless scene.case is set too'//newline// &
-             '   --sweep GROUP.KEY=VALUE,VALUE...'//newline// &
-             '                  run each deck once for each value, as with --set; several sweeps: for all'//newline// &
-             '                  combinations'//newline// &
-             '   --output DIR   write the results to DIR, not to the directory of &output'//newline// &
-             '   --table FILE   write one table of all decks: a row for each deck and load, with the'//newline// &
-             '                  values of the keys that are set or differ, and the columns of the summary'//newline// &
-             '   --keep-going   a bad deck does not keep the others from being run'//newline// &
-             '   --resume       continue an interrupted run, to the same tables. Loads that were solved'//newline// &
-             '                  on grids are read from <case>.checkpoint; loads of the other solvers are'//newline// &
-             '                  fast and are solved again'//newline// &
-             '   --jobs N       run N decks at a time, each in a process of its own; 1 if not given'//newline// &
-             '   --threads N    work on large grids with N threads; 1 if not given'//newline// &
-             '   --quiet        write nothing but errors'//newline// &
-             '   --version      show the version and stop'//newline// &
-             '   --help, -h     show this and stop'//newline// &
-             newline// &
-             note// &
-             'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of several'//newline// &
-             'decks the worst.'//newline// &
-             newline// &
-             key_reference()
+      text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline//newline
+      usage = 'DECK...'
+      do i = 1, size(options)
+         usage = usage//' ['//trim(trim(options(i)%name)//' '//options(i)%value)//']'
+         if (any(options(i)%name == ['--set  ', '--sweep'])) usage = usage//'...'
+      end do
+      head = 'usage: wavycon '
+      if (is_parallel) head = 'usage: mpirun -n RANKS wavycon-mpi '
+      call add_wrapped(text, len('usage: wavycon '), usage, head)
+      text = text//newline
+      do i = 1, size(options)
+         head = '   '//trim(trim(options(i)%name)//' '//options(i)%value)
+         if (options(i)%name == '--help') head = head//', -h'
+         if (len(head) < indent) then
+            head = head//repeat(' ', indent - len(head))
+         else
+            text = text//head//newline
+            head = repeat(' ', indent)
+         end if
+         call add_wrapped(text, indent, trim(options(i)%meaning), head)
+      end do
+      text = text//newline
+      if (is_parallel) call add_wrapped(text, 0, 'The RANKS processes share the work: large grids are divided '// &
+         'among them, or else the loads. Each needs the memory of its part, and has N threads of its own. The '// &
+         'results are those of wavycon.')
+      if (is_parallel) text = text//newline
+      call add_wrapped(text, 0, 'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of '// &
+                       'several decks the worst.')
+      text = text//newline//key_reference()
    end function help_text
 
    !> A word of the command line, of any length.
@@ -350,14 +356,5 @@ contains
       end do
       command = trim(command)
    end function command_to_resume
-
-   !> How the program is started.
-   function usage(is_parallel) result(text)
-      logical, intent(in) :: is_parallel   !! whether this is the parallel program
-      character(:), allocatable :: text
-
-      text = 'usage: wavycon'//arguments
-      if (is_parallel) text = 'usage: mpirun -n RANKS wavycon-mpi'//arguments
-   end function usage
 
 end module wavycon_command_line

@@ -6,9 +6,9 @@ module wavycon_run_program
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: collected_table
-   use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line, usage
+   use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_deck, only: deck_type
-   use wavycon_deck_jobs, only: await_job, begin_job, close_job, job_has_ended, show_job, signal_status, start_jobs
+   use wavycon_deck_jobs, only: await_job, begin_job, job_has_ended, most_waiting, show_job, signal_status
    use wavycon_deck_keys, only: deck_key, list_keys
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_make_scene, only: make_scene
@@ -37,7 +37,8 @@ module wavycon_run_program
 
    type :: scene_item
       type(scene_type), allocatable :: scene      !! not allocated for a bad deck
-      type(deck_key), allocatable :: keys(:)      !! of the deck
+      type(deck_key), allocatable :: keys(:)      !! of the deck, for --table
+      character(:), allocatable :: case, summary  !! of a good deck: its name, the path of its summary table
    end type scene_item
 
 contains
@@ -56,7 +57,7 @@ contains
       call read_command_line(command_line, error)
       if (library /= '' .and. command_line%jobs > 1 .and. .not. allocated(error)) &
          call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')
-      if (allocated(error)) error%message = error%message//new_line('a')//usage(library /= '')
+      if (allocated(error)) error%message = error%message//new_line('a')//'wavycon --help shows all options'
       call share_error(error)
       call stop_on(error)
       if (command_line%help) then
@@ -94,7 +95,7 @@ contains
 
       type(deck_type) :: deck
       type(error_type), allocatable :: error
-      integer :: i
+      integer :: i, j
 
       allocate (scenes(size(command_line%runs)))
       worst = exit_fine
@@ -106,6 +107,8 @@ contains
             if (allocated(command_line%table)) call list_keys(deck, scenes(i)%keys)
             allocate (scenes(i)%scene)
             call make_scene(deck, scenes(i)%scene)
+            scenes(i)%case = scenes(i)%scene%case
+            scenes(i)%summary = scenes(i)%scene%directory//'/'//scenes(i)%case//'.summary.dat'
          end if
          if (allocated(error)) then
             if (is_first_rank()) write (error_unit, '(a)') error%message
@@ -114,35 +117,25 @@ contains
          end if
       end do
       if (worst /= exit_fine .and. .not. command_line%keep_going) call finish(worst)
+      ! Scenes that would write the same files.
       do i = 2, size(scenes)
-         call find_rival(scenes(:i), error)
-         if (.not. allocated(error)) cycle
-         if (.not. command_line%keep_going) call stop_on(error)
-         call show(error)
-         worst = max(worst, error%status)
-         deallocate (scenes(i)%scene)
-      end do
-   end subroutine read_decks
-
-   !> Whether another scene would write the same files as the last one. Errors: exit_bad_input.
-   subroutine find_rival(scenes, error)
-      type(scene_item), intent(in) :: scenes(:)
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: j
-
-      if (.not. allocated(scenes(size(scenes))%scene)) return
-      do j = 1, size(scenes) - 1
-         if (.not. allocated(scenes(j)%scene)) cycle
-         associate (one => scenes(j)%scene, other => scenes(size(scenes))%scene)
-            if (one%case /= other%case .or. one%directory /= other%directory) cycle
+         if (.not. allocated(scenes(i)%scene)) cycle
+         do j = 1, i - 1
+            if (.not. allocated(scenes(j)%scene)) cycle
+            if (scenes(j)%summary == scenes(i)%summary) exit
+         end do
+         if (j == i) cycle
+         associate (one => scenes(j)%scene, other => scenes(i)%scene)
             call fatal_error(error, exit_bad_input, escaped(one%deck_path)//' and '//escaped(other%deck_path)// &
                              ' would write the same files: both are case '//other%case//' in '// &
                              escaped(other%directory)//'. Give them different cases.')
-            return
          end associate
+         if (.not. command_line%keep_going) call stop_on(error)
+         call show(error)
+         worst = max(worst, error%status)
+         deallocate (scenes(i)%scene, error)
       end do
-   end subroutine find_rival
+   end subroutine read_decks
 
    !> Runs all scenes and writes the collected table.
    subroutine run_scenes(command_line, scenes, worst)
@@ -152,8 +145,8 @@ contains
 
       type(collected_table) :: collected
       type(error_type), allocatable :: error
-      integer :: failed, i, not_solved, status
-      logical :: with_table
+      integer :: begun, failed, i, not_solved, running, status
+      logical :: is_good(size(scenes)), with_table
 
       call set_threads(command_line%threads)
       with_table = .false.
@@ -161,18 +154,30 @@ contains
       if (with_table) call collected%start(command_line%table, size(scenes), error)
       call share_error(error)
       call stop_on(error)
+      is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
+      begun = 0
       failed = 0
       not_solved = 0
-      if (command_line%jobs > 1) then
-         call run_jobs()
-      else
-         do i = 1, size(scenes)
+      running = 0
+      do i = 1, size(scenes)
+         status = exit_bad_input
+         if (is_good(i) .and. command_line%jobs == 1) then
             call run_one(i, status, error)
             if (.not. command_line%keep_going) call stop_on(error)
             call show(error)
-            call count_run(i, status)
-         end do
-      end if
+         else if (is_good(i)) then
+            call take_job(i, status)
+         end if
+         worst = max(worst, status)
+         if (any(status == [exit_fine, exit_not_converged])) then
+            if (status == exit_not_converged) not_solved = not_solved + 1
+            if (with_table) call collected%add(command_line%runs(i)%path, scenes(i)%case, scenes(i)%summary, &
+                                               scenes(i)%keys)
+         else
+            failed = failed + 1
+            if (with_table) call collected%note_failure(command_line%runs(i)%path)
+         end if
+      end do
       if (allocated(error)) deallocate (error)
       if (with_table) call collected%write(command_line%table, command_line%runs(1)%settings, error)
       call share_error(error)
@@ -189,106 +194,51 @@ contains
       !> Runs a scene. Errors: those of run_scene.
       subroutine run_one(i, status, error)
          integer, intent(in) :: i
-         integer, intent(out) :: status   !! exit_fine, exit_not_converged, or else it has failed
+         integer, intent(out) :: status   !! exit_fine, exit_not_converged, or that of the error
          type(error_type), allocatable, intent(out) :: error
 
          type(results_type) :: results
 
-         status = exit_bad_input
-         if (.not. allocated(scenes(i)%scene)) return
          call separate(i, command_line%quiet)
          call run_scene(scenes(i)%scene, command_line%quiet, command_line%resume, results, status, error)
-         if (allocated(error)) then
-            status = error%status
-         else if (with_table) then
-            call collected%add(results, scenes(i)%keys)
-         end if
+         if (allocated(error)) status = error%status
       end subroutine run_one
 
-      !> Counts the outcome of a run.
-      subroutine count_run(i, status)
-         integer, intent(in) :: i, status
+      !> Takes the outcome of a scene that runs in a process of its own; meanwhile those of the scenes behind it are
+      !> begun. As outcomes are taken in the order of the scenes, all is printed and written as if they were run one
+      !> after the other.
+      subroutine take_job(i, status)
+         integer, intent(in) :: i
+         integer, intent(out) :: status
 
-         worst = max(worst, status)
-         if (status == exit_not_converged) then
-            not_solved = not_solved + 1
-         else if (status /= exit_fine) then
-            failed = failed + 1
-            if (with_table) call collected%note_failure(command_line%runs(i)%path)
-         end if
-      end subroutine count_run
+         type(error_type), allocatable :: error
+         logical :: is_here
 
-      !> Runs the scenes in processes of their own. Their outcomes are taken in the order of the scenes: all that is
-      !> printed and written is as if they were run one after the other.
-      subroutine run_jobs()
-         !> Scenes that may be begun beyond the first one that has not ended: each has open files.
-         integer, parameter :: most_waiting = 100
-         integer :: i, next, running, status
-         logical :: begun(size(scenes)), is_here
-
-         call start_jobs(size(scenes), error)
-         call stop_on(error)
-         begun = [(allocated(scenes(i)%scene), i=1, size(scenes))]
-         running = 0
-         next = 1
-         do i = 1, size(scenes)
-            if (begun(i)) then
-               do while (running >= command_line%jobs)
-                  call await_job()
-                  running = running - 1
-               end do
-               call begin_job(i, is_here, error)
+         do
+            do while (running < command_line%jobs .and. begun < min(size(scenes), i + most_waiting))
+               begun = begun + 1
+               if (.not. is_good(begun)) cycle
+               call begin_job(begun, is_here, error)
                call stop_on(error)
                if (is_here) then
-                  call run_one(i, status, error)
+                  call run_one(begun, status, error)
                   call show(error)
-                  if (with_table .and. .not. allocated(error)) call collected%send()
                   call finish(status)
                end if
                running = running + 1
-               deallocate (scenes(i)%scene)
-            end if
-            if (i - next >= most_waiting) then
-               call take_jobs(next, begun, .true., next, running)
-            else
-               call take_jobs(i, begun, .false., next, running)
-            end if
+               deallocate (scenes(begun)%scene)
+            end do
+            if (job_has_ended(i)) exit
+            call await_job()
+            running = running - 1
          end do
-         call take_jobs(size(scenes), begun, .true., next, running)
-      end subroutine run_jobs
-
-      !> Takes the outcomes of the next scenes, up to the first one that has not ended.
-      subroutine take_jobs(last, begun, wait, next, running)
-         integer, value :: last                     !! the last one to be taken
-         logical, intent(in) :: begun(:)
-         logical, intent(in) :: wait                !! whether to wait until they have ended
-         integer, intent(inout) :: next, running
-
-         integer :: status
-
-         do next = next, last
-            status = exit_bad_input
-            if (begun(next)) then
-               do while (.not. job_has_ended(next))
-                  if (.not. wait) return
-                  call await_job()
-                  running = running - 1
-               end do
-               call show_job(next, status)
-               if (status >= signal_status) then
-                  call fatal_error(error, exit_file_trouble, escaped(command_line%runs(next)%path)// &
-                                   ': its process was ended by signal '//integer_text(status - signal_status))
-               else if (with_table .and. any(status == [exit_fine, exit_not_converged])) then
-                  call collected%take(next, scenes(next)%keys, error)
-               end if
-               call close_job(next)
-               call show(error)
-               if (allocated(error)) status = error%status
-               if (allocated(error)) deallocate (error)
-            end if
-            call count_run(next, status)
-         end do
-      end subroutine take_jobs
+         call show_job(i, status)
+         if (status < signal_status) return
+         call fatal_error(error, exit_file_trouble, escaped(command_line%runs(i)%path)// &
+                          ': its process was ended by signal '//integer_text(status - signal_status))
+         call show(error)
+         status = error%status
+      end subroutine take_job
 
    end subroutine run_scenes
 

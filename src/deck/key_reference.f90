@@ -6,7 +6,7 @@ module wavycon_key_reference
    implicit none (type, external)
    private
 
-   public :: key_reference
+   public :: add_wrapped, key_reference
 
    integer, parameter, public :: widest_line = 100
 
@@ -57,7 +57,7 @@ contains
    !> Adds a text as lines that begin with blanks and break between words.
    subroutine add_wrapped(reference, indent, text, head)
       character(:), allocatable, intent(inout) :: reference
-      integer, intent(in) :: indent
+      integer, intent(in) :: indent                !! blanks
       character(*), intent(in) :: text
       character(*), intent(in), optional :: head   !! of the first line, in place of its blanks
 

@@ -24,8 +24,7 @@ module wavycon_deck_session
    use wavycon_run_scene, only: start_results
    use wavycon_scene, only: by_yield, scene_type
    use wavycon_settings, only: read_setting, setting_type
-   use wavycon_solve_loads, only: order_loads
-   use wavycon_solve_target, only: solve_target
+   use wavycon_solve_loads, only: order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
    use wavycon_tables, only: find_table

@@ -1,23 +1,26 @@
 !> Tables of numbers at the points of a grid over the whole cell: a text in gnuplot's grid format, with a blank line
 !> between rows, or an array of records for numpy.
 module wavycon_cell_file
-   use, intrinsic :: iso_fortran_env, only: int64
+   use, intrinsic :: iso_fortran_env, only: int64, int8
    use wavycon_contact_fields, only: contact_fields
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: column_name
-   use wavycon_npy_header, only: npy_header
+   use wavycon_memory_table, only: column_list, column_name, longest_column
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: integer_text
+   use wavycon_plain_text, only: integer_text, newline
    use wavycon_results, only: results_type
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
-   public :: cell_file, check_memory, is_text, map_offset, map_points
+   public :: cell_file, check_memory, is_text, map_offset, map_points, npy_header
 
    !> A map of more points than the square of this, or planes of more points together, are written in numpy's format,
    !> unless the deck says otherwise.
    integer, parameter, public :: text_side = 257
+
+   !> The header of numpy's format, version 1.0 (numpy.lib.format), is a multiple of so many bytes, the same for all
+   !> maps of a kind, so that readers that do not know the format skip it.
+   integer, parameter, public :: npy_header_step = 256
 
    type :: cell_file
       type(output_file) :: file
@@ -25,6 +28,7 @@ module wavycon_cell_file
       integer :: points(2) = 0                !! along x and y
       real(dp) :: offset(2) = 0.0_dp          !! of the first point, in steps
       real(dp), private :: side(2) = 0.0_dp   !! of the cell [length]
+      logical :: is_here = .true.             !! whether this rank writes it
    contains
       procedure :: open => open_cell_file
       procedure :: put_row
@@ -32,31 +36,36 @@ module wavycon_cell_file
 
 contains
 
-   !> Opens <case>.<kind>.dat or <case>.<kind>.npy. `file%is_open` says whether there is the memory too.
+   !> Opens <case>.<kind>.dat or <case>.<kind>.npy, on the first rank. `file%is_open` says whether there is the memory
+   !> too.
    subroutine open_cell_file(self, results, kind, columns, numbers, planes, numbers_a_point, what)
       class(cell_file), intent(out) :: self
       type(results_type), intent(in) :: results
       character(*), intent(in) :: kind          !! name of the table
-      character(*), intent(in) :: columns(:)    !! name[unit]: integers, x, y and others
+      character(*), intent(in) :: columns       !! name[unit] of each: integers, x, y and others
       integer, intent(in) :: numbers            !! of columns of integers, which the file of numpy does not have
       integer, intent(in) :: planes(:)          !! their number along each of the first indices of the file of numpy
       integer, intent(in) :: numbers_a_point    !! that are in memory at a time
       character(*), intent(in) :: what          !! before the number of points, for the message on memory
 
+      character(longest_column), allocatable :: names(:)
+
       self%points = map_points(results)
       ! A table with more than one plane a load counts all of them.
       self%as_text = is_text(results%scene%output%text('map_format'), &
                              self%points*[1, merge(product(planes), 1, size(planes) > 1)])
+      self%side = results%solver%surface%sides()
+      self%offset = map_offset(results, self%points)
+      self%is_here = results%sharing%is_first()
+      if (.not. self%is_here) return
       if (self%as_text) then
          call results%open_table(kind, columns, self%file)
       else
+         names = column_name(column_list(columns))
          call self%file%open(results%scene%directory, results%scene%case//'.'//kind//'.npy', &
-                             npy_header([planes, self%points([2, 1])], column_name(columns(numbers + 1:))))
+                             npy_header([planes, self%points([2, 1])], names(numbers + 1:)))
       end if
       call check_memory(self%file, self%points, numbers_a_point, what)
-      if (.not. self%file%is_open()) return
-      self%side = results%solver%surface%sides()
-      self%offset = map_offset(results, self%points)
    end subroutine open_cell_file
 
    !> Notes trouble if there is not the memory for a grid.
@@ -81,6 +90,7 @@ contains
       real(dp), allocatable :: rows(:, :)
       integer :: k
 
+      if (.not. self%is_here) return
       allocate (rows(size(values, 1) + 2, size(values, 2)))
       do k = 1, size(rows, 2)
          rows(:2, k) = self%side*([k, row] - 1 + self%offset)/self%points
@@ -131,5 +141,43 @@ contains
       ! The points of a mirrored map are in the middle of their steps, so that none lies on a border.
       offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
    end function map_offset
+
+   !> The bytes of numpy's file format before the elements, double precision numbers or records of them. These follow
+   !> with the last index changing fastest.
+   pure function npy_header(elements, names) result(header)
+      integer, intent(in) :: elements(:)     !! their number along each index
+      !> Names of the numbers of a record, short enough for the header; absent: the elements are numbers.
+      character(*), intent(in), optional :: names(:)
+      character(:), allocatable :: header
+
+      !> Followed by two bytes for the length of the rest, the lower one first.
+      character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)
+      integer, parameter :: before_words = len(magic) + 2
+      character(:), allocatable :: number, words
+      integer :: i, length
+
+      number = "'"//byte_order()//"f8'"
+      words = number
+      if (present(names)) then
+         words = '['
+         do i = 1, size(names)
+            words = words//"('"//trim(names(i))//"', "//number//'), '
+         end do
+         words = words//']'
+      end if
+      words = "{'descr': "//words//", 'fortran_order': False, 'shape': ("
+      do i = 1, size(elements)
+         words = words//integer_text(elements(i))//', '
+      end do
+      words = words//'), }'
+      length = npy_header_step*((before_words + len(words) + npy_header_step)/npy_header_step)
+      header = magic//char(modulo(length - before_words, 256))//char((length - before_words)/256)//words
+      header = header//repeat(' ', length - len(header) - 1)//newline
+   end function npy_header
+
+   !> '<' where the lowest byte of a number is the first, '>' elsewhere.
+   pure character function byte_order()
+      byte_order = merge('<', '>', transfer(1, 1_int8) == 1_int8)
+   end function byte_order
 
 end module wavycon_cell_file

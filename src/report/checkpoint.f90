@@ -1,9 +1,9 @@
 !> <case>.checkpoint: the loads solved so far, for --resume. It is removed when the tables are written.
 !>
 !> Only solutions that take long are written (wavycon_kept_solution); the others are fast to solve again. The file holds
-!> a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first record
-!> identifies the run, the second is a text that describes what is solved, each further one is a solution. A last record
-!> that was cut short by an interruption is ignored.
+!> a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first record is a
+!> text that describes what is solved, each further one is a solution. A last record that was cut short by an
+!> interruption is ignored.
 !>
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 !>
@@ -30,7 +30,7 @@ module wavycon_checkpoint
 
    !> Stands for the number of a rank in a run whose work is not shared.
    integer, parameter :: alone = -1
-   character(*), parameter :: mark = 'wavycon checkpoint 7'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 8'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
@@ -40,7 +40,7 @@ module wavycon_checkpoint
       integer :: unit = -1
       logical :: opened = .false.
       integer :: kept = 0, loads = 0                  !! solutions added; all loads of the run
-      integer(int64) :: run(3) = 0                    !! identifies the run
+      integer(int64) :: bytes = 0                     !! written
       character(:), allocatable :: name, name_now     !! final name; present name, temporary at first
    contains
       procedure :: create
@@ -92,21 +92,17 @@ contains
       logical, intent(in) :: known(:)             !! of each load: whether its solution is known
 
       character(:), allocatable :: failure
-      integer :: clock(8), load, status
+      integer :: load, status
 
       self%name = checkpoint_name(results)
       self%name_now = results%scene%directory//'/.'//self%name(index(self%name, '/', back=.true.) + 1:)// &
                       '.'//integer_text(process_id())//'.part'
       call remove_others(results)
-      call date_and_time(values=clock)
-      call system_clock(self%run(3))
-      self%run(:2) = [int(process_id(), int64), checksum(int(clock, int64))]
       call remove_when_interrupted(self%name_now//c_null_char)
       open (newunit=self%unit, file=self%name_now, access='stream', form='unformatted', status='replace', &
             action='write', iostat=status)
       self%opened = status == 0
       if (self%opened) write (self%unit, iostat=status) mark
-      call put(self, self%run)
       call put(self, words_of(description(results)))
       self%loads = size(results%loads)
       call note_kept(kept_words(self)//c_null_char)
@@ -155,23 +151,14 @@ contains
       words = integer_text(self%kept)//' of '//integer_text(self%loads)//' loads are kept in '//self%name
    end function kept_words
 
-   !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile.
+   !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile: as `put` sees
+   !> by its size.
    subroutine remove(self)
       class(checkpoint_file), intent(inout) :: self
 
-      integer(int64), allocatable :: words(:)
-      integer :: status, unit
-      logical :: whole
-
       call note_kept(c_null_char)
       call close_file(self)
-      open (newunit=unit, file=self%name, access='stream', form='unformatted', status='old', action='read', &
-            iostat=status)
-      if (status /= 0) return
-      call get(unit, len(mark) + 1_int64, words, whole)
-      close (unit)
-      if (size(words) /= size(self%run)) return
-      if (all(words == self%run)) call remove_file(self%name)
+      if (file_size(self%name) == self%bytes) call remove_file(self%name)
    end subroutine remove
 
    !> Closes the file; nothing more is written to it.
@@ -190,42 +177,40 @@ contains
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
 
-      integer(int64) :: next_byte
       integer :: status
 
       if (.not. self%opened) return
       write (self%unit, iostat=status) size(words, kind=int64), words, checksum(words)
       if (status == 0) flush (self%unit, iostat=status)
       if (status == 0) then
-         inquire (unit=self%unit, pos=next_byte)
-         if (file_size(self%name_now) /= next_byte - 1) status = 1
+         inquire (unit=self%unit, pos=self%bytes)
+         self%bytes = self%bytes - 1
+         if (file_size(self%name_now) /= self%bytes) status = 1
       end if
       if (status /= 0) call close_file(self)
    end subroutine put
 
-   !> Reads the record at a place of the file.
-   subroutine get(unit, place, words, whole)
+   !> Reads the next record of a file.
+   subroutine get(unit, words, whole)
       integer, intent(in) :: unit
-      integer(int64), intent(in) :: place                   !! of its first byte
       integer(int64), allocatable, intent(out) :: words(:)  !! size 0 if the record is damaged or cut short
       logical, intent(out) :: whole                         !! .false. if the file ends before the record does
 
-      integer(int64) :: bytes, length, sum_of_words
+      integer(int64) :: bytes, length, place, sum_of_words
       integer :: status
 
       allocate (words(0))
-      inquire (unit=unit, size=bytes)
-      read (unit, pos=place, iostat=status) length
+      read (unit, iostat=status) length
       whole = status == 0
+      if (.not. whole) return
       ! A damaged length may be huge: allocate no more than the file holds.
-      if (whole) whole = length >= 0 .and. length <= (bytes - place + 1)/bytes_of_word - 2
+      inquire (unit=unit, size=bytes, pos=place)
+      whole = length >= 0 .and. length <= (bytes - place + 1)/bytes_of_word - 1
       if (.not. whole) return
       deallocate (words)
       allocate (words(length))
       read (unit, iostat=status) words, sum_of_words
-      if (status == 0 .and. sum_of_words == checksum(words)) return
-      deallocate (words)
-      allocate (words(0))
+      if (status /= 0 .or. sum_of_words /= checksum(words)) words = words(:0)
    end subroutine get
 
    !> Reads the solutions of an interrupted run, which may have had any number of ranks. Errors: exit_bad_input for a
@@ -268,7 +253,6 @@ contains
 
       character(len(mark)) :: start
       character(200) :: message
-      integer(int64) :: place
       integer(int64), allocatable :: words(:)
       integer :: status, unit
       logical :: understood, whole
@@ -280,18 +264,15 @@ contains
          return
       end if
       read (unit, iostat=status) start
-      place = len(mark) + 1
       if (status /= 0 .or. start /= mark) then
          call fatal_error(error, exit_bad_input, escaped(name)// &
                           ': this is no checkpoint of this version of wavycon'//way_out)
       else
-         call next()
+         call get(unit, words, whole)
          understood = size(words) > 0
-         if (understood) call next()
-         if (understood) understood = size(words) > 0
-         if (understood) call compare(name, text_of(words), now, error)
+         if (understood) call compare(name, trim(transfer(words, repeat(' ', bytes_of_word*size(words)))), now, error)
          do while (understood .and. .not. allocated(error))
-            call next()
+            call get(unit, words, whole)
             if (.not. whole) exit
             call take_solution(words, results, known, understood)
          end do
@@ -299,15 +280,6 @@ contains
             call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
       end if
       close (unit)
-
-   contains
-
-      !> Reads the next record.
-      subroutine next()
-         call get(unit, place, words, whole)
-         place = place + (size(words) + 2)*bytes_of_word
-      end subroutine next
-
    end subroutine read_checkpoint
 
    !> Restores the solution of a record, if it is one of an own load.
@@ -348,48 +320,39 @@ contains
       character(*), intent(in) :: before, now             !! descriptions of the interrupted run and of this one
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: line_before, line_now, words
-      integer :: i, place_before, place_now
+      character(:), allocatable :: words
+      integer :: i, k
 
-      place_before = 1
-      place_now = 1
-      i = 0
-      do
-         if (place_before > len(before) .and. place_now > len(now)) return
-         i = i + 1
-         call next_line(before, place_before, line_before)
-         call next_line(now, place_now, line_now)
-         if (line_before /= line_now) exit
+      if (before == now) return
+      ! The first byte that differs, and the number of its line.
+      k = 1
+      do while (k <= min(len(before), len(now)))
+         if (before(k:k) /= now(k:k)) exit
+         k = k + 1
       end do
-      select case (i)
+      select case (count([(now(i:i) == newline, i=1, k - 1)]))
+      case (0)
+         words = 'is of '//line_at(before)//', this is '//line_at(now)
       case (1)
-         words = 'is of '//line_before//', this is '//line_now
-      case (2)
          words = 'is of another surface: the deck or its height map has changed'
       case default
-         words = "is of another deck: '"//excerpt(line_now)//"' was '"//excerpt(line_before)//"'"
+         words = "is of another deck: '"//excerpt(line_at(now))//"' was '"//excerpt(line_at(before))//"'"
       end select
       call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint '//words//way_out)
+
+   contains
+
+      !> The line of byte k, without comment and without blanks at both ends.
+      pure function line_at(text) result(line)
+         character(*), intent(in) :: text
+         character(:), allocatable :: line
+
+         line = text(index(text(:k - 1), newline, back=.true.) + 1:)
+         line = line(:index(line//newline, newline) - 1)
+         line = trim(adjustl(line(:index(line//'   ! ', '   ! ') - 1)))
+      end function line_at
+
    end subroutine compare
-
-   !> Reads a line of a text, without comment and without blanks at both ends.
-   pure subroutine next_line(text, place, line)
-      character(*), intent(in) :: text
-      integer, intent(inout) :: place                     !! first byte of the line; on return of the next one
-      character(:), allocatable, intent(out) :: line      !! '(end)' after the last line
-
-      integer :: comment, length
-
-      line = '(end)'
-      if (place > len(text)) return
-      length = index(text(place:), newline) - 1
-      if (length < 0) length = len(text) - place + 1
-      line = text(place:place + length - 1)
-      place = place + length + 1
-      comment = index(line, '   ! ')
-      if (comment > 0) line = line(:comment - 1)
-      line = trim(adjustl(line))
-   end subroutine next_line
 
    !> A text as 8-byte words, padded with blanks.
    pure function words_of(text) result(words)
@@ -398,14 +361,6 @@ contains
 
       words = transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64])
    end function words_of
-
-   !> The text of 8-byte words, without blanks at its end.
-   pure function text_of(words) result(text)
-      integer(int64), intent(in) :: words(:)
-      character(:), allocatable :: text
-
-      text = trim(transfer(words, repeat(' ', bytes_of_word*size(words))))
-   end function text_of
 
    !> Checksum: a polynomial whose coefficients are the half words, modulo a prime. A change of one word changes it.
    pure integer(int64) function checksum(words) result(total)

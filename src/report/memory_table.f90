@@ -8,15 +8,18 @@ module wavycon_memory_table
    implicit none (type, external)
    private
 
-   public :: column_name, column_unit, memory_table
+   public :: column_list, column_name, column_unit, memory_table
 
    !> What the values of a column are.
    integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
 
-   integer, parameter :: longest_name = 48, longest_word = 32, first_room = 64
+   !> Bytes of name[unit].
+   integer, parameter, public :: longest_column = 48
+   integer, parameter, public :: longest_word = 32
+   integer, parameter :: first_room = 64
 
    type :: memory_table
-      character(longest_name), allocatable :: names(:), units(:)   !! of the columns
+      character(longest_column), allocatable :: names(:), units(:)   !! of the columns
       integer, allocatable :: kinds(:)                      !! of the columns, names above
       integer :: rows = 0
       real(dp), allocatable :: values(:, :)                 !! shape (columns, rows or more)
@@ -130,6 +133,22 @@ contains
          end if
       end do
    end subroutine text
+
+   !> The columns in a text, name[unit] of each.
+   pure function column_list(text) result(columns)
+      character(*), intent(in) :: text   !! with a blank between two
+      character(longest_column), allocatable :: columns(:)
+
+      integer :: first, i, length
+
+      allocate (columns(count([(text(i:i) == ']', i=1, len(text))])))
+      first = 1
+      do i = 1, size(columns)
+         length = index(text(first:), ']')
+         columns(i) = text(first:first + length - 1)
+         first = first + length + 1
+      end do
+   end function column_list
 
    !> The name in name[unit].
    elemental function column_name(column) result(name)

@@ -8,7 +8,7 @@ module wavycon_output_file
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: memory_table, of_integers, of_words
+   use wavycon_memory_table, only: longest_word, memory_table, of_integers, of_reals, of_words
    use wavycon_plain_text, only: escaped, integer_text, system_words
    use wavycon_system, only: process_id, remove_file, remove_when_interrupted, rename_file
    implicit none (type, external)
@@ -32,10 +32,12 @@ module wavycon_output_file
       logical :: has_names = .false.              !! whether the line of the names was written
       integer :: blocks = 0                       !! data sets begun by begin_block
       integer, allocatable :: column_end(:)       !! position in a row at which each column ends
-      character(:), allocatable :: row            !! the row being filled
-      integer :: columns_filled = 0               !! of that row
       type(memory_table), pointer :: memory => null()   !! in place of the file
-      real(dp), allocatable :: numbers(:)         !! the row being filled of a table in memory
+      !> The row being filled: of each column what it is, the number, the word.
+      integer :: columns_filled = 0
+      integer, allocatable :: kinds(:)
+      real(dp), allocatable :: numbers(:)
+      character(longest_word), allocatable :: words(:)
    contains
       procedure :: open => open_file
       procedure :: open_in_memory
@@ -44,19 +46,11 @@ module wavycon_output_file
       procedure :: put_numbers
       procedure :: put_columns
       procedure :: begin_block
-      procedure :: add_real
-      procedure :: add_reals
-      procedure :: add_integer
-      procedure :: add_integers
-      procedure :: add_long_integer
-      procedure :: add_word
-      generic :: add => add_real, add_reals, add_integer, add_integers, add_long_integer, &
-         add_word
-      procedure :: add_row_of
+      procedure, private :: add_integers, add_long, add_reals, add_word
+      generic :: add => add_integers, add_long, add_reals, add_word
       procedure :: end_row
       procedure :: put_rows
       procedure :: note_trouble
-      procedure :: share
       procedure :: finish
    end type output_file
 
@@ -129,19 +123,18 @@ contains
 
    !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
    !> or, without blocks, before the first row.
-   subroutine put_columns(self, names, units, longest)
+   subroutine put_columns(self, names, units)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! without blanks
       character(*), intent(in) :: units(:)   !! as many; shown in brackets
-      integer, intent(in), optional :: longest(:)   !! as many: bytes of the longest word of each column
 
       character(len(units) + 2) :: in_brackets(size(units))
       character(:), allocatable :: line
       integer :: i, last, width
 
+      allocate (self%kinds(size(names)), self%numbers(size(names)), self%words(size(names)))
       if (associated(self%memory)) then
          call self%memory%start(names, units)
-         allocate (self%numbers(size(names)))
          return
       end if
       self%names = names
@@ -150,11 +143,9 @@ contains
       do i = 1, size(names)
          in_brackets(i) = '['//trim(units(i))//']'
          width = max(narrowest, len_trim(names(i)) + 1, len_trim(in_brackets(i)) + merge(2, 1, i == 1))
-         if (present(longest)) width = max(width, longest(i) + 1)
          last = last + width
          self%column_end(i) = last
       end do
-      self%row = repeat(' ', last)
       line = aligned(self, in_brackets)
       line(1:1) = '#'
       call self%put(line)
@@ -197,114 +188,66 @@ contains
       call put_names(self)
    end subroutine begin_block
 
-   !> Fills the next column of a row with a number.
-   subroutine add_real(self, value)
+   !> Fills the next columns of a row with integers.
+   subroutine add_integers(self, values)
       class(output_file), intent(inout) :: self
-      real(dp), intent(in) :: value
+      integer, intent(in) :: values(:)
 
-      character(narrowest) :: words
+      call self%add_long(int(values, int64))
+   end subroutine add_integers
 
-      if (associated(self%memory)) then
-         self%columns_filled = self%columns_filled + 1
-         self%numbers(self%columns_filled) = value
-         return
-      end if
-      write (words, real_format) value
-      call self%add(trim(adjustl(words)))
-   end subroutine add_real
+   subroutine add_long(self, values)
+      class(output_file), intent(inout) :: self
+      integer(int64), intent(in) :: values(:)   !! of at most 15 digits
+
+      call self%add(real(values, dp))
+      self%kinds(self%columns_filled - size(values) + 1:self%columns_filled) = of_integers
+   end subroutine add_long
 
    subroutine add_reals(self, values)
       class(output_file), intent(inout) :: self
       real(dp), intent(in) :: values(:)
 
-      integer :: i
-
-      do i = 1, size(values)
-         call self%add(values(i))
-      end do
+      associate (first => self%columns_filled + 1, last => self%columns_filled + size(values))
+         self%numbers(first:last) = values
+         self%kinds(first:last) = of_reals
+      end associate
+      self%columns_filled = self%columns_filled + size(values)
    end subroutine add_reals
-
-   subroutine add_integer(self, value)
-      class(output_file), intent(inout) :: self
-      integer, intent(in) :: value
-
-      call self%add(int(value, int64))
-   end subroutine add_integer
-
-   subroutine add_integers(self, values)
-      class(output_file), intent(inout) :: self
-      integer, intent(in) :: values(:)
-
-      integer :: i
-
-      do i = 1, size(values)
-         call self%add(values(i))
-      end do
-   end subroutine add_integers
-
-   subroutine add_long_integer(self, value)
-      class(output_file), intent(inout) :: self
-      integer(int64), intent(in) :: value
-
-      character(narrowest) :: text
-
-      if (associated(self%memory)) then
-         call self%add(real(value, dp))
-         self%memory%kinds(self%columns_filled) = of_integers
-         return
-      end if
-      write (text, '(i0)') value
-      call self%add(trim(text))
-   end subroutine add_long_integer
 
    subroutine add_word(self, word)
       class(output_file), intent(inout) :: self
-      character(*), intent(in) :: word   !! without blanks, at most as long as the column is wide
+      character(*), intent(in) :: word   !! without blanks
 
-      integer :: last
-
-      if (associated(self%memory)) then
-         call self%add(real(self%memory%number_of_word(word), dp))
-         self%memory%kinds(self%columns_filled) = of_words
-         return
-      end if
-      self%columns_filled = self%columns_filled + 1
-      last = self%column_end(self%columns_filled)
-      self%row(last - len(word) + 1:last) = word
+      call self%add([0.0_dp])
+      self%words(self%columns_filled) = word
+      self%kinds(self%columns_filled) = of_words
    end subroutine add_word
-
-   !> Fills the next columns of a row with a row of a table in memory.
-   subroutine add_row_of(self, table, row)
-      class(output_file), intent(inout) :: self
-      type(memory_table), intent(in) :: table
-      integer, intent(in) :: row
-
-      integer :: k
-
-      do k = 1, size(table%kinds)
-         select case (table%kinds(k))
-         case (of_words)
-            call self%add(trim(table%words(nint(table%values(k, row)))))
-         case (of_integers)
-            call self%add(nint(table%values(k, row), int64))
-         case default
-            call self%add(table%values(k, row))
-         end select
-      end do
-   end subroutine add_row_of
 
    !> Writes the row that was filled.
    subroutine end_row(self)
       class(output_file), intent(inout) :: self
 
-      if (.not. self%has_names) call put_names(self)
+      integer :: k
+
+      do k = 1, self%columns_filled
+         if (associated(self%memory)) then
+            if (self%kinds(k) /= of_reals) self%memory%kinds(k) = self%kinds(k)
+            if (self%kinds(k) == of_words) self%numbers(k) = self%memory%number_of_word(trim(self%words(k)))
+         else if (self%kinds(k) == of_integers) then
+            write (self%words(k), '(i0)') nint(self%numbers(k), int64)
+         else if (self%kinds(k) == of_reals) then
+            write (self%words(k), real_format) self%numbers(k)
+            self%words(k) = adjustl(self%words(k))
+         end if
+      end do
+      self%columns_filled = 0
       if (associated(self%memory)) then
          call self%memory%add_rows(reshape(self%numbers, [size(self%numbers), 1]))
       else
-         call self%put(self%row)
-         self%row(:) = ' '
+         if (.not. self%has_names) call put_names(self)
+         call self%put(aligned(self, self%words))
       end if
-      self%columns_filled = 0
    end subroutine end_row
 
    !> Writes many rows of integers and of numbers: the same as `add` and `end_row` for each, in a third of the time.
@@ -353,29 +296,13 @@ contains
       if (.not. allocated(self%trouble)) self%trouble = system_words(message)
    end subroutine note_trouble
 
-   !> Brings to the file what was written so far, for other processes that write to the file too.
-   subroutine share(self, path)
-      class(output_file), intent(inout) :: self
-      character(:), allocatable, intent(out) :: path   !! its temporary name
-
-      character(200) :: message
-      integer :: status
-
-      path = self%working_name
-      if (allocated(self%trouble)) return
-      flush (self%unit, iostat=status, iomsg=message)
-      call check(self, status, message)
-   end subroutine share
-
    !> Closes the file and renames it to its final name; after an error the file is removed instead. Errors:
    !> exit_file_trouble.
-   subroutine finish(self, error, bytes_of_others)
+   subroutine finish(self, error)
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      integer(int64), intent(in), optional :: bytes_of_others   !! that other processes wrote behind the own ones
 
       character(:), allocatable :: failure
-      integer(int64) :: further
 
       if (associated(self%memory)) then
          if (self%memory%is_full) call self%note_trouble('there is not the memory for all rows')
@@ -383,9 +310,7 @@ contains
          return
       end if
       if (allocated(self%names) .and. .not. self%has_names) call put_names(self)
-      further = 0
-      if (present(bytes_of_others)) further = bytes_of_others
-      if (self%opened) call close_file(self, further)
+      if (self%opened) call close_file(self)
       if (.not. allocated(self%trouble)) then
          call rename_file(self%working_name, self%name, failure)
          if (allocated(failure)) call self%note_trouble(failure)
@@ -399,9 +324,8 @@ contains
    !> Closes the file and compares its size with the number of bytes written.
    !>
    !> N.B. On a full disk neither write, flush nor close reports an error with gfortran 12: the file is only too short.
-   subroutine close_file(self, further)
+   subroutine close_file(self)
       type(output_file), intent(inout) :: self
-      integer(int64), intent(in) :: further   !! bytes of other processes
 
       character(200) :: message
       integer(int64) :: bytes_there, next_byte
@@ -413,7 +337,7 @@ contains
       close (self%unit, iostat=status, iomsg=message)
       call check(self, status, message)
       inquire (file=self%working_name, size=bytes_there)
-      if (bytes_there /= next_byte - 1 + further) &
+      if (bytes_there /= next_byte - 1) &
          call self%note_trouble('it is cut short: the disk is full, or over a quota or a limit on file sizes')
    end subroutine close_file
 

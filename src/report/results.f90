@@ -6,15 +6,14 @@ module wavycon_results
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: status_code, status_name
+   use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_list, column_name, column_unit, longest_column, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
-   use wavycon_plain_text, only: escaped, exact_number, integer_text
-   use wavycon_preparation_words, only: preparation_words
+   use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_scene, only: scene_type
-   use wavycon_version, only: revision, version
    use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
    private
@@ -56,94 +55,28 @@ contains
    subroutine open_table(self, kind, columns, file)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: kind         !! name of the table, such as 'summary'
-      character(*), intent(in) :: columns(:)   !! name[unit]; the units of `unit_in_words` are replaced
+      character(*), intent(in) :: columns      !! name[unit] of each; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
 
-      character(longest_unit) :: units(size(columns))
+      character(longest_column), allocatable :: names(:)
+      character(longest_unit), allocatable :: units(:)
       integer :: i
 
-      do i = 1, size(columns)
-         units(i) = self%unit_in_words(trim(column_unit(columns(i))))
+      names = column_list(columns)
+      allocate (units(size(names)))
+      do i = 1, size(names)
+         units(i) = self%unit_in_words(trim(column_unit(names(i))))
       end do
+      names = column_name(names)
       if (associated(self%memory)) then
          call file%open_in_memory(self%memory)
-         call file%put_columns(column_name(columns), units)
+         call file%put_columns(names, units)
          return
       end if
       call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
-      call file%put('# wavycon '//version//' ('//revision//')')
-      call file%put('# deck: '//escaped(self%scene%deck_path))
-      if (self%scene%title /= '') call file%put('# title: '//escaped(self%scene%title))
-      associate (surface => self%solver%surface, length => self%scene%length_unit, pressure => self%scene%pressure_unit)
-         call file%put('# surface: '//self%scene%surface_kind// &
-                       ', Delta['//length//'] = '//exact_number(surface%amplitude)//cell_sides())
-         if (allocated(self%scene%map)) call put_statistics(self%scene, file)
-         call file%put('# material: e_star['//pressure//'] = '//exact_number(self%scene%e_star)//closing_pressure())
-         call file%put('# method: '//self%method)
-      end associate
-      call file%put_columns(column_name(columns), units)
-
-   contains
-
-      !> p*, which surfaces with free edges do not have.
-      function closing_pressure() result(words)
-         character(:), allocatable :: words
-
-         words = ''
-         if (.not. self%solver%surface%has_free_edges) &
-            words = ', p*['//self%scene%pressure_unit//'] = '//exact_number(self%scene%p_star)
-      end function closing_pressure
-
-      function cell_sides() result(words)
-         character(:), allocatable :: words
-
-         real(dp) :: side(2)
-
-         side = self%solver%surface%sides()
-         words = ', cell_x['//self%scene%length_unit//'] = '//exact_number(side(1))
-         if (self%solver%surface%dimension == 2) words = words//', cell_y['//self%scene%length_unit//'] = '// &
-            exact_number(side(2))
-         if (self%solver%surface%has_free_edges) then
-            words = words//', free edges'
-         else if (self%solver%surface%mirrored) then
-            words = words//', mirrored'
-         end if
-      end function cell_sides
-
+      call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
+      call file%put_columns(names, units)
    end subroutine open_table
-
-   !> Writes the header lines of a height map: what its statistics are.
-   subroutine put_statistics(scene, file)
-      type(scene_type), intent(in) :: scene
-      type(output_file), intent(inout) :: file
-
-      character(:), allocatable :: words
-
-      associate (map => scene%map, roughness => scene%roughness, unit => scene%length_unit)
-         call file%put('# map: points_x[-] = '//integer_text(map%points(1))// &
-                       ', points_y[-] = '//integer_text(map%points(2))// &
-                       number_of('lowest', unit, map%lowest)//number_of('highest', unit, map%highest)// &
-                       number_of('rms_height', unit, map%rms))
-         if (map%assumed_sides /= '') call file%put('# sides: '//map%assumed_sides)
-         words = preparation_words(map%changes, unit)
-         if (words /= '') call file%put('# prepared: '//words)
-         if (.not. map%rms > 0.0_dp) return
-         call file%put('# roughness: skewness[-] = '//exact_number(map%skewness)// &
-                       number_of('kurtosis', '-', map%kurtosis)//number_of('rms_slope', '-', roughness%slope)// &
-                       number_of('rms_slope_by_differences', '-', map%slope_by_differences)// &
-                       number_of('rms_curvature', '1/'//unit, roughness%curvature)// &
-                       number_of('rms_curvature_by_differences', '1/'//unit, map%curvature_by_differences))
-      end associate
-   end subroutine put_statistics
-
-   !> A number of the head, such as ', rms_height[mm] = 0.1'.
-   pure function number_of(name, unit, number) result(words)
-      character(*), intent(in) :: name, unit
-      real(dp), intent(in) :: number
-      character(:), allocatable :: words
-
-      words = ', '//name//'['//unit//'] = '//exact_number(number)
-   end function number_of
 
    !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
    !> them; others as they are.
@@ -198,7 +131,7 @@ contains
       type(output_file), intent(inout) :: file
       integer, intent(in) :: load    !! number in the deck's order
 
-      call file%add(status_code(self%loads(load)%status))
+      call file%add([status_code(self%loads(load)%status)])
       call file%add(trim(status_name(self%loads(load)%status)))
       call file%end_row()
    end subroutine end_row

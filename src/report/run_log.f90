@@ -2,17 +2,9 @@
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
-   use wavycon_log_columns, only: log_line
-   use wavycon_map_statistics, only: map_statistics
-   use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_preparation_words, only: preparation_words
-   use wavycon_result_lines, only: line_of_load, line_of_stress
-   use wavycon_results, only: results_type
-   use wavycon_scene, only: scene_type, target_words
-   use wavycon_surface, only: surface_type
+   use wavycon_plain_text, only: integer_text, short_number
    use wavycon_solver_progress, only: solver_progress
    use wavycon_system, only: terminal_columns
-   use wavycon_version, only: revision, version
    implicit none (type, external)
    private
 
@@ -23,7 +15,7 @@ module wavycon_run_log
 
    type :: run_log
       private
-      logical :: quiet = .false.
+      logical, public :: quiet = .false.   !! whether nothing is written
       integer :: columns = 0          !! of the terminal; 0: there is none
       integer :: shown = 0            !! of them by the progress line
       integer(int64) :: started = 0, last_progress = 0, rate = 1
@@ -31,11 +23,8 @@ module wavycon_run_log
       procedure :: start
       procedure :: say
       procedure :: say_timed
-      procedure :: show_scene
       procedure :: say_progress
       procedure :: is_due
-      procedure :: show_loads
-      procedure :: show_stresses
       procedure :: elapsed
    end type run_log
 
@@ -86,166 +75,6 @@ contains
       write (time, '(a, f9.3, a)') '[', self%elapsed(), ' s] '
       call self%say(trim(time)//' '//line)
    end subroutine say_timed
-
-   !> Writes the input in effect: deck, surface, material, loads and method.
-   subroutine show_scene(self, results)
-      class(run_log), intent(inout) :: self
-      type(results_type), intent(in) :: results
-
-      character(:), allocatable :: words
-      real(dp), allocatable :: loads(:)
-
-      if (self%quiet) return
-      associate (scene => results%scene, surface => results%solver%surface)
-         call self%say('wavycon '//version//' ('//revision//')')
-         call self%say('deck      '//escaped(scene%deck_path))
-         if (scene%title /= '') call self%say('title     '//escaped(scene%title))
-         call self%say('surface   '//scene%surface_kind//', Delta = '// &
-                       short_number(surface%amplitude)//' ['//scene%length_unit//'], cell '// &
-                       cell_of(surface)//' ['//scene%length_unit//']')
-         if (allocated(scene%map)) call show_map(self, scene, scene%map, surface%amplitude > 0.0_dp)
-         call show_unlikely_slopes(self, scene)
-         call self%say('material  '//material_words(scene, surface))
-         loads = scene%target
-         words = target_words(scene%loads_by)
-         if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
-            loads = surface%nominal_area()*scene%mean_pressure
-            words = 'force'
-         end if
-         call self%say('loads     '//integer_text(size(scene%target))//', '//words// &
-                       ' from '//short_number(minval(loads))//' to '//short_number(maxval(loads)))
-         call self%say('method    '//results%method)
-         if (results%sharing%words() /= '') call self%say('ranks     '//results%sharing%words())
-      end associate
-   end subroutine show_scene
-
-   !> Writes the statistics of a height map, what was done to it, and what is suspicious of it.
-   subroutine show_map(self, scene, map, is_rough)
-      class(run_log), intent(inout) :: self
-      type(scene_type), intent(in) :: scene
-      type(map_statistics), intent(in) :: map   !! of the scene
-      logical, intent(in) :: is_rough           !! or flat
-
-      character(:), allocatable :: words
-
-      call self%say('map       '//integer_text(map%points(1))//' x '//integer_text(map%points(2))//' points ('// &
-                    trim(map%format)//'), heights over their mean '//short_number(map%lowest)//' to '// &
-                    short_number(map%highest)//', rms '//short_number(map%rms)//' ['//scene%length_unit//']')
-      if (map%assumed_sides /= '') call self%say('sides     '//map%assumed_sides)
-      if (is_rough) call self%say('roughness '//roughness_words(scene))
-      words = preparation_words(map%changes, scene%length_unit)
-      if (words /= '') call self%say('prepared  '//words)
-      if (map%lacks_missing_value) call self%say('note: no height of the file has the missing_value of the deck')
-      if (map%spikes > 0) call self%say('note: '//integer_text(map%spikes)//' of the heights are far from all '// &
-         'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
-         'surface does not. Remedy: despike = .true.')
-      call show_broken_borders(self, map, scene%length_unit)
-      ! A broken border is a step between two points.
-      if (.not. any(map%is_broken_along([1, 2]))) call show_unresolved_slopes(self, scene%roughness%slope, map)
-   end subroutine show_map
-
-   !> Slope and curvature, in brackets by differences, and the form of the distribution of heights.
-   pure function roughness_words(scene) result(words)
-      type(scene_type), intent(in) :: scene   !! of a height map
-      character(:), allocatable :: words
-
-      associate (roughness => scene%roughness, map => scene%map)
-         words = 'rms slope '//short_number(roughness%slope)//' (by differences '// &
-                 short_number(map%slope_by_differences)//'), rms curvature '// &
-                 short_number(roughness%curvature)//' ('//short_number(map%curvature_by_differences)// &
-                 ') [1/'//scene%length_unit//'], skewness '//short_number(map%skewness)//', kurtosis '// &
-                 short_number(map%kurtosis)
-      end associate
-   end function roughness_words
-
-   !> Modulus, p* and, if there is one, hardness.
-   pure function material_words(scene, surface) result(words)
-      type(scene_type), intent(in) :: scene
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      words = 'E* = '//short_number(scene%e_star)//' ['//scene%pressure_unit//']'
-      if (.not. surface%has_free_edges) &
-         words = words//', p* = '//short_number(scene%p_star)//' ['//scene%pressure_unit//']'
-      if (surface%has_hardness()) words = words//', hardness = '// &
-         short_number(surface%hardness*scene%p_star)//' ['//scene%pressure_unit//']'
-   end function material_words
-
-   !> Warns of a map whose opposite borders do not fit together.
-   subroutine show_broken_borders(self, map, length_unit)
-      class(run_log), intent(inout) :: self
-      type(map_statistics), intent(in) :: map
-      character(*), intent(in) :: length_unit
-
-      character(:), allocatable :: remedies
-      integer :: direction
-
-      remedies = "edges = 'mirror', edges = 'window'"
-      if (map%changes%detrend /= 'plane' .and. map%changes%detrend /= 'quadratic') &
-         remedies = "detrend = 'plane', "//remedies
-      do direction = 1, 2
-         if (map%is_broken_along(direction)) call self%say('note: along '//'xy'(direction:direction)// &
-            ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['// &
-            length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
-            '; such steps carry load. Remedies: '//remedies)
-      end do
-   end subroutine show_broken_borders
-
-   !> Warns of a map whose slopes are between neighbouring points rather than in waves of many.
-   subroutine show_unresolved_slopes(self, rms_slope, map)
-      class(run_log), intent(inout) :: self
-      real(dp), intent(in) :: rms_slope            !! of the series
-      type(map_statistics), intent(in) :: map
-
-      !> Least slope by differences over that of the series. Noise that lowers it to 0.9 takes a quarter or more of the
-      !> contact area at light loads: see the table of src/map/README.md.
-      real(dp), parameter :: least = 0.9_dp
-
-      if (map%slope_by_differences >= least*rms_slope) return
-      call self%say('note: the rms slope is '//short_number(rms_slope)//', by differences of neighbours only '// &
-                    short_number(map%slope_by_differences)// &
-                    ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
-                    'they make contact areas smaller')
-   end subroutine show_unresolved_slopes
-
-   !> Warns of a surface that is too steep for the theory, if the deck has units, and of one that is all but flat: most
-   !> likely by a mistake of units.
-   subroutine show_unlikely_slopes(self, scene)
-      class(run_log), intent(inout) :: self
-      type(scene_type), intent(in) :: scene
-
-      !> The theory of small slopes is off by the order of their square, here a tenth.
-      real(dp), parameter :: steepest = 0.3_dp
-      !> Heights in m beside sides in um make slopes of 1e-4 (polished silicon) to 10 a million times smaller.
-      real(dp), parameter :: flattest = 1e-5_dp
-      character(:), allocatable :: borders, cause, verdict
-      logical :: is_flat
-
-      is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
-      if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
-      verdict = '; the theory needs small ones.'
-      if (is_flat) verdict = '; those of real surfaces are larger.'
-      borders = ''
-      cause = 'Are amplitudes and wavelengths in one unit?'
-      if (allocated(scene%map)) then
-         if (scene%map%path /= '') cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
-         if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
-      end if
-      call self%say('note: the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
-                    verdict//' '//cause)
-   end subroutine show_unlikely_slopes
-
-   !> The sides of the cell, or of a mirrored map, such as "2 x 3".
-   pure function cell_of(surface) result(words)
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      real(dp) :: side(2)
-
-      side = surface%sides()
-      words = short_number(side(1))
-      if (surface%dimension == 2) words = words//' x '//short_number(side(2))
-   end function cell_of
 
    !> Shows the grid that was solved last, as of `solver_progress`.
    subroutine grid_solved(self, points, iterations, residual)
@@ -319,40 +148,6 @@ contains
       flush (output_unit)
       self%shown = width
    end subroutine say_progress
-
-   !> Writes a table with a line for each load.
-   subroutine show_loads(self, results)
-      class(run_log), intent(inout) :: self
-      type(results_type), intent(in) :: results
-
-      type(log_line) :: line
-      integer :: load
-
-      if (self%quiet) return
-      do load = 1, size(results%loads)
-         call line_of_load(results, load, line)
-         if (load == 1) call self%say(line%names)
-         call self%say(line%words)
-      end do
-   end subroutine show_loads
-
-   !> Writes the largest stresses, with a line for each load and body.
-   subroutine show_stresses(self, results)
-      class(run_log), intent(inout) :: self
-      type(results_type), intent(in) :: results   !! with the largest stresses
-
-      type(log_line) :: line
-      integer :: body, load
-
-      if (self%quiet) return
-      do load = 1, size(results%loads)
-         do body = 1, size(results%von_mises, 1)
-            call line_of_stress(results, load, body, line)
-            if (load == 1 .and. body == 1) call self%say(line%names)
-            call self%say(line%words)
-         end do
-      end do
-   end subroutine show_stresses
 
    !> Overwrites the progress line with blanks.
    subroutine clear_progress(self)

@@ -1,39 +1,41 @@
-!> What a table of results is, as data: its name, its columns, who asks for it, and the procedures that write its rows.
+!> What a table of results is, as data: its name, its columns, who asks for it, and the procedure that writes its rows.
 !> src/README.md describes how to add a table.
 module wavycon_table
-   use wavycon_assertion, only: assert
    use wavycon_contact_solver, only: solver_traits
    use wavycon_error, only: error_type
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_index, logical_value, text_value
+   use wavycon_kinds, only: dp
+   use wavycon_methods, only: solvers_with
    use wavycon_output_file, only: output_file
+   use wavycon_plain_text, only: short_number
    use wavycon_results, only: results_type
    use wavycon_scene, only: scene_type
+   use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
+   use wavycon_wave_kinds, only: paper_waves
    implicit none (type, external)
    private
 
-   public :: table_type
-
-   integer, parameter :: longest_column = 48
+   public :: add_table, table_type
 
    type :: table_type
       character(16) :: file = ''          !! the table is <case>.<file>.dat
-      character(16) :: key = ''           !! the logical key that requests it; empty: it has none of its own
+      character(16) :: key = ''           !! the key that requests it; empty: it has none of its own
       character(9) :: group = 'output'    !! of the key: 'output', 'stress' or 'interface'
-      character(:), allocatable :: meaning      !! one sentence for the key reference
-      character(longest_column), allocatable :: columns(:)
+      character(:), allocatable :: meaning      !! one sentence for the reference of keys of &output
+      character(:), allocatable :: columns      !! name[unit] of each, with a blank between two
+      !> Keys that together ask for it, in place of `key`: a logical one that is .true., a text other than 'none', a
+      !> number that is given. Without any it is written always, but never without its group &stress or &interface.
+      character(16) :: asked_by(2) = ''
       logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
       logical :: needs_surface = .true.   !! whether it is made from the whole surface
       logical :: is_for_flat_surfaces = .false.   !! whether it is written where p* and Delta are zero
-      !> Null: it is written if its key is .true. and, without a key, always; never without its group &stress or
-      !> &interface.
-      procedure(request_interface), pointer, nopass :: requested => null()
-      procedure(refusal_interface), pointer, nopass :: refuse => null()        !! null: it can always be written
       procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
       !> One of these two: the rows of a load, for a table that has rows of each load; or all of the table.
       procedure(load_interface), pointer, nopass :: put_load => null()
       procedure(write_interface), pointer, nopass :: write_all => null()
    contains
-      procedure :: set_columns
       procedure :: name
       procedure :: is_requested
       procedure :: refusal
@@ -42,20 +44,6 @@ module wavycon_table
    end type table_type
 
    abstract interface
-      !> `requested`: whether a scene asks for the table.
-      logical function request_interface(scene)
-         import :: scene_type
-         type(scene_type), intent(in) :: scene
-      end function request_interface
-
-      !> `refuse`: why the table cannot be written, as `refusal` below.
-      subroutine refusal_interface(traits, surface, words)
-         import :: solver_traits, surface_type
-         type(solver_traits), intent(in) :: traits   !! started or not
-         type(surface_type), intent(in) :: surface
-         character(:), allocatable, intent(out) :: words
-      end subroutine refusal_interface
-
       !> `written_by_all`: as `is_written_by_all` below.
       logical function by_all_interface(results)
          import :: results_type
@@ -80,16 +68,6 @@ module wavycon_table
 
 contains
 
-   !> Declares the columns.
-   pure subroutine set_columns(self, columns)
-      class(table_type), intent(inout) :: self
-      character(*), intent(in) :: columns(:)   !! name[unit], units as of `unit_in_words` of the results
-
-      call assert(all(len_trim(columns) <= longest_column), 'no column is cut short')
-      allocate (self%columns(size(columns)))
-      self%columns = columns
-   end subroutine set_columns
-
    !> The name that programs ask for: the key, that of &stress with 'stress_' before it; without a key that of the file.
    elemental function name(self) result(words)
       class(table_type), intent(in) :: self
@@ -105,19 +83,40 @@ contains
       class(table_type), intent(in) :: self
       type(scene_type), intent(in) :: scene
 
-      is_requested = self%group == 'output' .or. (self%group == 'stress' .and. allocated(scene%stress_setting)) &
-         .or. (self%group == 'interface' .and. allocated(scene%interface_setting))
-      if (.not. is_requested) return
-      if (associated(self%requested)) then
-         is_requested = self%requested(scene)
-      else if (self%group == 'stress') then
-         is_requested = scene%stress%logical(trim(self%key))
-      else if (self%group == 'interface' .and. self%key /= '') then
-         is_requested = scene%interface%logical(trim(self%key))
-      else if (self%key /= '') then
-         is_requested = scene%output%logical(trim(self%key))
-      end if
+      select case (self%group)
+      case ('stress')
+         is_requested = allocated(scene%stress_setting)
+         if (is_requested) is_requested = is_asked_for(self, scene%stress)
+      case ('interface')
+         is_requested = allocated(scene%interface_setting)
+         if (is_requested) is_requested = is_asked_for(self, scene%interface)
+      case default
+         is_requested = is_asked_for(self, scene%output)
+      end select
    end function is_requested
+
+   !> Whether the keys of a group ask for the table.
+   pure logical function is_asked_for(self, values)
+      type(table_type), intent(in) :: self
+      type(group_values), intent(in) :: values
+
+      character(len(self%asked_by)) :: keys(2)
+      integer :: i
+
+      is_asked_for = .true.
+      keys = self%asked_by
+      if (keys(1) == '') keys(1) = self%key
+      do i = 1, count(keys /= '')
+         select case (values%table%keys(key_index(values%table%keys, keys(i)))%kind)
+         case (logical_value)
+            is_asked_for = is_asked_for .and. values%logical(trim(keys(i)))
+         case (text_value:)
+            is_asked_for = is_asked_for .and. values%text(trim(keys(i))) /= 'none'
+         case default
+            is_asked_for = is_asked_for .and. values%has(trim(keys(i)))
+         end select
+      end do
+   end function is_asked_for
 
    !> Why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it can.
    function refusal(self, traits, surface) result(words)
@@ -126,8 +125,27 @@ contains
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
+      !> Its fourth power must be a number.
+      real(dp), parameter :: largest_length = 1.0e75_dp
+
       words = ''
-      if (associated(self%refuse)) call self%refuse(traits, surface, words)
+      select case (self%file)
+      case ('coefficients')
+         if (.not. traits%has_coefficients) words = "solver = '"//trim(solver_names(traits%solver))// &
+            "' has no series of given length; "//solvers_with('coefficients')//' has'
+      case ('details')
+         if (.not. traits%has_details) words = "solver = '"//trim(solver_names(traits%solver))// &
+            "' does not compute them for every load; "//solvers_with('details')//' does'
+      case ('spectrum')
+         if (max(surface%amplitude, maxval(surface%length)) > largest_length) words = 'it has the fourth power of '// &
+            'lengths, which may be up to '//short_number(largest_length)//'; choose another unit of length'
+      case ('theory', 'theory_lines')
+         if (surface%is_paper_wave()) return
+         words = 'closed forms exist only for the waves of the paper: '//paper_waves
+         if (self%file == 'theory_lines') return
+         words = words//', and for a ball'
+         if (surface%has_free_edges .and. all(surface%form(:surface%dimension) > 0.0_dp)) words = ''
+      end select
    end function refusal
 
    !> Whether all ranks write the table together, each from its columns of grids that are distributed; called before the
@@ -159,5 +177,18 @@ contains
       end do
       call file%finish(error)
    end subroutine write_table
+
+   !> Adds a table to a list.
+   subroutine add_table(tables, table)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+      type(table_type), intent(in) :: table
+
+      type(table_type), allocatable :: longer(:)
+
+      allocate (longer(size(tables) + 1))
+      longer(:size(tables)) = tables
+      longer(size(longer)) = table
+      call move_alloc(longer, tables)
+   end subroutine add_table
 
 end module wavycon_table

@@ -1,69 +1,42 @@
-!> The list of all tables. A new table adds its line to `all_tables`.
+!> The list of all tables. A new file of tables adds its line to `all_tables`.
 module wavycon_tables
-   use wavycon_adhesion_table, only: adhesion_table
-   use wavycon_coefficients_table, only: coefficients_table
-   use wavycon_contour_table, only: contour_table
-   use wavycon_details_table, only: details_table
-   use wavycon_height_table, only: height_table
-   use wavycon_histogram_table, only: histogram_table
-   use wavycon_interface_table, only: interface_table
-   use wavycon_largest_stress_table, only: largest_stress_table
-   use wavycon_lines_table, only: lines_table
-   use wavycon_map_table, only: map_table
-   use wavycon_partial_slip_table, only: partial_slip_table, slip_loop_table
+   use wavycon_interface_tables, only: add_interface_tables
+   use wavycon_line_tables, only: add_line_tables
+   use wavycon_map_tables, only: add_map_tables
    use wavycon_plain_text, only: listed
-   use wavycon_slip_map_table, only: slip_map_table
-   use wavycon_spectrum_table, only: spectrum_table
-   use wavycon_spot_sizes_table, only: spot_sizes_table
-   use wavycon_spots_table, only: spots_table
-   use wavycon_stress_line_table, only: stress_line_table
-   use wavycon_stress_planes_table, only: stress_planes_table
-   use wavycon_stress_section_table, only: stress_section_table
-   use wavycon_summary_table, only: summary_table
+   use wavycon_spot_tables, only: add_spot_tables
+   use wavycon_stress_tables, only: add_stress_tables
+   use wavycon_summary_tables, only: add_summary_tables
+   use wavycon_surface_tables, only: add_surface_tables
    use wavycon_table, only: table_type
-   use wavycon_theory_lines_table, only: theory_lines_table
-   use wavycon_theory_table, only: theory_table
+   use wavycon_theory_tables, only: add_theory_tables
    implicit none (type, external)
    private
 
-   public :: add_table, all_tables, find_table
+   public :: all_tables, find_table
 
 contains
 
-   !> All tables, in the order in which they are written. A new table adds its line here.
+   !> All tables, in the order in which they are written.
    subroutine all_tables(tables)
       type(table_type), allocatable, intent(out) :: tables(:)
 
       allocate (tables(0))
-      call add_table(tables, summary_table())
-      call add_table(tables, lines_table())
-      call add_table(tables, map_table())
-      call add_table(tables, contour_table())
-      call add_table(tables, spots_table())
-      call add_table(tables, spot_sizes_table())
-      call add_table(tables, histogram_table())
-      call add_table(tables, coefficients_table())
-      call add_table(tables, theory_table())
-      call add_table(tables, theory_lines_table())
-      call add_table(tables, details_table())
-      call add_table(tables, spectrum_table())
-      call add_table(tables, height_table())
-      call add_table(tables, largest_stress_table())
-      call add_table(tables, stress_line_table())
-      call add_table(tables, stress_section_table())
-      call add_table(tables, stress_planes_table())
-      call add_table(tables, interface_table())
-      call add_table(tables, partial_slip_table())
-      call add_table(tables, slip_loop_table())
-      call add_table(tables, slip_map_table())
-      call add_table(tables, adhesion_table())
+      call add_summary_tables(tables)
+      call add_line_tables(tables)
+      call add_map_tables(tables)
+      call add_spot_tables(tables)
+      call add_theory_tables(tables)
+      call add_surface_tables(tables)
+      call add_stress_tables(tables)
+      call add_interface_tables(tables)
    end subroutine all_tables
 
    !> The table of a name; not allocated if there is none.
    subroutine find_table(name, table, names)
       character(*), intent(in) :: name
       type(table_type), allocatable, intent(out) :: table
-      character(:), allocatable, intent(out) :: names   !! of all tables, such as 'summary, lines and map'
+      character(:), allocatable, intent(out) :: names   !! of all tables, such as 'summary, details and lines'
 
       type(table_type), allocatable :: tables(:)
       integer :: i
@@ -73,18 +46,5 @@ contains
       i = findloc(tables%name() == name, .true., dim=1)
       if (i > 0) allocate (table, source=tables(i))
    end subroutine find_table
-
-   !> Adds a table to a list.
-   subroutine add_table(tables, table)
-      type(table_type), allocatable, intent(inout) :: tables(:)
-      type(table_type), intent(in) :: table
-
-      type(table_type), allocatable :: longer(:)
-
-      allocate (longer(size(tables) + 1))
-      longer(:size(tables)) = tables
-      longer(size(longer)) = table
-      call move_alloc(longer, tables)
-   end subroutine add_table
 
 end module wavycon_tables

@@ -84,7 +84,7 @@ contains
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
             ' points of the curve have no solution')
          do i = 1, size(curve%critical)
-            call log%say('adhesion  '//trim(point_names(curve%critical(i)%kind))//words_of_point(curve%critical(i)))
+            call log%say('adhesion: '//trim(point_names(curve%critical(i)%kind))//words_of_point(curve%critical(i)))
          end do
       end associate
    contains

@@ -1,12 +1,12 @@
 !> Finds the largest stresses of all loads of a scene.
 module wavycon_find_stresses
-   use wavycon_largest_stress, only: find_largest_stresses
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_plain_text, only: integer_text
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_share_solutions, only: share_stresses
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_work_sharing, only: distributed_loads
+   use wavycon_work_sharing, only: distributed_loads, work_sharing
    implicit none (type, external)
    private
 
@@ -47,5 +47,22 @@ contains
       call share_stresses(results%sharing, results%von_mises)
       call share_stresses(results%sharing, results%shear)
    end subroutine find_stresses
+
+   !> Gives all ranks the largest stresses of all loads.
+   subroutine share_stresses(sharing, stresses)
+      type(work_sharing), intent(in) :: sharing
+      type(largest_stress), intent(inout) :: stresses(:, :)   !! shape (bodies, loads); of the own loads
+
+      integer :: load, n
+      integer(int64) :: words(size(stresses)*storage_size(stresses)/storage_size(0_int64))
+
+      words = transfer(stresses, words)
+      n = size(words)/size(stresses, 2)
+      do load = 1, size(stresses, 2)
+         if (.not. sharing%is_own_load(load)) words((load - 1)*n + 1:load*n) = 0
+      end do
+      call sharing%add(words)
+      stresses = reshape(transfer(words, stresses), shape(stresses))
+   end subroutine share_stresses
 
 end module wavycon_find_stresses

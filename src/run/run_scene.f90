@@ -2,22 +2,23 @@
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
-   use wavycon_closing_notes, only: sum_up
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_find_interface, only: find_interface
    use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_methods, only: start_solver
+   use wavycon_notes, only: show_scene, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_own_waves, only: gather_series
    use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_result_lines, only: show_loads, show_stresses
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_solve_loads, only: order_loads, solve_loads
    use wavycon_system, only: has_memory_for, make_directories
-   use wavycon_table, only: table_type
-   use wavycon_tables, only: add_table, all_tables
+   use wavycon_table, only: add_table, table_type
+   use wavycon_tables, only: all_tables
    use wavycon_work_sharing, only: choose_sharing, distributed_grids
    implicit none (type, external)
    private
@@ -44,7 +45,7 @@ contains
       status = exit_fine
       call log%start(quiet)
       call start_results(scene, results, tables)
-      call log%show_scene(results)
+      call show_scene(results, log)
       call check_sharing(results, tables, error)
       if (allocated(error)) return
       if (results%sharing%is_shared()) then
@@ -106,7 +107,7 @@ contains
       if (results%sharing%any(.not. checkpoint%is_complete())) &
          call log%say('note: not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
-      call log%show_loads(results)
+      call show_loads(results, log)
       call write_results(results, tables, log, error)
       if (allocated(error)) return
       call checkpoint%remove()
@@ -129,7 +130,7 @@ contains
       by_first = results%sharing%kind == distributed_grids
       by_all = .false.
       if (by_first) by_all = [(tables(i)%is_written_by_all(results), i=1, size(tables))]
-      call write_tables(results, tables, by_all, error)
+      call write_tables(results, tables, by_all, by_first, error)
       if (allocated(error)) return
       if (by_first) then
          call collect(results, any(tables%needs_fields .and. .not. by_all) .or. asks_for_largest(results%scene), &
@@ -141,11 +142,11 @@ contains
          if (asks_for_largest(results%scene)) then
             call find_stresses(results, log)
             call log%say_timed('largest stresses found')
-            call log%show_stresses(results)
+            call show_stresses(results, log)
          end if
          if (allocated(results%scene%interface_setting)) call find_interface(results, log)
       end if
-      if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, error)
+      if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, .false., error)
       if (by_first) call results%sharing%work_alone(.false.)
       call results%sharing%share_error(error)
    end subroutine write_results
@@ -229,7 +230,7 @@ contains
          known = ranks_that_know > 0
       end if
       if (allocated(name)) then
-         call log%say('resumed   '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
+         call log%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
                       ' loads are in '//escaped(name))
       else
          call log%say('note: there is no '//escaped(checkpoint_name(results))// &
@@ -260,10 +261,11 @@ contains
    end subroutine prepare_directory
 
    !> Writes tables. Errors: exit_file_trouble.
-   subroutine write_tables(results, tables, selected, error)
+   subroutine write_tables(results, tables, selected, by_all, error)
       type(results_type), intent(in) :: results
       type(table_type), intent(in) :: tables(:)
       logical, intent(in) :: selected(:)   !! of each table
+      logical, intent(in) :: by_all        !! whether all ranks write them together: an error of one is that of all
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
@@ -271,6 +273,7 @@ contains
       do i = 1, size(tables)
          if (.not. selected(i)) cycle
          call tables(i)%write(results, error)
+         if (by_all) call results%sharing%share_error(error)
          if (allocated(error)) return
       end do
    end subroutine write_tables

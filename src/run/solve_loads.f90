@@ -1,19 +1,24 @@
 !> Solves all loads of a scene.
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver
+   use wavycon_find_load, only: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
+   use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_mean_gap
-   use wavycon_share_solutions, only: share_solutions
-   use wavycon_solve_target, only: solve_target
+   use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_yield
+   use wavycon_solution_record, only: record_of_words, record_words, words_of_record
+   use wavycon_stress_setting, only: stress_setting
    use wavycon_work_sharing, only: distributed_loads
    implicit none (type, external)
    private
 
-   public :: order_loads, solve_loads
+   public :: order_loads, solve_loads, solve_target
 
    !> Loads of a block where each starts from the last one and loads are distributed. The first of a block starts as the
    !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
@@ -78,6 +83,50 @@ contains
       call results%sharing%work_alone(.false.)
       call share_solutions(results)
    end subroutine solve_loads
+
+   !> Solves one load, or finds the load of a given mean gap, approach, area or stress.
+   subroutine solve_target(solver, loads_by, target, solution, setting)
+      class(contact_solver), intent(inout) :: solver
+      integer, intent(in) :: loads_by     !! a name of wavycon_scene
+      real(dp), intent(in) :: target      !! as of scene_type
+      type(contact_solution), intent(out) :: solution
+      type(stress_setting), intent(in), optional :: setting   !! needed by_yield, with yield stresses
+
+      select case (loads_by)
+      case (by_mean_gap)
+         call solve_for_mean_gap(solver, target, solution)
+      case (by_approach)
+         call solve_for_approach(solver, target, solution)
+      case (by_contact_area)
+         call solve_for_contact_area(solver, target, solution)
+      case (by_yield)
+         call solve_for_yield(solver, setting, target, solution)
+      case default
+         call solver%solve(target, solution)
+      end select
+   end subroutine solve_target
+
+   !> Gives all ranks the measures of all loads. A rank keeps the solutions of its own loads as they are.
+   !>
+   !> Numbers travel as 8-byte words: sums of words of which all but one are zero are exact, of real numbers those of
+   !> NaN and of -0 are not.
+   subroutine share_solutions(results)
+      type(results_type), intent(inout) :: results   !! with solutions of the own loads
+
+      integer :: load
+      integer(int64), allocatable :: words(:)
+
+      allocate (words(record_words*size(results%loads)), source=0_int64)
+      do load = 1, size(results%loads)
+         if (results%sharing%is_own_load(load)) &
+            words((load - 1)*record_words + 1:load*record_words) = words_of_record(results%loads(load))
+      end do
+      call results%sharing%add(words)
+      do load = 1, size(results%loads)
+         if (.not. results%sharing%is_own_load(load)) &
+            results%loads(load)%solution_record = record_of_words(words((load - 1)*record_words + 1:load*record_words))
+      end do
+   end subroutine share_solutions
 
    !> The indices of an array from its largest to its smallest value.
    function descending(values) result(order)

@@ -10,10 +10,13 @@ module wavycon_scene
    implicit none (type, external)
    private
 
-   public :: scene_type, target_words
+   public :: scene_type
 
    !> The quantity by which a deck gives its loads.
    integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3, by_yield = 4, by_approach = 5
+   !> The same as headings.
+   character(19), parameter, public :: target_words(5) = [character(19) :: 'pbar/p*', 'gap/Delta', 'area/A0', &
+      'stress/yield stress', 'approach/Delta']
 
    type :: scene_type
       character(:), allocatable :: deck_path        !! the deck's file, as the caller named it
@@ -41,26 +44,5 @@ module wavycon_scene
       type(stress_setting), allocatable :: stress_setting   !! allocated if the deck has &stress
       type(interface_setting), allocatable :: interface_setting   !! allocated if the deck has &interface
    end type scene_type
-
-contains
-
-   !> The quantity by which the loads are given, as a heading.
-   pure function target_words(loads_by) result(words)
-      integer, intent(in) :: loads_by   !! one of the names above
-      character(:), allocatable :: words
-
-      select case (loads_by)
-      case (by_mean_gap)
-         words = 'gap/Delta'
-      case (by_contact_area)
-         words = 'area/A0'
-      case (by_approach)
-         words = 'approach/Delta'
-      case (by_yield)
-         words = 'stress/yield stress'
-      case default
-         words = 'pbar/p*'
-      end select
-   end function target_words
 
 end module wavycon_scene

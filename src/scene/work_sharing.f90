@@ -3,6 +3,7 @@ module wavycon_work_sharing
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solver, only: solver_traits
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text
    use wavycon_ranks, only: add_integers_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, &
       this_rank, work_alone
@@ -35,6 +36,7 @@ module wavycon_work_sharing
       procedure :: words
       procedure :: deal_loads
       procedure :: is_own_load
+      procedure, nopass :: share_numbers
       !> Says whether each rank works on something else from now on, without exchange.
       procedure, nopass :: work_alone
       !> Adds words of all ranks, one by one.
@@ -115,6 +117,19 @@ contains
       is_own_load = .true.
       if (allocated(self%rank_of_load)) is_own_load = self%rank_of_load(load) == self%rank
    end function is_own_load
+
+   !> Gives all ranks the numbers that one of them has, bit by bit.
+   subroutine share_numbers(is_own, numbers)
+      logical, intent(in) :: is_own   !! on one rank
+      real(dp), intent(inout), contiguous :: numbers(:, :)
+
+      integer(int64), allocatable :: words(:)
+
+      allocate (words(size(numbers)), source=0_int64)
+      if (is_own) words = transfer(numbers, words)
+      call add_integers_over_ranks(words)
+      numbers = reshape(transfer(words, numbers), shape(numbers))
+   end subroutine share_numbers
 
    !> The decision for the log; empty for one rank.
    function words(self)

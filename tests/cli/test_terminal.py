@@ -89,7 +89,7 @@ class Terminal(ProgramTest):
         self.assertIsNotNone(found, said)
         self.assertIn(" --resume 'a place/deck.nml' --set 'scene.title=it'\\''s' --output kept", found[2])
         done = subprocess.run(found[2], shell=True, cwd=self.folder, capture_output=True, text=True, check=True)
-        self.assertIn(f"resumed   {found[1]} of 4 loads", done.stdout)
+        self.assertIn(f"resumed: {found[1]} of 4 loads", done.stdout)
 
 
 if __name__ == "__main__":

@@ -175,8 +175,8 @@ class Pages(ProgramTest):
 
     def test_columns(self):
         page = read("outputs/README.md")
-        tables = {name for path in (ROOT/"src/report").glob("*_table.f90")
-                  for name in re.findall(r"table%file = '(\w+)'", path.read_text(encoding="utf-8"))}
+        tables = {name for path in (ROOT/"src/report").glob("*_tables.f90")
+                  for name in re.findall(r"table_type\('(\w+)'", path.read_text(encoding="utf-8"))}
         # The heights have no columns but x, y and one more.
         self.assertEqual(tables - {"height"}, set(SECTIONS))
         for kind, columns in self.columns().items():
@@ -206,7 +206,7 @@ class Pages(ProgramTest):
 
     def test_the_log_in_readme(self):
         text = read("README.md")
-        shown = re.findall(r"^```\n(deck .*?)^```$", text, re.MULTILINE | re.DOTALL)
+        shown = re.findall(r"^```\n(deck: .*?)^```$", text, re.MULTILINE | re.DOTALL)
         self.assertEqual(1, len(shown))
         (self.folder/"first.nml").write_text(decks(text)[0])
         log = self.run_program("first.nml", folder=self.folder).stdout

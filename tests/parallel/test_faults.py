@@ -129,7 +129,7 @@ class Faults(ProgramTest):
         # Another number of ranks goes on from the checkpoints of all.
         outcome = run(self.mpiexec, 2, self.command("--resume"), self.folder)
         self.assertEqual((0, ""), (outcome.status, outcome.stderr))
-        self.assertRegex(outcome.stdout, r"(?m)^resumed +[1-9]")
+        self.assertRegex(outcome.stdout, r"(?m)^resumed: [1-9]")
         resumed = (self.folder/"results"/"deck.summary.dat").read_text()
         self.assertEqual([], [name for name in self.results() if "checkpoint" in name])
         run(self.mpiexec, RANKS, self.command(), self.folder)
@@ -158,14 +158,12 @@ class Faults(ProgramTest):
                 self.assertEqual([], self.results())
 
     def test_a_directory_that_one_rank_does_not_share(self):
-        """The map is written by all ranks."""
+        """The first rank writes the map, for all."""
         self.write(DECK)
         (self.folder/"other"/"results").mkdir(parents=True)
         outcome = run(self.mpiexec, RANKS, self.in_shell('[ "$rank" != 1 ] || cd other'), self.folder, SOON)
-        self.assertIsNotNone(outcome.status, "hangs")
-        self.assertEqual(EXIT_FILE_TROUBLE, outcome.status, outcome.stdout + outcome.stderr)
-        self.assertEqual(1, outcome.stderr.count("wavycon: "), outcome.stderr)
-        self.assertEqual([], [name for name in self.results() if name.endswith((".part", ".npy"))])
+        self.assertEqual((0, ""), (outcome.status, outcome.stderr), outcome.stdout)
+        self.assertIn("deck.map.npy", self.results())
 
     def test_options_of_one_rank(self):
         self.write(DECK)

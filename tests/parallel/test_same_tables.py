@@ -83,10 +83,10 @@ MAPS = {"odd": (263, 301, "f8"), "mirrored": (256, 384, "f4"), "coarse": (128, 1
 
 def logs(text):
     """The lines of each deck's log, by its name, without times and what only several ranks say; and with the latter."""
-    parts = re.findall(r"^(wavycon .*\ndeck +(\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
+    parts = re.findall(r"^(wavycon .*\ndeck: (\w+)\.nml\n(?:(?!wavycon |\d+ decks: ).*\n)*)", text, re.MULTILINE)
     lines = {name: [re.sub(r"^\[ *[\d.]+ s\]", "[]", line) for line in part.rstrip().splitlines()]
              for part, name in parts}
-    return {name: [line for line in own if not line.startswith("ranks ")] for name, own in lines.items()}, lines
+    return {name: [line for line in own if not line.startswith("ranks: ")] for name, own in lines.items()}, lines
 
 
 def columns(text):
@@ -213,8 +213,7 @@ class SameTables(ProgramTest):
             outcome = run(self.mpiexec, max(self.ranks), [self.parallel, *words], self.folder)
             self.assertIn(expected.returncode, (1, 3))
             self.assertEqual(expected.returncode, outcome.status, words)
-            ours = re.sub("^usage: wavycon", "usage: mpirun -n RANKS wavycon-mpi", expected.stderr, flags=re.MULTILINE)
-            self.assertEqual(1, outcome.stderr.count(ours), (words, outcome.stderr))
+            self.assertEqual(1, outcome.stderr.count(expected.stderr), (words, outcome.stderr))
             self.assertEqual(expected.stdout, outcome.stdout)
 
 

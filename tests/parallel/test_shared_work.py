@@ -94,7 +94,7 @@ class SharedWork(ProgramTest):
                     self.interrupt(text, before)
                     outcome = self.solve(text, now, "results", "--resume")
                     self.assertEqual("", outcome.stderr)
-                    self.assertRegex(outcome.stdout, r"(?m)^resumed +3 of 4 loads")
+                    self.assertRegex(outcome.stdout, r"(?m)^resumed: 3 of 4 loads")
                     for path in (self.folder/"whole").glob("*.dat"):
                         self.assertEqual(path.read_bytes(), (self.folder/"results"/path.name).read_bytes())
                     self.assertEqual([], list((self.folder/"results").glob("*checkpoint*")))

@@ -4,8 +4,6 @@
 usage: test_maps.py --program WAVYCON
 """
 import math
-import shutil
-import subprocess
 
 from npy import read_npy
 from program import ProgramTest, main
@@ -154,18 +152,6 @@ class Maps(ProgramTest):
         self.assertFalse((self.folder / "at_limit.map.npy").exists())
         self.assertFalse((self.folder / "beyond.map.dat").exists())
         self.assertEqual((len(LOADS), 258, 257), records_of(self.folder / "beyond.map.npy")[0])
-
-    def test_gnuplot_reads_numpys_format(self):
-        if not shutil.which("gnuplot"):
-            self.skipTest("gnuplot is not installed")
-        self.run_map("binary", WAVE + GRID, "map_format = 'npy'")
-        script = ("set print '-'\nstats 'binary.map.npy' binary record=(64,96) skip=256+2*48*64*96 format='%6double' "
-                  "using 3 nooutput\nprint sprintf('%d %.16e', STATS_records, STATS_sum)\n")
-        result = subprocess.run(["gnuplot"], input=script, capture_output=True, text=True, check=True, cwd=self.folder)
-        records, total = result.stdout.split()
-        pressures = [point["pressure"] for point in self.maps["own"][2]]
-        self.assertEqual(len(pressures), int(records))
-        self.assertTrue(math.isclose(math.fsum(pressures), float(total), rel_tol=ROUNDING))
 
 
 if __name__ == "__main__":

@@ -76,19 +76,6 @@ class PythonReaders(ProgramTest):
         elif expected != value:
             self.assertLessEqual(abs(value - expected), ROUNDING*abs(expected))
 
-    def test_maps_in_numpys_format(self):
-        for map_format in "npy", "text":
-            self.run_deck("binary", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.5 /\n"
-                          "&method solver = 'auto' /\n"
-                          f"&output map = t, map_points = 24, 16, map_format = '{map_format}' /\n")
-        found = numpy.load("binary.map.npy")
-        self.assertEqual((2, 16, 24), found.shape)
-        table = Table("binary.map.dat")
-        self.assertEqual(["load", *found.dtype.names], table.columns)
-        for record, values in zip(table.records(), found.reshape(-1).tolist(), strict=True):
-            for name, value in zip(found.dtype.names, values):
-                self.assert_close(float(record[name]), value)
-
     def test_heights_in_numpys_format(self):
         """Heights are those of the file, over their mean, and the head has their statistics."""
         rows = numpy.random.default_rng(1).normal(size=(12, 20))

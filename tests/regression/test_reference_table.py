@@ -163,8 +163,6 @@ class Yield(ProgramTest):
     laterals = "constrained", "hydrostatic"
     ratios = tuple(i/20 for i in range(11))
     loads = (0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, *(i/20 for i in range(3, 21)))
-    # Largest stress of a Hertzian contact over its peak pressure, and the part of a load of 0.001 p* that is beyond Hertz.
-    hertz, beyond_hertz = {0.25: 0.643, 0.3: 0.620}, 3e-3
     name = "largest_von_mises_over_pstar"
     # Relative errors of less than ten digits: next to merging, and where the search for a place on the surface ends early.
     error_of = {("hexagonal", 0.7): 3e-9, ("wave_2d", 0.65): 4e-8}
@@ -206,20 +204,6 @@ class Yield(ProgramTest):
                 else:
                     self.assertEqual((0.25, 0.25, 0.0), (x % 0.5, y % 0.5, depth))
 
-    def test_light_load(self):
-        for surface in ("wave_2d", "hexagonal"):
-            peak = published(surface)[0.001]["peak_pressure_over_pstar"][0]
-            for nu, ratio in self.hertz.items():
-                value, _ = pair(self.table[surface, "hydrostatic", nu, 0.001], self.name)
-                self.assertAlmostEqual(ratio, value/peak, delta=self.beyond_hertz)
-
-    def test_incompressible(self):
-        """With nu = 1/2 a body that is constrained is under hydrostatic pressure."""
-        for surface in self.surfaces:
-            for load in self.loads:
-                values = [pair(self.table[surface, lateral, 0.5, load], self.name) for lateral in self.laterals]
-                self.assertLessEqual(abs(values[0][0] - values[1][0]), values[0][1] + values[1][1])
-
     def test_recomputed(self):
         """By expansions of other degrees, and by grids."""
         for solver, accuracy, loads, place_error in (("fitted", 1e-7, (0.002, 0.1, 0.5, 0.95), 1e-3),
@@ -247,8 +231,6 @@ class Challenge(ProgramTest):
     """Contact area, mean gap and stiffness of rough surfaces."""
     loads = 4e-5, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.08
     e_star = 25.0
-    # By wavycon on 8192 x 8192 points, eight to the shortest wave, of seed 1: load: (area, mean gap).
-    finer = {0.01: (0.02035388, 1.0500160), 0.08: (0.1527274, 0.3017233)}
     # A value of the table is the mean of those at two loads 2 % apart: its relative difference from that between them.
     of_pairs = 1e-4
 
@@ -272,13 +254,6 @@ class Challenge(ProgramTest):
                 self.assertTrue(abs(fine - area) <= error <= 0.015*area)
                 self.assertLess(pair(row, "mean_gap")[1], 4e-4)
                 self.assertLess(pair(row, "stiffness")[1], 0.007*float(row["stiffness"]))
-
-    def test_finer_grid(self):
-        for load, (finer_area, finer_gap) in self.finer.items():
-            area, error = pair(self.table[1, load], "contact_area_fraction")
-            self.assertLessEqual(abs(area - finer_area), error)
-            gap, error = pair(self.table[1, load], "mean_gap")
-            self.assertLessEqual(abs(gap - finer_gap), error)
 
     def test_stiffness_is_the_slope_of_the_gap(self):
         """Its integral over the logarithm of the pressure, by trapezoids, whose error is the tolerance."""

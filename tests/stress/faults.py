@@ -246,7 +246,7 @@ class Faults:
                         words.append(f"exit status {outcome.status} when interrupted")
                     more = ("--resume",)
                 outcome = self.outcome(self.start(folder, *more))
-                match = re.search(rb"^resumed +(\d+) of", outcome.stdout, re.MULTILINE)
+                match = re.search(rb"^resumed: (\d+) of", outcome.stdout, re.MULTILINE)
                 found += bool(match and int(match.group(1)))
                 words += complaints_about(outcome, (0,), seconds=60)
                 for path in (undisturbed/"results").iterdir():

@@ -1,18 +1,24 @@
-!> The lines along which the tables of lines show the fields.
+!> <case>.lines.dat: pressure, displacement and gap along lines, a block for each load with a blank line between lines;
+!> and these lines, for other tables.
 !>
 !> Line 1 runs from a crest along x; in 2-D line 2 runs from the same crest along the diagonal of the cell, and line 3,
-!> which only sections of stresses use, along y. Lines end
-!> after half a cell if the surface has a mirror line there, otherwise after a whole cell. Of a mirrored height map they
-!> run through the crest from border to border of the map.
-module wavycon_surface_lines
+!> which only sections of stresses use, along y. Lines end after half a cell if the surface has a mirror line there,
+!> otherwise after a whole cell. Of a mirrored height map they run through the crest from border to border of the map.
+module wavycon_line_tables
    use wavycon_constants, only: pi
+   use wavycon_contact_fields, only: contact_fields
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
+   use wavycon_table, only: add_table, table_type
    implicit none (type, external)
    private
 
-   public :: put_surface_line, start_surface_line, surface_line
+   public :: add_line_tables, put_surface_line, start_surface_line, surface_line
+
+   !> Columns of a line, before those of its values.
+   character(*), parameter, public :: line_columns = &
+      'load[-] line[-] distance[length] x[length] y[length] pbar_over_pstar[-]'
 
    type :: surface_line
       integer :: number = 0
@@ -25,6 +31,50 @@ module wavycon_surface_lines
    end type surface_line
 
 contains
+
+   !> Adds the tables of this file to a list.
+   subroutine add_line_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('lines', 'lines', needs_fields=.true., put_load=put_lines, &
+         columns=line_columns//' pressure_over_pstar[-] displacement_over_amplitude[-] '// &
+         'gap_over_amplitude[-] undeformed_gap_over_amplitude[-] pressure[pressure] displacement[length] gap[length]', &
+         meaning='Pressures and gaps along lines.'))
+   end subroutine add_line_tables
+
+   subroutine put_lines(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      class(contact_fields), allocatable :: fields
+      type(surface_line) :: line
+      real(dp), allocatable :: gap(:), p(:), shape(:), u(:), values(:, :)
+      integer :: number
+
+      call results%begin_block(file, load)
+      associate (surface => results%solver%surface, p_star => results%scene%p_star)
+         call results%loads(load)%fields(surface, fields)
+         do number = 1, surface%dimension
+            call start_surface_line(line, results, number)
+            associate (n => ubound(line%distance, 1))
+               allocate (values(7, 0:n), p(0:n), u(0:n), gap(0:n))
+               shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%parameter()) &
+                       - surface%form_gap(line%angle(1, :), line%angle(2, :))
+            end associate
+            call fields%at_points(line%angle, shape, p, u, gap)
+            values(1, :) = results%in_p_star(p)
+            values(2, :) = u
+            values(3, :) = gap
+            values(4, :) = 1.0_dp - shape
+            values(5, :) = p_star*p
+            values(6, :) = surface%amplitude*u
+            values(7, :) = surface%amplitude*gap
+            call put_surface_line(line, results, load, values, file)
+            deallocate (values, p, u, gap)
+         end do
+      end associate
+   end subroutine put_lines
 
    subroutine start_surface_line(line, results, number)
       type(surface_line), intent(out) :: line
@@ -100,4 +150,4 @@ contains
       steps_before = floor(minval(steps) + rounding)
    end function steps_before
 
-end module wavycon_surface_lines
+end module wavycon_line_tables

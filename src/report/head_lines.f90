@@ -1,0 +1,143 @@
+!> The lines that say what is solved: the head of tables and, with short numbers, of the log.
+module wavycon_head_lines
+   use wavycon_kinds, only: dp
+   use wavycon_map_statistics, only: map_statistics
+   use wavycon_plain_text, only: clauses, escaped, exact_number, integer_text, newline, percent, short_number
+   use wavycon_prepare_map, only: map_changes
+   use wavycon_scene, only: scene_type
+   use wavycon_surface, only: surface_type
+   use wavycon_version, only: revision, version
+   implicit none (type, external)
+   private
+
+   public :: head_lines, preparation_words
+
+contains
+
+   !> Version, deck, surface, the statistics of a height map, material and method: lines without a newline behind the
+   !> last.
+   function head_lines(scene, surface, method, prefix, digits) result(lines)
+      type(scene_type), intent(in) :: scene
+      type(surface_type), intent(in) :: surface   !! the solver's
+      character(*), intent(in) :: method          !! in words
+      character(*), intent(in) :: prefix          !! of each line
+      character(*), intent(in) :: digits          !! of numbers: 'all' or 'some'
+      character(:), allocatable :: lines
+
+      character(:), allocatable :: words
+      real(dp) :: side(2)
+
+      lines = prefix//'wavycon '//version//' ('//revision//')'
+      call add('deck: '//escaped(scene%deck_path))
+      if (scene%title /= '') call add('title: '//escaped(scene%title))
+      associate (length => scene%length_unit, pressure => scene%pressure_unit)
+         side = surface%sides()
+         words = scene%surface_kind//number('Delta', length, surface%amplitude)//number('cell_x', length, side(1))
+         if (surface%dimension == 2) words = words//number('cell_y', length, side(2))
+         if (surface%has_free_edges) then
+            words = words//', free edges'
+         else if (surface%mirrored) then
+            words = words//', mirrored'
+         end if
+         call add('surface: '//words)
+         if (allocated(scene%map)) call add_map(scene%map)
+         words = 'e_star['//pressure//'] = '//text_of(scene%e_star)
+         if (.not. surface%has_free_edges) words = words//number('p*', pressure, scene%p_star)
+         if (surface%has_hardness()) words = words//number('hardness', pressure, surface%hardness*scene%p_star)
+         call add('material: '//words)
+      end associate
+      call add('method: '//method)
+
+   contains
+
+      subroutine add(line)
+         character(*), intent(in) :: line
+
+         lines = lines//newline//prefix//line
+      end subroutine add
+
+      !> The statistics of a height map, and what was done to it.
+      subroutine add_map(map)
+         type(map_statistics), intent(in) :: map
+
+         associate (roughness => scene%roughness, unit => scene%length_unit)
+            call add('map: points_x[-] = '//integer_text(map%points(1))// &
+                     ', points_y[-] = '//integer_text(map%points(2))//number('lowest', unit, map%lowest)// &
+                     number('highest', unit, map%highest)//number('rms_height', unit, map%rms)// &
+                     ', format = '//trim(map%format))
+            if (map%assumed_sides /= '') call add('sides: '//map%assumed_sides)
+            words = preparation_words(map%changes, unit)
+            if (words /= '') call add('prepared: '//words)
+            if (map%rms > 0.0_dp) call add('roughness: skewness[-] = '//text_of(map%skewness)// &
+               number('kurtosis', '-', map%kurtosis)//number('rms_slope', '-', roughness%slope)// &
+               number('rms_slope_by_differences', '-', map%slope_by_differences)// &
+               number('rms_curvature', '1/'//unit, roughness%curvature)// &
+               number('rms_curvature_by_differences', '1/'//unit, map%curvature_by_differences))
+         end associate
+      end subroutine add_map
+
+      !> Such as ', rms_height[mm] = 0.1'.
+      pure function number(name, unit, value) result(text)
+         character(*), intent(in) :: name, unit
+         real(dp), intent(in) :: value
+         character(:), allocatable :: text
+
+         text = ', '//name//'['//unit//'] = '//text_of(value)
+      end function number
+
+      pure function text_of(value) result(text)
+         real(dp), intent(in) :: value
+         character(:), allocatable :: text
+
+         if (digits == 'all') then
+            text = exact_number(value)
+         else
+            text = short_number(value)
+         end if
+      end function text_of
+
+   end function head_lines
+
+   !> The changes in one line; empty if there are none.
+   pure function preparation_words(changes, length_unit) result(words)
+      type(map_changes), intent(in) :: changes
+      character(*), intent(in) :: length_unit   !! label of the unit of lengths
+      character(:), allocatable :: words
+
+      character(:), allocatable :: trend
+
+      words = ''
+      if (changes%head_lines > 0) words = 'without a head of '//integer_text(changes%head_lines)//' line'// &
+         trim(merge(' ', 's', changes%head_lines == 1))//' in words'
+      if (changes%uneven_steps(2) > 0.0_dp) words = clauses(words, 'resampled to '// &
+         integer_text(changes%points(1))//' points '//short_number(changes%step)//' apart, which are '// &
+         short_number(changes%uneven_steps(1))//' to '//short_number(changes%uneven_steps(2))// &
+         ' apart in the file ['//length_unit//']')
+      if (changes%cropped_from(1) > 0) words = clauses(words, 'cropped from '// &
+         integer_text(changes%cropped_from(1))//' x '//integer_text(changes%cropped_from(2))//' points')
+      if (changes%spikes > 0) words = clauses(words, integer_text(changes%spikes)//' spike'// &
+         trim(merge(' ', 's', changes%spikes == 1))//' replaced by the median of the heights around')
+      if (changes%detrend /= 'none') then
+         trend = 'mean'
+         if (changes%detrend == 'quadratic') trend = 'quadratic trend'
+         if (changes%detrend == 'plane') trend = 'plane'
+         words = clauses(words, 'without its '//trend)
+         if (changes%detrend /= 'mean') then
+            words = words//', which rises by '//short_number(changes%rise(1))
+            if (changes%points(2) > 1) words = words//' along x and '//short_number(changes%rise(2))//' along y'
+            words = words//' ['//length_unit//']'
+         end if
+      end if
+      if (changes%filled > 0) words = clauses(words, integer_text(changes%filled)//' missing height'// &
+                                              trim(merge(' ', 's', changes%filled == 1))//' filled ('// &
+                                              percent(real(changes%filled, dp)/product(changes%points))//')')
+      if (changes%edges == 'mirror') words = clauses(words, 'continued by its mirror images')
+      if (changes%edges == 'free') words = clauses(words, 'with free edges: nothing continues it')
+      if (changes%edges == 'window') words = clauses(words, 'tapered at its borders, which changes '// &
+                                                    percent(changes%tapered)//' of its points')
+      if (changes%short_wavelength > 0.0_dp) words = clauses(words, 'without waves shorter than '// &
+         short_number(changes%short_wavelength)//', whose rms was '//short_number(changes%rms_of_short)// &
+         ' ['//length_unit//']')
+   end function preparation_words
+
+end module wavycon_head_lines

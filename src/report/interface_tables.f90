@@ -1,0 +1,217 @@
+!> Tables of what follows from the contact for the interface.
+!>
+!> <case>.interface.dat: contact stiffness and resistance, and how mean gap and contact area change with the load.
+!> <case>.partial_slip.dat: stick area, displacement and energy a cycle of each load and tangential load.
+!> <case>.slip_loop.dat: a block of each with the tangential load against the displacement.
+!> <case>.adhesion.dat: the contact with adhesion. Blocks: the curve of pressure against area and approach; pull-off and
+!> jump into full contact; the loads.
+module wavycon_interface_tables
+   use wavycon_adhesive_curve, only: adhesive_point, point_names
+   use wavycon_contact_measures, only: is_known, or_nan
+   use wavycon_contact_status, only: no_load, status_code, status_name
+   use wavycon_error, only: error_type
+   use wavycon_kinds, only: dp
+   use wavycon_load_derivatives, only: load_derivatives
+   use wavycon_output_file, only: output_file
+   use wavycon_partial_slip, only: cycle_energy, relative_displacement, slip_loop
+   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_table, only: add_table, table_type
+   implicit none (type, external)
+   private
+
+   public :: add_interface_tables
+
+   character(*), parameter :: adhesion_columns = &
+      'load[-] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
+      'force[force] mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
+      'contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] least_release_over_w[-] '// &
+      'most_release_over_w[-] point[-]'
+
+contains
+
+   !> Adds the tables of this file to a list.
+   subroutine add_interface_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
+         columns='load[-] pbar_over_pstar[-] mean_pressure[pressure] '// &
+         'contact_stiffness[pressure/length] contact_stiffness_error[pressure/length] '// &
+         'contact_stiffness_normalised[-] contact_stiffness_normalised_error[-] contact_area_slope[-] '// &
+         'contact_area_slope_error[-] mean_gap_curvature[-] mean_gap_curvature_error[-] '// &
+         'contact_resistance[resistivity*length] contact_resistance_error[resistivity*length] status_code[-] '// &
+         'status[-]'))
+      call add_table(tables, table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
+         needs_fields=.true., put_load=put_slip, &
+         columns='load[-] tangential[-] mean_pressure[pressure] tangential_load[pressure] '// &
+         'tangential_over_limit[-] stick_pbar_over_pstar[-] contact_area_fraction[-] stick_area_fraction[-] '// &
+         'stick_area_error[-] displacement[length] displacement_error[length] least_displacement[length] '// &
+         'most_displacement[length] tangential_stiffness[pressure/length] cycle_energy[pressure*length] '// &
+         'cycle_energy_error[pressure*length] status_code[-] status[-]'))
+      call add_table(tables, table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
+         columns='load[-] tangential[-] branch[-] tangential_load[pressure] displacement[length]'))
+      call add_table(tables, table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
+         ''], &
+         needs_fields=.true., write_all=write_adhesion, columns=adhesion_columns))
+   end subroutine add_interface_tables
+
+   !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
+   !> resistance of a nominal area follows from it (I8).
+   subroutine put_interface(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(load_derivatives) :: slopes
+      real(dp) :: resistance(2), stiffness(2)
+
+      associate (solution => results%loads(load), surface => results%solver%surface, scene => results%scene)
+         stiffness = not_a_number()
+         resistance = not_a_number()
+         if (solution%status == no_load) then
+            stiffness = 0.0_dp
+         else if (solution%is_good() .or. allocated(solution%source)) then
+            call solution%derivatives(surface, slopes)
+            if (slopes%gap_slope < 0.0_dp) stiffness = [-1.0_dp, or_nan(slopes%gap_slope_error)/slopes%gap_slope] &
+                                                       /slopes%gap_slope
+            associate (length => 0.5_dp*scene%e_star/scene%p_star*surface%amplitude)
+               if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) &
+                  resistance = scene%interface_setting%resistivity*length &
+                               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
+            end associate
+         end if
+         call file%add([load])
+         call file%add([results%in_p_star(solution%pbar_over_pstar), results%mean_pressure(load), &
+                        stiffness*scene%p_star/surface%amplitude, results%in_p_star([stiffness, &
+                        or_nan(slopes%area_slope), or_nan(slopes%area_slope_error), &
+                        or_nan(slopes%gap_curvature), or_nan(slopes%gap_curvature_error)]), resistance])
+      end associate
+      call results%end_row(file, load)
+   end subroutine put_interface
+
+   !> The tangential stiffness is that of the next increase of the load.
+   subroutine put_slip(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(load_derivatives) :: slopes
+      integer :: i
+      real(dp) :: displacement(2), energy(2), of_stick(3), stiffness
+
+      associate (solution => results%loads(load), setting => results%scene%interface_setting, &
+                 p_star => results%scene%p_star, amplitude => results%solver%surface%amplitude)
+         do i = 1, size(results%slip, 1)
+            associate (slip => results%slip(i, load), stick => results%slip(i, load)%stick)
+               stiffness = not_a_number()
+               displacement = not_a_number()
+               energy = not_a_number()
+               of_stick = not_a_number()
+               if (stick%is_good()) then
+                  of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%measures%contact_area_fraction, &
+                              or_nan(stick%measures%contact_area_error)]
+                  displacement = setting%friction*amplitude*or_nan(relative_displacement(solution, stick))
+                  if (results%traits%has_errors) then
+                     energy = setting%kappa(1)*setting%friction**2*p_star*amplitude* &
+                              or_nan(cycle_energy(solution, stick))
+                  else
+                     of_stick(3) = not_a_number()
+                     displacement(2) = not_a_number()
+                  end if
+                  call stick%derivatives(results%solver%surface, slopes)
+                  if (slopes%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes%gap_slope)
+               end if
+               call file%add([load, i])
+               call file%add([results%mean_pressure(load), p_star*slip%tangential, &
+                              slip%tangential/(setting%friction*solution%pbar_over_pstar), &
+                              of_stick(1), solution%measures%contact_area_fraction, of_stick(2:), &
+                              setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, energy])
+               call file%add([status_code(stick%status)])
+               call file%add(trim(status_name(stick%status)))
+               call file%end_row()
+            end associate
+         end do
+      end associate
+   end subroutine put_slip
+
+   subroutine put_loop(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      integer :: i, k
+      integer, allocatable :: branch(:)
+      real(dp), allocatable :: displacement(:), tangential(:)
+
+      associate (setting => results%scene%interface_setting, p_star => results%scene%p_star, &
+                 amplitude => results%solver%surface%amplitude)
+         do i = 1, size(results%slip, 1)
+            associate (slip => results%slip(i, load))
+               call slip_loop(slip, branch, tangential, displacement)
+               call file%begin_block('load '//integer_text(load)//', tangential load '//integer_text(i)//': '// &
+                                     exact_number(p_star*slip%tangential))
+               do k = 1, size(branch)
+                  call file%add([load, i, branch(k)])
+                  call file%add([p_star*tangential(k), &
+                                 setting%kappa(1)*setting%friction*amplitude*displacement(k)])
+                  call file%end_row()
+               end do
+            end associate
+         end do
+      end associate
+   end subroutine put_loop
+
+   !> Errors: exit_file_trouble.
+   subroutine write_adhesion(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+
+      call results%open_table('adhesion', adhesion_columns, file)
+      associate (curve => results%adhesion)
+         call put_block('the curve, by the pressure P1 of the contact without adhesion', curve%points)
+         call put_block('pull-off and jump into full contact', curve%critical)
+         call put_block('the loads: stable and unstable points', curve%at_loads)
+      end associate
+      call file%finish(error)
+
+   contains
+
+      subroutine put_block(title, points)
+         character(*), intent(in) :: title
+         type(adhesive_point), intent(in) :: points(:)
+
+         integer :: i
+
+         call file%begin_block(title)
+         do i = 1, size(points)
+            call put_point(results, file, points(i))
+         end do
+      end subroutine put_block
+
+   end subroutine write_adhesion
+
+   subroutine put_point(results, file, point)
+      type(results_type), intent(in) :: results
+      type(output_file), intent(inout) :: file
+      type(adhesive_point), intent(in) :: point
+
+      real(dp) :: gap(2)
+
+      associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
+         gap = results%in_p_star([1.0_dp - point%approach, point%approach_error])
+         call file%add([point%number])
+         if (point%exists) then
+            call file%add([results%in_p_star([point%p1, point%load, point%load_error]), mean_pressure, &
+                           mean_pressure*surface%nominal_area(), gap, surface%amplitude*point%approach, point%area, &
+                           point%area_error, surface%nominal_area()*point%area, point%release_range])
+         else
+            call file%add([results%in_p_star(point%p1), spread(not_a_number(), 1, 12)])
+         end if
+         call file%add(trim(merge(point_names(point%kind), 'none                ', point%exists)))
+      end associate
+      call file%end_row()
+   end subroutine put_point
+
+end module wavycon_interface_tables

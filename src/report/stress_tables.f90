@@ -1,0 +1,272 @@
+!> Tables of stresses.
+!>
+!> <case>.stress_largest.dat: the largest von Mises stress and the largest shear stress of each load and body.
+!> <case>.stress_line.dat: stresses on the line below the crest, a block for each load and body.
+!> <case>.stress_section.dat: stresses on a vertical section through the crest, a block for each load and body with a
+!> blank line between depths.
+!> <case>.stress_planes.dat or .npy: stresses on planes below the whole cell, a block for each load, body and depth.
+module wavycon_stress_tables
+   use wavycon_cell_file, only: cell_file
+   use wavycon_constants, only: pi
+   use wavycon_error, only: error_type
+   use wavycon_group_values, only: group_values
+   use wavycon_kinds, only: dp
+   use wavycon_largest_stress, only: largest_stress
+   use wavycon_line_tables, only: start_surface_line, surface_line
+   use wavycon_output_file, only: output_file
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
+   use wavycon_surface, only: surface_type
+   use wavycon_table, only: add_table, table_type
+   implicit none (type, external)
+   private
+
+   public :: add_stress_tables, angle_of_depth, stress_depths, stress_numbers
+
+   !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
+   character(*), parameter :: stress_columns = &
+      'stress_xx[pressure] stress_yy[pressure] stress_zz[pressure] stress_xy[pressure] stress_xz[pressure] '// &
+      'stress_yz[pressure] principal_1[pressure] principal_2[pressure] principal_3[pressure] von_mises[pressure] '// &
+      'largest_shear[pressure] stress_pressure[pressure] stress_error[pressure]'
+   integer, parameter :: numbers_of_stress = 13
+
+   character(*), parameter :: planes_columns = 'load[-] body[-] x[length] y[length] depth[length] '//stress_columns
+   !> Numbers in memory for each point of a plane: stresses, error, their spectra, and those of the solution.
+   integer, parameter :: numbers_a_point = 20
+
+contains
+
+   !> Adds the tables of this file to a list.
+   subroutine add_stress_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      ! The ratio to the yield stress is that of the criterion in use.
+      call add_table(tables, table_type('stress_largest', 'largest', 'stress', put_load=put_largest_stresses, &
+         columns='load[-] body[-] nu[-] pbar_over_pstar[-] '// &
+         'largest_von_mises_over_pstar[-] largest_von_mises_over_pstar_error[-] largest_shear_over_pstar[-] '// &
+         'largest_shear_over_pstar_error[-] stress_over_yield_stress[-] stress_over_yield_stress_error[-] '// &
+         'mean_pressure[pressure] largest_von_mises[pressure] largest_von_mises_error[pressure] '// &
+         'von_mises_x[length] '// &
+         'von_mises_y[length] von_mises_depth[length] largest_shear[pressure] largest_shear_error[pressure] '// &
+         'shear_x[length] shear_y[length] shear_depth[length] status_code[-] status[-]'))
+      call add_table(tables, table_type('stress_line', 'line', 'stress', needs_fields=.true., put_load=put_line, &
+         columns='load[-] body[-] depth[length] depth_over_cell_x[-] '//stress_columns))
+      call add_table(tables, table_type('stress_section', 'section', 'stress', needs_fields=.true., &
+         put_load=put_section, &
+         columns='load[-] body[-] distance[length] x[length] y[length] depth[length] '// &
+         stress_columns))
+      call add_table(tables, table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
+         write_all=write_stress_planes_table, columns=planes_columns))
+   end subroutine add_stress_tables
+
+   !> The largest stresses are found before the tables are written.
+   subroutine put_largest_stresses(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      integer :: body
+      real(dp) :: ratio(2)
+
+      do body = 1, size(results%scene%stress_setting%body)
+         associate (setting => results%scene%stress_setting, yielding => results%von_mises(body, load), &
+                    shear => results%shear(body, load))
+            ratio = not_a_number()
+            if (allocated(setting%yield_stress)) &
+               ratio = setting%over_yield_stress(body, [yielding%value, yielding%error], [shear%value, shear%error])
+            call file%add([load, body])
+            call file%add([setting%body(body)%nu, results%in_p_star([results%loads(load)%pbar_over_pstar, &
+                           yielding%value, yielding%error, shear%value, shear%error]), ratio, &
+                           results%mean_pressure(load)])
+            call put_largest(yielding)
+            call put_largest(shear)
+            call results%end_row(file, load)
+         end associate
+      end do
+
+   contains
+
+      !> Value and place in the deck's units.
+      subroutine put_largest(largest)
+         type(largest_stress), intent(in) :: largest
+
+         associate (scene => results%scene, length => results%solver%surface%length, &
+                    parts => results%solver%surface%parts())
+            call file%add([scene%p_star*[largest%value, largest%error], &
+                           [length, length(1)]*largest%place_in_cell(parts)])
+         end associate
+      end subroutine put_largest
+
+   end subroutine put_largest_stresses
+
+   subroutine put_line(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      class(stress_fields), allocatable :: fields
+      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), places(:, :, :)
+      real(dp) :: side(2)
+      integer :: i
+
+      associate (surface => results%solver%surface)
+         side = surface%sides()
+         call stress_depths(results%scene%stress, surface, .false., depths)
+         allocate (parts(6, 2, size(depths), 1), errors(size(depths), 1), places(2, size(depths), 1))
+         call results%loads(load)%stresses(surface, fields)
+         do i = 1, size(depths)
+            call fields%at(surface%crest(1), surface%crest(2), angle_of_depth(surface, depths(i)), parts(:, :, i, 1), &
+                           errors(i, 1))
+            places(:, i, 1) = [depths(i), depths(i)/side(1)]
+         end do
+      end associate
+      call put_stresses(results, load, fields%pbar_over_pstar, places, parts, errors, file)
+   end subroutine put_line
+
+   subroutine put_section(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      class(stress_fields), allocatable :: fields
+      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), places(:, :, :), t(:)
+      type(surface_line) :: line
+      integer :: i, number
+
+      ! A table in memory may be asked for although the deck has section = 'none': it is that along x.
+      number = max(1, findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., &
+                              dim=1))
+      call start_surface_line(line, results, number)
+      associate (surface => results%solver%surface)
+         call stress_depths(results%scene%stress, surface, .false., depths)
+         t = line%parameter()
+         allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)), places(4, size(t), size(depths)))
+         call results%loads(load)%stresses(surface, fields)
+         do i = 1, size(depths)
+            call fields%on_line(line%angle(:, 0), line%direction, t, angle_of_depth(surface, depths(i)), &
+                                parts(:, :, :, i), errors(:, i))
+            places(1, :, i) = line%distance
+            places(2:3, :, i) = line%place
+            places(4, :, i) = depths(i)
+         end do
+      end associate
+      call put_stresses(results, load, fields%pbar_over_pstar, places, parts, errors, file)
+   end subroutine put_section
+
+   !> Errors: exit_file_trouble.
+   subroutine write_stress_planes_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(cell_file) :: planes
+      class(stress_fields), allocatable :: fields
+      real(dp), allocatable :: depths(:), errors(:, :), stress(:, :, :), values(:, :)
+      real(dp) :: here(6)
+      integer :: body, i, k, l, load
+
+      associate (scene => results%scene, surface => results%solver%surface, &
+                 bodies => size(results%scene%stress_setting%body))
+         call stress_depths(scene%stress, surface, .true., depths)
+         call planes%open(results, 'stress_planes', planes_columns, 2, [size(results%loads), bodies, size(depths)], &
+                          numbers_a_point, 'planes of ')
+         allocate (values(1 + numbers_of_stress, planes%points(1)))
+         do load = 1, size(results%loads)
+            if (.not. planes%file%is_open()) exit
+            call results%loads(load)%stresses(surface, fields)
+            do body = 1, bodies
+               do i = 1, size(depths)
+                  if (planes%as_text) call results%begin_block(planes%file, load)
+                  call fields%on_plane(planes%points, planes%offset, angle_of_depth(surface, depths(i)), &
+                                       scene%stress_setting%body(body), stress, errors)
+                  do l = 1, planes%points(2)
+                     do k = 1, planes%points(1)
+                        here = stress(k, l, :)
+                        values(:, k) = [depths(i), stress_numbers(here, errors(k, l), scene%p_star)]
+                     end do
+                     call planes%put_row([load, body], l, values)
+                  end do
+               end do
+            end do
+         end do
+      end associate
+      call planes%file%finish(error)
+   end subroutine write_stress_planes_table
+
+   !> The numbers of these columns at a point.
+   pure function stress_numbers(stress, error, p_star) result(numbers)
+      real(dp), intent(in) :: stress(6)   !! xx, yy, zz, xy, xz, yz [p*]
+      real(dp), intent(in) :: error       !! [p*]
+      real(dp), intent(in) :: p_star      !! [pressure]
+      real(dp) :: numbers(numbers_of_stress)
+
+      real(dp) :: principal(3)
+
+      principal = principal_stresses(stress)
+      numbers = p_star*[stress, principal, von_mises(stress), 0.5_dp*(principal(1) - principal(3)), &
+                        stress_pressure(stress), error]
+   end function stress_numbers
+
+   !> Writes the stresses at points: a block for each body, with a blank line between the rows of points.
+   subroutine put_stresses(results, load, pbar_over_pstar, places, parts, errors, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      real(dp), intent(in) :: pbar_over_pstar         !! of the stresses
+      real(dp), intent(in) :: places(:, :, :)   !! of the columns before the stresses, shape (columns, points, rows)
+      real(dp), intent(in) :: parts(:, :, :, :)       !! as of `stress_fields`, shape (6, 2, points, rows)
+      real(dp), intent(in) :: errors(:, :)            !! of the stresses [p*], shape (points, rows)
+      type(output_file), intent(inout) :: file   !! with the columns 'load', 'body', those of the places, and stresses
+
+      real(dp), allocatable :: rows(:, :)
+      integer :: body, i, k
+
+      do body = 1, size(results%scene%stress_setting%body)
+         call results%begin_block(file, load)
+         do i = 1, size(places, 3)
+            if (i > 1) call file%put('')
+            rows = reshape([(places(:, k, i), &
+                             stress_numbers(results%scene%stress_setting%body(body)%stress(parts(:, :, k, i), &
+                                                                                           pbar_over_pstar), &
+                                            errors(k, i), results%scene%p_star), k=1, size(places, 2))], &
+                           [size(places, 1) + numbers_of_stress, size(places, 2)])
+            call file%put_rows([load, body], rows)
+         end do
+      end do
+   end subroutine put_stresses
+
+   !> The depths of a table: those of planes are the list of depths, if there is one, and those of line and section the
+   !> range, if there is one.
+   subroutine stress_depths(stress, surface, of_planes, depths)
+      type(group_values), intent(in) :: stress    !! the group &stress
+      type(surface_type), intent(in) :: surface
+      logical, intent(in) :: of_planes
+      real(dp), allocatable, intent(out) :: depths(:)   !! [length]
+
+      integer :: i, intervals, steps
+      logical :: by_list, has_range
+      real(dp) :: side(2)
+
+      side = surface%sides()
+      has_range = stress%has('depth_from') .or. stress%has('depth_to') .or. stress%has('depth_steps')
+      by_list = of_planes .or. .not. has_range
+      if (by_list .and. stress%has('depths')) then
+         depths = stress%reals('depths')
+      else if (by_list .and. stress%has('depths_over_cell_x')) then
+         depths = side(1)*stress%reals('depths_over_cell_x')
+      else
+         steps = stress%integer('depth_steps')
+         intervals = max(1, steps - 1)
+         depths = [(side(1)*(stress%real('depth_from')*(intervals - i) + stress%real('depth_to')*i)/intervals, &
+                    i=0, steps - 1)]
+      end if
+   end subroutine stress_depths
+
+   !> Z of a depth [rad].
+   elemental real(dp) function angle_of_depth(surface, depth)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: depth   !! [length]
+
+      angle_of_depth = 2*pi*depth/surface%length(1)
+   end function angle_of_depth
+
+end module wavycon_stress_tables

@@ -1,0 +1,161 @@
+!> Tables of the surface that was solved.
+!>
+!> <case>.spectrum.dat: its power spectra, a block for the isotropic one and one for lines along x and y.
+!> <case>.height.npy: its heights, for numpy and for kind = 'file'.
+module wavycon_surface_tables
+   use wavycon_cell_file, only: check_memory, map_points, npy_header
+   use wavycon_error, only: error_type
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_roughness, only: line_spectrum, power_spectrum, radial_spectrum
+   use wavycon_table, only: add_table, table_type
+   implicit none (type, external)
+   private
+
+   public :: add_surface_tables
+
+   !> Numbers in memory for each point: the height and its spectrum.
+   integer, parameter :: numbers_a_point = 2
+
+   !> Those of the heights are for the table in memory.
+   character(*), parameter :: height_columns = 'x[length] y[length] height[length]'
+   character(*), parameter :: spectrum_columns = &
+      'direction[-] wave_number[rad/length] waves[-] spectrum_2d[length^4] spectrum_1d[length^3] '// &
+      'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]'
+
+contains
+
+   !> Adds the tables of this file to a list.
+   subroutine add_surface_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('spectrum', 'spectrum', write_all=write_spectrum_table, &
+         columns=spectrum_columns, &
+         meaning='The power spectrum of the surface.'))
+      call add_table(tables, table_type('height', 'height', written_by_all=is_written_by_all, &
+         write_all=write_height_table, &
+         columns=height_columns, &
+         meaning="The heights that are solved, as a file of numpy that kind = 'file' reads."))
+   end subroutine add_surface_tables
+
+   !> Errors: exit_file_trouble.
+   subroutine write_spectrum_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+
+      call results%open_table('spectrum', spectrum_columns, file)
+      associate (surface => results%solver%surface)
+         associate (shape => surface%shape, unit => surface%amplitude, length => surface%length, &
+                    points => surface%points)
+            if (surface%dimension == 2) &
+               call put_spectrum(file, 'radial', radial_spectrum(shape, unit, length, points), is_radial=.true.)
+            call put_spectrum(file, 'x', line_spectrum(shape, unit, length, points, 1), is_radial=.false.)
+            if (surface%dimension == 2) &
+               call put_spectrum(file, 'y', line_spectrum(shape, unit, length, points, 2), is_radial=.false.)
+         end associate
+      end associate
+      call file%finish(error)
+   end subroutine write_spectrum_table
+
+   !> Writes the block of a spectrum.
+   subroutine put_spectrum(file, direction, spectrum, is_radial)
+      type(output_file), intent(inout) :: file
+      character(*), intent(in) :: direction
+      type(power_spectrum), intent(in) :: spectrum
+      logical, intent(in) :: is_radial
+
+      real(dp) :: densities(2)
+      integer :: i
+
+      call file%begin_block('direction: '//direction)
+      do i = 1, size(spectrum%waves)
+         densities = not_a_number()
+         densities(merge(1, 2, is_radial)) = spectrum%density(i)
+         call file%add(direction)
+         call file%add([spectrum%wave_number(i)])
+         call file%add([spectrum%waves(i)])
+         call file%add(densities)
+         call file%add([spectrum%height(i), spectrum%slope(i), spectrum%curvature(i)])
+         call file%end_row()
+      end do
+   end subroutine put_spectrum
+
+   !> All ranks write the heights of a map that is distributed over them.
+   logical function is_written_by_all(results)
+      type(results_type), intent(in) :: results
+
+      is_written_by_all = results%solver%surface%is_distributed()
+   end function is_written_by_all
+
+   !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
+   !> A table in memory has their places too. Of a map that is distributed over the ranks the first one takes the
+   !> columns one by one. Errors: exit_file_trouble.
+   subroutine write_height_table(results, error)
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_file) :: file
+      type(grid_slab) :: slab
+      type(grid_transform) :: transform
+      real(dp), allocatable :: column(:, :), height(:, :)
+      integer :: l, points(2)
+      logical :: is_own, is_here
+      real(dp) :: first
+
+      associate (surface => results%solver%surface)
+         is_here = results%sharing%is_first()
+         points = surface%points/surface%parts()
+         if (all(points == 0)) points = map_points(results)
+         if (associated(results%memory)) then
+            call results%open_table('height', height_columns, file)
+         else if (is_here) then
+            call file%open(results%scene%directory, results%scene%case//'.height.npy', npy_header(points([2, 1])))
+         end if
+         if (surface%is_distributed()) then
+            call slab%start(points)
+            allocate (height(points(1), slab%columns()))
+            call transform%start(points, surface%shape%is_even())
+            call transform%sample(surface%shape, height)
+            allocate (column(points(1), 1))
+            do l = 1, points(2)
+               is_own = l >= slab%first .and. l <= slab%last
+               if (is_own) column(:, 1) = surface%amplitude*height(:, l - slab%first + 1)
+               call results%sharing%share_numbers(is_own, column)
+               if (is_here) call file%put_numbers(column)
+            end do
+         else
+            call check_memory(file, points, numbers_a_point, '')
+            if (file%is_open()) then
+               first = merge(0.5_dp, 0.0_dp, surface%mirrored)
+               call surface%sample_shape(points, [first, first], height)
+               height = surface%amplitude*height
+               if (.not. associated(results%memory)) call file%put_numbers(height)
+               if (associated(results%memory)) call put_places(height, surface%sides(), first, file)
+            end if
+         end if
+      end associate
+      if (is_here) call file%finish(error)
+   end subroutine write_height_table
+
+   !> Writes a row of the table in memory for each point.
+   subroutine put_places(height, sides, first, file)
+      real(dp), intent(in) :: height(:, :), sides(2)   !! [length]
+      real(dp), intent(in) :: first                    !! place of the first point along both directions, in steps
+      type(output_file), intent(inout) :: file
+
+      integer :: k, l
+
+      do l = 1, size(height, 2)
+         do k = 1, size(height, 1)
+            call file%add([sides*([k, l] - 1 + first)/shape(height), height(k, l)])
+            call file%end_row()
+         end do
+      end do
+   end subroutine put_places
+
+end module wavycon_surface_tables

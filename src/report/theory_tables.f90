@@ -1,0 +1,201 @@
+!> <case>.theory.dat: the closed forms at the loads of the scene, a line for each load. Of a ball, and of a map with
+!> free edges on a ball: Hertz's contact of the ball. In 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8),
+!> (11). In 2-D: the asymptotes (23), (24), (29), (30) of the paper; (29) with the coefficient of the whole lattice;
+!> asymptotes with further terms; and the radii of the contact spot at light load and of the crack at heavy load.
+!>
+!> <case>.theory_lines.dat: closed forms along the lines of <case>.lines.dat. In 1-D Westergaard's solution and the
+!> Dundurs-Tsai-Keer series with as many terms as the solver's; in 2-D the Hertz pressure about the nearest crest (light
+!> load), and the pressure and the opening of the penny-shaped crack about the nearest trough (heavy load).
+module wavycon_theory_tables
+   use wavycon_constants, only: pi
+   use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
+   use wavycon_hertz_ball, only: hertz_ball, hertz_contact, hertz_roller
+   use wavycon_kinds, only: dp
+   use wavycon_light_load, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
+      hertz_point_pressure_over_pstar, hertz_point_radius_over_wavelength, light_load_contact_area_longer, &
+      light_load_mean_gap_lattice, light_load_mean_gap_longer, light_load_mean_gap_one_square
+   use wavycon_line_tables, only: line_columns, put_surface_line, start_surface_line, surface_line
+   use wavycon_output_file, only: output_file
+   use wavycon_penny_crack, only: near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude, &
+      penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, penny_crack_opening_over_amplitude, &
+      penny_crack_pressure_over_pstar, penny_crack_radius_over_wavelength
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_table, only: add_table, table_type
+   use wavycon_westergaard, only: hertz_line_contact_area_fraction, kuznetsov_mean_gap_over_amplitude, &
+      line_crack_contact_area_fraction, westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
+      westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, westergaard_pressure_over_pstar
+   implicit none (type, external)
+   private
+
+   public :: add_theory_tables
+
+   !> Columns for the wave in one dimension, for that in two and for a ball, after the first three columns, and the
+   !> first two of them along lines. Those of the others are NaN.
+   integer, parameter :: closed_forms(3) = [5, 12, 5], closed_forms_on_lines(2) = [4, 3]
+
+contains
+
+   !> Adds the tables of this file to a list.
+   subroutine add_theory_tables(tables)
+      type(table_type), allocatable, intent(inout) :: tables(:)
+
+      call add_table(tables, table_type('theory', 'theory', put_load=put_theory, &
+         columns='load[-] pbar_over_pstar[-] force[force] '// &
+         'kuznetsov_mean_gap_over_amplitude[-] westergaard_contact_area_fraction[-] '// &
+         'westergaard_peak_pressure_over_pstar[-] hertz_line_contact_area_fraction[-] '// &
+         'line_crack_contact_area_fraction[-] '// &
+         'hertz_contact_area_fraction[-] crack_contact_area_fraction[-] light_eq29_mean_gap_over_amplitude[-] '// &
+         'light_lattice_mean_gap_over_amplitude[-] crack_mean_gap_over_amplitude[-] '// &
+         'light_longer_contact_area_fraction[-] light_longer_mean_gap_over_amplitude[-] '// &
+         'closure_longer_contact_area_fraction[-] closure_longer_mean_gap_over_amplitude[-] '// &
+         'hertz_peak_pressure_over_pstar[-] hertz_radius[length] crack_radius[length] '// &
+         'ball_contact_area[area] ball_approach[length] ball_peak_pressure[pressure] ball_half_axis_x[length] '// &
+         'ball_half_axis_y[length]', &
+         meaning='The closed forms beside the numbers.'))
+      call add_table(tables, table_type('theory_lines', asked_by=[character(16) :: 'lines', 'theory'], &
+         put_load=put_theory_lines, &
+         columns=line_columns//' westergaard_pressure_over_pstar[-] '// &
+         'westergaard_displacement_over_amplitude[-] westergaard_gap_over_amplitude[-] '// &
+         'dundurs_pressure_over_pstar[-] hertz_pressure_over_pstar[-] crack_pressure_over_pstar[-] '// &
+         'crack_gap_over_amplitude[-]'))
+   end subroutine add_theory_tables
+
+   subroutine put_theory(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      real(dp) :: values(sum(closed_forms))
+
+      values = not_a_number()
+      associate (p => results%loads(load)%pbar_over_pstar, wavelength => results%solver%surface%paper_wavelength())
+         if (results%solver%surface%has_free_edges) then
+            values(sum(closed_forms(:2)) + 1:) = values_of_ball(results, load)
+         else if (results%solver%surface%dimension == 1) then
+            values(:closed_forms(1)) = &
+               [kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
+                westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
+                line_crack_contact_area_fraction(p)]
+         else
+            values(closed_forms(1) + 1:sum(closed_forms(:2))) = &
+               [hertz_point_contact_area_fraction(p), penny_crack_contact_area_fraction(p), &
+                light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
+                penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
+                light_load_mean_gap_longer(p), near_closure_contact_area_fraction(p), &
+                near_closure_mean_gap_over_amplitude(p), hertz_point_peak_pressure_over_pstar(p), &
+                wavelength*hertz_point_radius_over_wavelength(p), &
+                wavelength*penny_crack_radius_over_wavelength(p)]
+         end if
+         call file%add([load])
+         call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), &
+                        values])
+      end associate
+      call file%end_row()
+   end subroutine put_theory
+
+   !> Area, approach, peak pressure and half axes of Hertz's contact.
+   function values_of_ball(results, load) result(values)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      real(dp) :: values(closed_forms(3))
+
+      type(hertz_ball) :: contact
+      real(dp) :: radii(2), roller(2)
+
+      associate (surface => results%solver%surface, &
+                 force => results%solver%surface%nominal_area()*results%mean_pressure(load))
+         radii = surface%radii()
+         values = not_a_number()
+         if (surface%dimension == 1) then
+            roller = hertz_roller(radii(1), results%scene%e_star, force)
+            values([1, 3, 4]) = [2*roller(1), roller(2), roller(1)]
+         else
+            contact = hertz_contact(radii, results%scene%e_star, force=force)
+            values = [contact%contact_area(), contact%approach, contact%peak_pressure, contact%half_axis]
+         end if
+      end associate
+   end function values_of_ball
+
+   subroutine put_theory_lines(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(surface_line) :: line
+      real(dp) :: dundurs(series_terms(results)), phi, theta
+      real(dp), allocatable :: values(:, :)
+      integer :: k, number
+
+      call results%begin_block(file, load)
+      associate (surface => results%solver%surface, load_p => results%loads(load)%pbar_over_pstar)
+         if (surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
+         do number = 1, surface%dimension
+            call start_surface_line(line, results, number)
+            allocate (values(sum(closed_forms_on_lines), 0:ubound(line%distance, 1)), source=not_a_number())
+            do k = 0, ubound(values, 2)
+               call surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
+               if (surface%dimension == 1) then
+                  values(:closed_forms_on_lines(1), k) = [westergaard_pressure_over_pstar(phi/2, load_p), &
+                                                 westergaard_displacement_over_amplitude(phi/2, load_p), &
+                                                 westergaard_gap_over_amplitude(phi/2, load_p), &
+                                                 dundurs_pressure_over_pstar(phi, load_p, dundurs)]
+               else
+                  values(closed_forms_on_lines(1) + 1:, k) = &
+                     [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
+                      crack_pressure(nearest_crest(phi - pi, theta), load_p), &
+                      crack_opening(nearest_crest(phi - pi, theta), load_p)]
+               end if
+            end do
+            call put_surface_line(line, results, load, values, file)
+            deallocate (values)
+         end do
+      end associate
+   end subroutine put_theory_lines
+
+   !> Number of terms of the Dundurs-Tsai-Keer series: as many as the solver's series has, otherwise as in the paper.
+   pure integer function series_terms(results)
+      type(results_type), intent(in) :: results
+
+      integer, parameter :: terms_of_the_paper = 10
+
+      series_terms = terms_of_the_paper
+      if (results%scene%method%in_effect('harmonics')) series_terms = results%scene%method%integer('harmonics')
+   end function series_terms
+
+   !> Distance of a point from the nearest crest of the wave (21), over its wavelength. With phi - pi for phi, from the
+   !> nearest trough.
+   pure real(dp) function nearest_crest(phi, theta)
+      real(dp), intent(in) :: phi, theta
+
+      nearest_crest = min(hypot(reduced(phi), reduced(theta)), hypot(reduced(phi - pi), reduced(theta - pi)))/(2*pi)
+   end function nearest_crest
+
+   !> An angle between -pi and pi.
+   elemental real(dp) function reduced(angle)
+      real(dp), intent(in) :: angle
+
+      reduced = angle - 2*pi*nint(angle/(2*pi))
+   end function reduced
+
+   !> Pressure in the penny-shaped crack over p*, (A4); zero outside the crack.
+   pure real(dp) function crack_pressure(r_over_wavelength, pbar_over_pstar) result(pressure)
+      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
+
+      pressure = 0.0_dp
+      if (r_over_wavelength < penny_crack_radius_over_wavelength(pbar_over_pstar)) &
+         pressure = penny_crack_pressure_over_pstar(r_over_wavelength, pbar_over_pstar)
+   end function crack_pressure
+
+   !> Opening of the penny-shaped crack over Delta, (A6); zero outside the crack and if there is none.
+   pure real(dp) function crack_opening(r_over_wavelength, pbar_over_pstar) result(opening)
+      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
+
+      real(dp) :: b
+
+      b = penny_crack_radius_over_wavelength(pbar_over_pstar)
+      opening = 0.0_dp
+      if (r_over_wavelength < b) &
+         opening = penny_crack_opening_over_amplitude(r_over_wavelength/b, b, pbar_over_pstar)
+   end function crack_opening
+
+end module wavycon_theory_tables
