@@ -1,26 +1,27 @@
 !> Westergaard's solution of the 1-D wave.
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
-   use wavycon_closed_form_stress, only: closed_form_stress
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: closed_form
    use wavycon_contact_contours, only: contact_contour, strip_ends
+   use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
    use wavycon_load_derivatives, only: load_derivatives
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
+   use wavycon_westergaard_stress, only: westergaard_stress
    use wavycon_solution_record, only: by_closed_form, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: closed_form_contact, closed_form_exists
+   public :: closed_form_contact, closed_form_exists, closed_form_stress
 
    type, extends(contact_solver) :: closed_form_contact
    contains
@@ -43,6 +44,12 @@ module wavycon_closed_form_contact
       procedure :: at
       procedure :: on_grid
    end type closed_form_fields
+
+   type, extends(stress_fields) :: closed_form_stress
+   contains
+      procedure :: at => stress_at
+      procedure :: start_places
+   end type closed_form_stress
 
 contains
 
@@ -159,6 +166,47 @@ contains
       answer%pbar_over_pstar = record%pbar_over_pstar
       answer%dimension = 1
    end subroutine stresses
+
+   !> The stresses under Westergaard's pressure.
+   subroutine stress_at(self, x, y, depth, parts, error)
+      class(closed_form_stress), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out), optional :: error
+
+      !> Error of the stresses over the peak pressure.
+      real(dp), parameter :: rounding = 1e-14_dp
+
+      associate (unused => y); end associate
+      call westergaard_stress(x, depth, self%pbar_over_pstar, parts)
+      if (present(error)) error = rounding*westergaard_peak_pressure_over_pstar(self%pbar_over_pstar)
+   end subroutine stress_at
+
+   !> Places across the contact, at depths from the surface to that of the longest wave.
+   subroutine start_places(self, body, places, widths, stresses)
+      class(closed_form_stress), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: places(:, :)
+      real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
+
+      !> Places over the half width of the contact.
+      real(dp), parameter :: across(*) = [0.0_dp, 0.3_dp, 0.6_dp, 0.9_dp, 1.0_dp, 1.1_dp], &
+                             below(*) = [0.0_dp, 0.1_dp, 0.2_dp, 0.4_dp, 0.8_dp, 1.2_dp]
+      real(dp) :: half_width
+      integer :: i, k
+
+      half_width = pi*westergaard_contact_area_fraction(self%pbar_over_pstar)
+      allocate (places(3, size(across)*size(below)), widths(size(across)*size(below)))
+      do k = 1, size(below)
+         do i = 1, size(across)
+            places(:, (k - 1)*size(across) + i) = half_width*[across(i), 0.0_dp, below(k)]
+         end do
+      end do
+      widths = 0.5_dp*half_width
+      call self%at_places(body, places, stresses)
+   end subroutine start_places
 
    !> Of (20) and of A = 2 psi/pi, P = sin^2 psi (7). Both ends of a strip are alike.
    subroutine derivatives(self, record, surface, answer)

@@ -9,11 +9,11 @@ module wavycon_contact_solution
    use wavycon_contact_spots, only: contact_spots, find_spots, no_spots, one_region
    use wavycon_contact_status, only: full_contact, is_good_status, no_load
    use wavycon_contact_contours, only: contact_contour
-   use wavycon_edgeless_fields, only: edgeless_fields, start_edgeless_fields
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    use wavycon_load_derivatives, only: load_derivatives
+   use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
@@ -77,7 +77,7 @@ contains
       type(surface_type), intent(in) :: surface             !! that was solved
       class(contact_fields), allocatable, intent(out) :: answer
 
-      type(edgeless_fields), allocatable :: own
+      type(series_fields), allocatable :: own
 
       if (allocated(self%source)) then
          call self%source%fields(self%solution_record, surface, answer)

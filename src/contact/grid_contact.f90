@@ -6,7 +6,7 @@
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
-   use wavycon_contact_measures, only: contact_measures, unknown
+   use wavycon_contact_measures, only: unknown
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
@@ -127,24 +127,12 @@ contains
       end if
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_grids
-      solution%measures = contact_measures( &
-                          mean_gap_over_amplitude=answer%state%open_gap(), &
-                          approach_over_amplitude=answer%state%approach, &
-                          contact_area_fraction=answer%values(2), &
-                          peak_pressure_over_pstar=answer%values(3), &
-                          min_pressure_over_pstar=least_pressure(answer%edge), &
-                          mean_gap_error=answer%errors(1), contact_area_error=answer%errors(2), &
-                          peak_pressure_error=answer%errors(3), &
-                          area_at_hardness_fraction=answer%area_at_hardness, &
-                          area_at_hardness_error=answer%area_at_hardness_error, &
-                          elastic_energy=answer%elastic_energy, &
-                          elastic_energy_error=2*pbar_over_pstar*answer%errors(1), &
-                          contact_area_counted_fraction=answer%counted_area, &
-                          contact_area_corrected_fraction=answer%corrected_area)
+      solution%measures = answer%measures
+      solution%measures%min_pressure_over_pstar = least_pressure(answer%edge)
       if (self%surface%has_hardness()) then
          associate (load_of_area => self%surface%hardness/pbar_over_pstar)
-            solution%measures%load_at_hardness_fraction = answer%area_at_hardness*load_of_area
-            solution%measures%load_at_hardness_error = answer%area_at_hardness_error*load_of_area
+            solution%measures%load_at_hardness_fraction = answer%measures%area_at_hardness_fraction*load_of_area
+            solution%measures%load_at_hardness_error = answer%measures%area_at_hardness_error*load_of_area
          end associate
          if (.not. solution%measures%load_at_hardness_error < 1.0_dp) solution%measures%load_at_hardness_error = unknown
       end if
@@ -186,13 +174,9 @@ contains
       associate (accuracy => self%options%accuracy*10.0_dp**self%level, &
                  points => max(self%options%points/2**self%level, min(self%options%points, 1)), &
                  residual => self%options%residual)
-         if (associated(self%progress)) then
-            call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual, &
-                                   self%keep_fields)
-         else
-            call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, residual=residual, &
-                                   needs_gap=self%keep_fields)
-         end if
+         ! A pointer that is not associated is an argument that is not present.
+         call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual, &
+                                self%keep_fields)
       end associate
    end subroutine solve_cell
 

@@ -121,23 +121,17 @@ contains
 
    !> The least number of points, not below a given one, whose Fourier transform is fast: 1, 3 or 5 times a power of
    !> two.
-   !>
-   !> With p the least power of two for which 5 p is large enough, the result is 5 p, 4 p or 3 p; for numbers up to 5
-   !> also 2 p or p.
    elemental integer function fast_size(number)
       integer, intent(in) :: number   !! >= 1
 
+      integer, parameter :: factors(*) = [1, 2, 3, 4, 5]
       integer :: power
 
       power = 1
       do while (5*power < number)
          power = 2*power
       end do
-      fast_size = 5*power
-      if (4*power >= number) fast_size = 4*power
-      if (3*power >= number) fast_size = 3*power
-      if (2*power >= number) fast_size = 2*power
-      if (power >= number) fast_size = power
+      fast_size = minval(factors*power, factors*power >= number)
    end function fast_size
 
    !> Whether the available memory is enough to solve on a grid. The answer is the same on all ranks that have a slab of

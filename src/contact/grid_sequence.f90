@@ -5,7 +5,7 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_measures, only: known_errors, unknown
+   use wavycon_contact_measures, only: contact_measures, known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
@@ -34,16 +34,11 @@ module wavycon_grid_sequence
       !> Mean gap, with free edges in 2-D the approach [Delta], contact area fraction, peak pressure [p*].
       real(dp) :: values(3) = 0.0_dp
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
-      !> The area by the number of points in contact, and that area corrected by (C26), in 1-D `unknown`.
-      real(dp) :: counted_area = unknown, corrected_area = unknown
-      real(dp) :: area_at_hardness = 0.0_dp         !! fraction of the area at which p = H
-      real(dp) :: area_at_hardness_error = 0.0_dp   !! its error estimate, or `unknown`
+      type(contact_measures) :: measures   !! the values, their errors and what else the grid has
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
       integer :: iterations = 0            !! on all grids
-      !> Elastic energy per nominal area, the mean of p u/2 [p* Delta].
-      real(dp) :: elastic_energy = unknown
       real(dp) :: transform_pairs = 0.0_dp !! in both precisions, in units of one on the finest grid
    end type sequence_answer
 
@@ -99,7 +94,8 @@ contains
          scale = 1.0_dp
          if (surface%has_free_edges) scale = answer%values
          answer%accurate = answer%state%converged .and. all(grid >= plan%trusted) .and. &
-            all(answer%errors <= accuracy*scale) .and. answer%area_at_hardness_error <= accuracy*scale(2)
+            all(answer%errors <= accuracy*scale) .and. &
+            answer%measures%area_at_hardness_error <= accuracy*scale(2)
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
                                       answer%state%iterations, answer%state%residual)
@@ -125,6 +121,16 @@ contains
       end if
       ! No pressure is negative: an estimate as large as the peak says nothing of it.
       if (.not. answer%accurate .and. answer%errors(3) >= answer%values(3)) answer%errors(3) = unknown
+      associate (measures => answer%measures)
+         measures%mean_gap_over_amplitude = answer%state%open_gap()
+         measures%approach_over_amplitude = answer%state%approach
+         measures%contact_area_fraction = answer%values(2)
+         measures%peak_pressure_over_pstar = answer%values(3)
+         measures%mean_gap_error = answer%errors(1)
+         measures%contact_area_error = answer%errors(2)
+         measures%peak_pressure_error = answer%errors(3)
+         measures%elastic_energy_error = 2*mean_pressure*answer%errors(1)
+      end associate
    end subroutine solve_by_sequence
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
@@ -161,7 +167,7 @@ contains
          call solve_on_grid(half_space, stencil, h, residual, most, answer%state, progress)
          answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs + half_space%single_pairs
       end if
-      if (.not. answer%state%interrupted) answer%elastic_energy = energy_of(answer%state, h)
+      if (.not. answer%state%interrupted) answer%measures%elastic_energy = energy_of(answer%state, h)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
    end subroutine solve_level
@@ -221,8 +227,8 @@ contains
       call answer%edge%fetch_neighbours()
       area = grid_contact_area(answer%edge)
       answer%values(2) = area
-      answer%counted_area = counted_area_fraction(answer%edge)
-      if (surface%dimension == 2) answer%corrected_area = corrected_area_fraction(answer%edge)
+      answer%measures%contact_area_counted_fraction = counted_area_fraction(answer%edge)
+      if (surface%dimension == 2) answer%measures%contact_area_corrected_fraction = corrected_area_fraction(answer%edge)
       call grid_peak_pressure(answer%edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
@@ -257,12 +263,12 @@ contains
       real(dp) :: area, errors(3)
 
       area = 1.0_dp - grid_contact_area(edge)
-      answer%area_at_hardness = min(area, mean_pressure/surface%hardness)
+      answer%measures%area_at_hardness_fraction = min(area, mean_pressure/surface%hardness)
       call history%push([0.0_dp, area, 0.0_dp])
       errors = history%errors()
       ! Between the points the pressure may reach H although it does so at none of them.
       if (answer%values(3) >= surface%hardness) errors = max(errors, unresolved_errors(surface, edge, .true.))
-      answer%area_at_hardness_error = errors(2)
+      answer%measures%area_at_hardness_error = errors(2)
    end subroutine measure_at_hardness
 
 end module wavycon_grid_sequence

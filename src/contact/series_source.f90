@@ -73,7 +73,7 @@ contains
       allocate (own)
       call self%coefficients(record, own%pressure)
       own%displacement = surface%displacement_of(own%pressure)
-      own%shape = surface%shape
+      own%surface = surface
       own%mean_gap = 1.0_dp - record%measures%approach_over_amplitude
       call move_alloc(own, answer)
    end subroutine fields

@@ -87,7 +87,7 @@ program bench_iterations
                                       surface%points, answer, progress, 1e-8_dp)
                weighted = sum(numbers(:grids)*(real(sides(:grids), dp)/side)**2)
                write (output_unit, '(2x,i6,i15,f10.3,i6,f11.5,i25,f21.1,es10.1)') side, cutoffs(j), areas(i), seed, &
-                  answer%counted_area, numbers(grids), weighted, answer%state%residual
+                  answer%measures%contact_area_counted_fraction, numbers(grids), weighted, answer%state%residual
                flush (output_unit)
                worst = max(worst, numbers(grids))
             end do
