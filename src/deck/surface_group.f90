@@ -87,14 +87,29 @@ contains
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
 
+      character(12), parameter :: pairs(2, 3) = reshape([character(12) :: 'length_x', 'length_y', 'wavelength', &
+         'wavelength_y', 'wavelength1', 'wavelength2'], [2, 3])
+      character(:), allocatable :: key, keys
       real(dp) :: side(2)
+      integer :: k
 
       if (surface%dimension == 1) return
       side = surface%sides()
-      if (maxval(side) > largest_ratio*minval(side)) call values%complain(problems, 'kind', 'the cell is '// &
-         short_number(side(1))//' x '//short_number(side(2))//', one side '// &
-         short_number(maxval(side)/minval(side))//' times the other; at most '//short_number(largest_ratio)// &
-         ' times is allowed. Do the units of both sides agree?')
+      if (maxval(side) <= largest_ratio*minval(side)) return
+      key = 'kind'
+      keys = 'both sides'
+      if (values%has('file')) then
+         key = 'file'
+         keys = 'the sides in '//escaped(values%text('file'))
+      end if
+      do k = 1, size(pairs, 2)
+         if (.not. any([values%in_effect(trim(pairs(1, k))), values%in_effect(trim(pairs(2, k)))])) cycle
+         key = trim(pairs(merge(2, 1, values%has(trim(pairs(2, k)))), k))
+         keys = trim(pairs(1, k))//' and '//trim(pairs(2, k))
+      end do
+      call values%complain(problems, key, 'the cell is '//short_number(side(1))//' x '//short_number(side(2))// &
+         ', one side '//short_number(maxval(side)/minval(side))//' times the other; at most '// &
+         short_number(largest_ratio)//' times is allowed. Are '//keys//' in one unit?')
    end subroutine check_sides
 
    !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one

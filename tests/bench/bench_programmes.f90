@@ -23,7 +23,7 @@ program bench_programmes
    character(12) :: words(4)
    real(dp), allocatable :: times(:)
    real(dp) :: load, before, after
-   integer :: harmonics, i, count, ios, points
+   integer :: harmonics, i, j, count, ios, points
 
    do i = 1, size(words)
       call get_command_argument(i, words(i))
@@ -43,7 +43,8 @@ program bench_programmes
       if (ios /= 0) stop
       if (count < 0) then
          do i = 1, size(fresh%problem%linear)
-            write (output_unit, numbers) fresh%problem%hessian(:, i)
+            write (output_unit, numbers) [(merge(fresh%problem%hessian(i), 0.0_dp, j == i), &
+                                           j=1, size(fresh%problem%linear))]
          end do
          write (output_unit, numbers) fresh%problem%linear
          do i = 1, size(fresh%problem%bounds)

@@ -243,13 +243,18 @@ def distinct(coordinates):
     return 1 + sum(gap > 0.02*max(gaps) for gap in gaps)
 
 
+def shape_words(columns, lines):
+    return f"map: points_x[-] = {columns}, points_y[-] = {lines},"
+
+
 def reading_complaints(outcome, content, text):
     """What is wrong with the log of an accepted map: its numbers must be those of a second reader."""
-    match = re.search(r"^map +(\d+) x (\d+) points \((\w+)\), heights over their mean (\S+) to (\S+), rms (\S+) ",
+    match = re.search(r"^map: points_x\[-\] = (\d+), points_y\[-\] = (\d+), lowest\S* = ([^,]+), highest\S* = ([^,]+), "
+                      r"rms_height\S* = ([^,]+), format = (\w+)",
                       outcome.stdout.decode(errors="replace"), re.MULTILINE)
     if not match:
         return ["the log does not name the map"]
-    found = second_reading(content, match.group(3))
+    found = second_reading(content, match.group(6))
     if not found:
         return ["a second reader finds no map here"]
     scale = re.search(r"height_scale = ([\d.e-]+)", text)
@@ -259,7 +264,7 @@ def reading_complaints(outcome, content, text):
     if points != found[0] and (points[1] != 1 or points[::-1] != found[0]):
         return [f"a second reader finds {found[0][0]} x {found[0][1]} points"]
     size = scale*max(abs(found[1]), abs(found[2]))
-    for word, value in zip(match.groups()[3:], found[1:]):
+    for word, value in zip(match.groups()[2:5], found[1:]):
         if abs(float(word) - scale*value) > LOG_TOLERANCE*size:
             return [f"the log says {word}, a second reader {scale*value:.6g}"]
     return []
@@ -358,7 +363,7 @@ def binary_case(stream):
     name = f"heights.{stream.choice((ending, ending, 'dat'))}"
     form = stream.choice(("", "", "", *(f", file_format = '{word}'" for word in ("npy", "gsf"))))
     text = f"&surface kind = 'file', file = '{name}'{'' if is_good else form} /\n&load pbar_over_pstar = 0.05 /\n"
-    return name, head + numbers, text, f"map       {columns} x {lines} points".encode() if is_good else None
+    return name, head + numbers, text, shape_words(columns, lines).encode() if is_good else None
 
 
 def binary_complaints(outcome, name, words):
@@ -536,9 +541,9 @@ def odd_files(program, work, failures):
             attempt(f"flat {height} {side}", (" ".join([height]*side) + "\n")*side, 0, "the surface is flat")
     for columns, lines in ((5, 5), (7, 11), (13, 4), (16, 16), (17, 31), (61, 1), (64, 4), (101, 5)):
         stream = random.Random(columns)
-        attempt(f"{columns} x {lines}", matrix(stream, columns, lines), 0, f"map       {columns} x {lines} points")
+        attempt(f"{columns} x {lines}", matrix(stream, columns, lines), 0, shape_words(columns, lines))
         if lines > 1:
-            attempt(f"{columns} x {lines} points", points(stream, columns, lines), 0, " points (xyz)")
+            attempt(f"{columns} x {lines} points", points(stream, columns, lines), 0, "format = xyz")
     attempt("a directory", None, 3, "this is a directory", make=lambda path: path.mkdir())
     attempt("a pipe", None, 3, "this is a pipe or a device", make=os.mkfifo)
     attempt("a link to itself", None, 3, "cannot be opened: ", make=lambda path: path.symlink_to(path.name))
@@ -550,7 +555,7 @@ def odd_files(program, work, failures):
     attempt("a long name", None, 3, "cannot be opened: ", map_name="x"*900, make=lambda path: None)
     for i, name in enumerate(("it's", 'a "map"', "a map", "$(touch CANARY)", "; touch CANARY", "ä€𝄞", "-rf", "a\\nb",
                               "100%s")):
-        attempt(f"name {i}", good, 0, "map       8 x 8 points", map_name=name)
+        attempt(f"name {i}", good, 0, shape_words(8, 8), map_name=name)
     attempt("a name of two lines", good, 1, "this quote is not closed on its line", map_name="a\nb")
     if any(path.name == "CANARY" for path in work.rglob("*")):
         part.count("CANARY", ["the name of a map reached a shell"])
