@@ -148,7 +148,8 @@ contains
                           integer_text(points)//' heights are missing ('// &
                           percent(real(holes(1), dp)/points)//'), the first is number '// &
                           integer_text(first(1))//' along x and '//integer_text(first(2))//" along y: "// &
-                          "fill_missing = 'harmonic' fills them")
+                          "fill_missing = 'harmonic' fills them"// &
+                          trim(merge(', crop_missing = .true. leaves out a frame of them', repeat(' ', 50), all(first == 1))))
       end if
    end subroutine check_holes
 

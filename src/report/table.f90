@@ -131,11 +131,9 @@ contains
       words = ''
       select case (self%file)
       case ('coefficients')
-         if (.not. traits%has_coefficients) words = "solver = '"//trim(solver_names(traits%solver))// &
-            "' has no series of given length; "//solvers_with('coefficients')//' has'
+         if (.not. traits%has_coefficients) words = lacks('has no series of given length', 'has')
       case ('details')
-         if (.not. traits%has_details) words = "solver = '"//trim(solver_names(traits%solver))// &
-            "' does not compute them for every load; "//solvers_with('details')//' does'
+         if (.not. traits%has_details) words = lacks('does not compute them for every load', 'does')
       case ('spectrum')
          if (max(surface%amplitude, maxval(surface%length)) > largest_length) words = 'it has the fourth power of '// &
             'lengths, which may be up to '//short_number(largest_length)//'; choose another unit of length'
@@ -146,6 +144,25 @@ contains
          words = words//', and for a ball'
          if (surface%has_free_edges .and. all(surface%form(:surface%dimension) > 0.0_dp)) words = ''
       end select
+
+   contains
+
+      !> That the solver lacks something, and which solvers of the surface have it.
+      function lacks(what, others_do) result(words)
+         character(*), intent(in) :: what, others_do
+         character(:), allocatable :: words
+
+         character(:), allocatable :: others
+
+         others = solvers_with(trim(self%file), surface)
+         words = "solver = '"//trim(solver_names(traits%solver))//"' "//what
+         if (others == '') then
+            words = words//', nor does any other for this surface'
+         else
+            words = words//'; '//others//' '//others_do
+         end if
+      end function lacks
+
    end function refusal
 
    !> Whether all ranks write the table together, each from its columns of grids that are distributed; called before the

@@ -136,17 +136,21 @@ contains
       words = listed(in_quotes(pack(names, [(refusal(names(i), surface) == '', i=1, size(names))])), ' or ')
    end function solvers_for
 
-   !> The solvers whose solutions have details, or the coefficients of a series.
-   function solvers_with(trait) result(words)
+   !> The solvers of a surface whose solutions have details, or the coefficients of a series; '' if there is none.
+   function solvers_with(trait, surface) result(words)
       character(*), intent(in) :: trait   !! 'details' or 'coefficients'
+      type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
       type(solver_traits) :: traits(number_of_methods)
       integer :: i
+      logical :: has_it(number_of_methods), solves(number_of_methods)
 
       traits = [(traits_of(names(i)), i=1, size(names))]
-      words = listed(in_quotes(pack(names, merge(traits%has_details, traits%has_coefficients, trait == 'details'))), &
-                     ' or ')
+      has_it = merge(traits%has_details, traits%has_coefficients, trait == 'details')
+      solves = [(refusal(names(i), surface) == '', i=1, size(names))]
+      words = ''
+      if (any(has_it .and. solves)) words = listed(in_quotes(pack(names, has_it .and. solves)), ' or ')
    end function solvers_with
 
    !> The traits of a solver before it is started.
