@@ -80,7 +80,8 @@ contains
       type(contact_solution), intent(in) :: stick      !! at P*
       real(dp) :: answer(2)
 
-      associate (p => solution%pbar_over_pstar + stick%pbar_over_pstar, u => solution%measures, u_stick => stick%measures)
+      associate (p => solution%pbar_over_pstar + stick%pbar_over_pstar, u => solution%measures, &
+                 u_stick => stick%measures)
          answer = p*relative_displacement(solution, stick)
          answer(1) = 4*(answer(1) - 2*(u%elastic_energy - u_stick%elastic_energy))
          answer(2) = 4*(answer(2) + 2*(u%elastic_energy_error + u_stick%elastic_energy_error))

@@ -131,6 +131,7 @@ contains
       type(grid_slab) :: slab
       integer(int64) :: holes(1), points
       integer :: first(2)
+      character(:), allocatable :: remedy
       real(dp) :: unused
 
       slab = map%columns()
@@ -144,12 +145,12 @@ contains
       else if (preparation%fill_missing == 'none') then
          if (.not. allocated(map%missing)) allocate (map%missing(slab%points(1), slab%columns()), source=.false.)
          call slab%find_largest(merge(1.0_dp, 0.0_dp, map%missing), unused, first)
+         remedy = "fill_missing = 'harmonic' fills them"
+         if (all(first == 1)) remedy = remedy//', crop_missing = .true. leaves out a frame of them'
          call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes(1))//' of '// &
                           integer_text(points)//' heights are missing ('// &
                           percent(real(holes(1), dp)/points)//'), the first is number '// &
-                          integer_text(first(1))//' along x and '//integer_text(first(2))//" along y: "// &
-                          "fill_missing = 'harmonic' fills them"// &
-                          trim(merge(', crop_missing = .true. leaves out a frame of them', repeat(' ', 50), all(first == 1))))
+                          integer_text(first(1))//' along x and '//integer_text(first(2))//' along y: '//remedy)
       end if
    end subroutine check_holes
 

@@ -198,7 +198,7 @@ contains
       real(dp), intent(in) :: first_slack                !! its slack at x, < 0
       real(dp), intent(inout), contiguous :: x(:), multipliers(:)   !! shape (n)
       integer, intent(inout) :: pivots
-      logical, intent(out) :: is_active                  !! false: the active ones exclude it, or rounding makes it seem so
+      logical, intent(out) :: is_active   !! false: the active ones exclude it, or rounding makes it seem so
 
       real(dp) :: components(size(x)), rest(size(x)), rates(size(x))
       real(dp) :: multiplier, slack, full_step, step, stiffness, zero, zero_rate

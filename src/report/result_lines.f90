@@ -73,8 +73,8 @@ contains
    end subroutine show_loads
 
    !> A line for each load and body: von Mises stress and shear stress, each followed by its error estimate, and the
-   !> depth of the first over the side of the cell along x; with free edges all in the deck's units. The von Mises stress
-   !> in the deck's unit too if the deck gives a modulus, and the ratio to the yield stress if it gives one.
+   !> depth of the first over the side of the cell along x; with free edges all in the deck's units. The von Mises
+   !> stress in the deck's unit too if the deck gives a modulus, and the ratio to the yield stress if it gives one.
    subroutine show_stresses(results, log)
       type(results_type), intent(in) :: results   !! with the largest stresses
       type(run_log), intent(inout) :: log

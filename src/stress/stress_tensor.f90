@@ -58,8 +58,8 @@ contains
       stress_pressure = -(s(xx) + s(yy) + s(zz))/3
    end function stress_pressure
 
-   !> Principal stresses s1 >= s2 >= s3, each to rounding of the largest, also where two are equal. NaN if a component is
-   !> not finite.
+   !> Principal stresses s1 >= s2 >= s3, each to rounding of the largest, also where two are equal. NaN if a component
+   !> is not finite.
    !>
    !> N.B. The formula with arccos loses half of the digits where two eigenvalues are equal, as on every axis of
    !> symmetry.

@@ -60,8 +60,8 @@ contains
       changes%rms_of_short = scale*changes%rms_of_short
       statistics = statistics_of(map%height, map%format, map%points(), length/map%points(), &
                                  all(changes%edges /= ['mirror', 'free  ']))
-      surface = surface_of_points(length, map%height, changes%edges == 'mirror', map%points(), changes%edges == 'free', &
-                                  radii)
+      surface = surface_of_points(length, map%height, changes%edges == 'mirror', map%points(), &
+                                  changes%edges == 'free', radii)
       statistics%changes = changes
       if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
          call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)

@@ -288,8 +288,8 @@ contains
    end function radii
 
    !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
-   !> wavycon_undeformed_gap can evaluate it; `gather_series` gathers the shape. All other components are those of the whole
-   !> surface.
+   !> wavycon_undeformed_gap can evaluate it; `gather_series` gathers the shape. All other components are those of the
+   !> whole surface.
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
 
