@@ -66,7 +66,7 @@ class Scale:
             parts.append("'/'." + self.over)
         if self.unit:
             power = ten_to(self.power) + " " if self.power else ""
-            parts.append(quoted(f" ({power}{marked_up(self.unit)})"))
+            parts.append(quoted(f" [{power}{marked_up(self.unit)}]"))
         return ".".join(parts)
 
     def value(self, symbol, number):

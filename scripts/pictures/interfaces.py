@@ -18,7 +18,7 @@ def interface(tables, beside, choice, folder):
         raise CannotBeDrawn("it has no stiffness")
     units = [label_of_unit(unit) for unit in (table.label("p*"), table.label("Delta"))]
     facts, _ = mean_pressure_axis(tables)
-    facts += [f"stiffness_label = 'contact stiffness'.{quoted(' ({}/{})'.format(*units) if all(units) else '')}"]
+    facts += [f"stiffness_label = 'contact stiffness'.{quoted(' [{}/{}]'.format(*units) if all(units) else '')}"]
     facts += [f"with_resistance = {int(bool(table.column('contact_resistance')))}"]
     for name in "stiffness", "resistance":
         facts += put_range(name, [number for number in table.column(f"contact_{name}") if number > 0] or [1.0])

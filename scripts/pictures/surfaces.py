@@ -34,12 +34,12 @@ def spectra(tables, beside, choice, folder):
         low, high = 10.0**math.floor(math.log10(low)), 10.0**math.ceil(math.log10(high))
     unit = label_of_unit(table.label("cell_x"))
     facts = [f"lines = {int(len(blocks) == 3)}", f"panels = {len(limits)}"]
-    facts += [f"q_label = 'wave number {{/:Italic q}}'.{quoted(unit and f' (rad/{unit})')}",
+    facts += [f"q_label = 'wave number {{/:Italic q}}'.{quoted(unit and f' [rad/{unit}]')}",
               f"q_low = {low!r}", f"q_high = {high!r}"]
     for column, power in (("spectrum_2d", 4), ("spectrum_1d", 3)):
         sizes = [c for _, c in limits.get(column, [])] or [1.0]
         label = "{/:Italic C}" + ("" if power == 4 else "_1")
-        facts += [f"{column}_label = 'spectrum {label}'.{quoted(unit and f' ({unit}^{power})')}",
+        facts += [f"{column}_label = 'spectrum {label}'.{quoted(unit and f' [{unit}^{power}]')}",
                   f"{column}_low = {10.0**math.floor(math.log10(min(sizes)))!r}",
                   f"{column}_high = {10.0**math.ceil(math.log10(1.001*max(sizes)))!r}"]
     return "spectrum", (90 + 330*len(limits), 330), facts

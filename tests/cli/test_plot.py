@@ -151,15 +151,15 @@ class Plot(ProgramTest):
 
     def test_units(self):
         words = self.drawn("si.summary.dat", name="si.summary.svg")
-        self.assertIn("(MPa)", words)
-        self.assertIn("mean gap ḡ (µm)", words)
-        self.assertIn("x (µm)", self.drawn("si.map.dat"))
+        self.assertIn("[MPa]", words)
+        self.assertIn("mean gap ḡ [µm]", words)
+        self.assertIn("x [µm]", self.drawn("si.map.dat"))
         # One unit a run: loads, pressures and stresses; places and depths; gaps.
         for case in ("si", "bodies"):
             for path in sorted(self.folder.glob(f"{case}.*.svg")):
                 if not re.search("compare|theory.svg", path.name):
                     self.assertNotRegex(path.read_text(encoding="utf-8"), r"GPa|kPa|\(mm|nm\b")
-        self.assertIn("mean pressure p̄ (MPa)", self.drawn("si.spots.dat"))
+        self.assertIn("mean pressure p̄ [MPa]", self.drawn("si.spots.dat"))
         self.assertIn("mean pressure p̄/p*", self.drawn("auto.spots.dat"))
         # Lengths without a label are those of the deck.
         for kind in ("map", "contour"):
@@ -171,11 +171,11 @@ class Plot(ProgramTest):
 
     def test_spectra_have_the_units_of_their_axes(self):
         words = self.drawn("rough.spectrum.dat")
-        for label in ("wave number q (rad/µm)", "spectrum C (µm4)", "spectrum C1 (µm3)", "along x", "along y"):
+        for label in ("wave number q [rad/µm]", "spectrum C [µm4]", "spectrum C1 [µm3]", "along x", "along y"):
             self.assertIn(label, words)
         words = self.drawn("profile.spectrum.dat")
         self.assertNotIn("along", words)
-        self.assertNotIn("(", words)
+        self.assertNotIn("[", words)
 
     def test_maps_of_small_spots(self):
         """Contact has panels of its own and no outlines that would hide it; colours end below a single peak."""
@@ -195,7 +195,7 @@ class Plot(ProgramTest):
 
     def test_heights(self):
         words = self.drawn("rough.height.npy")
-        self.assertIn("height (µm)", words)
+        self.assertIn("height [µm]", words)
         self.assertIn(" 30 ", words)
         self.assertIn("height/Δ", self.drawn("profile.height.npy"))
         # Without a summary beside it the points are counted.
@@ -347,12 +347,12 @@ class Plot(ProgramTest):
 
     def test_stresses_of_two_bodies(self):
         shown = self.drawn("bodies.stress_largest.dat")
-        for word in ("first body", "second body", "(MPa)", "(µm)", "over yield stress"):
+        for word in ("first body", "second body", "[MPa]", "[µm]", "over yield stress"):
             self.assertIn(word, shown)
         self.assertNotIn("first body", self.drawn("--body", "2", "bodies.stress_largest.dat"))
         for name in ("bodies.stress_line.dat", "bodies.stress_section.dat", "bodies.stress_planes.npy"):
             self.assertIn("--body 2 shows the second", self.plot("--format", "svg", name)[1])
-        self.assertIn("(MPa)", self.drawn("--body", "2", "--depths", "1,9", "bodies.stress_planes.npy"))
+        self.assertIn("[MPa]", self.drawn("--body", "2", "--depths", "1,9", "bodies.stress_planes.npy"))
         # Loads, bodies and depths of both formats are the same.
         self.run_deck("bodies", DECKS["bodies"].replace("'npy'", "'text'") + "\n", output="bad")
         binary, text = (Table(self.folder/name) for name in ("bodies.stress_planes.npy", "bad/bodies.stress_planes.dat"))
