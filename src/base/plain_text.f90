@@ -7,7 +7,7 @@ module wavycon_plain_text
 
    public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
    public :: clauses, in_quotes, listed, percent
-   public :: is_printable, escaped, excerpt, character_count, is_continuation
+   public :: is_printable, escaped, excerpt, character_count
 
    !> An integer in decimal, without blanks.
    interface integer_text

@@ -1,6 +1,6 @@
 !> Matches the groups and keys of a deck's text with the tables, and reads the values.
 module wavycon_deck_groups
-   use wavycon_deck_scanner, only: at_end, is_broken_word, is_comma, is_group, is_word, next_part, next_token, &
+   use wavycon_deck_scanner, only: at_end, is_broken_word, is_group, is_word, next_part, next_token, &
       part_type, read_entry, scan_type, token_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_group_values, only: group_values

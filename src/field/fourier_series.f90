@@ -2,6 +2,7 @@
 module wavycon_fourier_series
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
    implicit none (type, external)
    private
 
@@ -109,11 +110,23 @@ contains
       integer :: last
 
       last = merge(intervals, 0, ubound(self%c, 2) > 0)
-      allocate (values(0:intervals, 0:last))
-      associate (x => cosine_table(intervals, ubound(self%c, 1)), y => cosine_table(intervals, ubound(self%c, 2)))
-         values(:, :) = matmul(matmul(x, self%c), transpose(y(:last + 1, :)))
-      end associate
+      allocate (values(0:intervals, 0:last), source=0.0_dp)
+      call add_products(self%c, cosine_table(intervals, ubound(self%c, 1)), &
+                        cosine_table(intervals, ubound(self%c, 2)), values)
    end subroutine evaluate_on_grid
+
+   !> values(k, l) = values(k, l) + sum_ij x(k, i) c(i, j) y(l, j)
+   pure subroutine add_products(c, x, y, values)
+      real(dp), intent(in) :: c(0:, 0:), x(0:, 0:), y(0:, 0:)
+      real(dp), intent(inout) :: values(0:, 0:)
+
+      real(dp) :: half_way(size(x, 1), size(c, 2))
+
+      call dgemm('N', 'N', size(x, 1), size(c, 2), size(c, 1), 1.0_dp, x, size(x, 1), c, size(c, 1), &
+                 0.0_dp, half_way, size(x, 1))
+      call dgemm('N', 'T', size(x, 1), size(values, 2), size(c, 2), 1.0_dp, half_way, size(x, 1), &
+                 y, size(y, 1), 1.0_dp, values, size(x, 1))
+   end subroutine add_products
 
    !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in integers, so that the symmetries of the cosine hold to
    !> the last bit and high harmonics are as accurate as low ones.

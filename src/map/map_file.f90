@@ -13,7 +13,7 @@ module wavycon_map_file
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: is_npy, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
-   use wavycon_plain_text, only: escaped, integer_text, lower_case, newline
+   use wavycon_plain_text, only: escaped, lower_case, newline
    use wavycon_point_map, only: take_points
    use wavycon_profile_map, only: resample_profile, take_profile
    use wavycon_ranks, only: share_error

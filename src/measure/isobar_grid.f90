@@ -9,6 +9,7 @@ module wavycon_isobar_grid
    use wavycon_contact_edge, only: contact_edge, edge_point
    use wavycon_fourier_series, only: fourier_series, cosine_table, evaluate_line, folded
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
    use wavycon_line_zeros, only: zero_between
    implicit none (type, external)
    private
@@ -55,12 +56,24 @@ contains
       end do
       allocate (grid%along_phi(0:n, 0:intervals), grid%along_phi_slope(0:n, 0:intervals), &
                 grid%along_theta(0:n, 0:intervals), grid%along_theta_slope(0:n, 0:intervals))
-      grid%along_phi(:, :) = matmul(pressure%c, transpose(cosines))
-      grid%along_phi_slope(:, :) = matmul(pressure%c, transpose(sines))
-      grid%along_theta(:, :) = matmul(transpose(pressure%c), transpose(cosines))
-      grid%along_theta_slope(:, :) = matmul(transpose(pressure%c), transpose(sines))
+      call line_series('N', cosines, grid%along_phi)
+      call line_series('N', sines, grid%along_phi_slope)
+      call line_series('T', cosines, grid%along_theta)
+      call line_series('T', sines, grid%along_theta_slope)
       grid%along_phi(0, :) = grid%along_phi(0, :) - level
       grid%along_theta(0, :) = grid%along_theta(0, :) - level
+
+   contains
+
+      subroutine line_series(trans, table, series)
+         character, intent(in) :: trans
+         real(dp), intent(in) :: table(0:intervals, 0:n)
+         real(dp), intent(out) :: series(0:n, 0:intervals)
+
+         call dgemm(trans, 'T', n + 1, intervals + 1, n + 1, 1.0_dp, pressure%c, n + 1, table, intervals + 1, &
+                    0.0_dp, series, n + 1)
+      end subroutine line_series
+
    end subroutine start_isobar_grid
 
    pure logical function in_contact(self, k, l)

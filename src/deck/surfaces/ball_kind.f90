@@ -1,10 +1,9 @@
 !> kind = 'ball': a ball, or a body with two radii of curvature, pressed on a half-space.
 module wavycon_ball_kind
-   use wavycon_constants, only: pi
    use wavycon_group_values, only: group_values
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_key_relations, only: alternative_type
-   use wavycon_key_table, only: integer_key, real_key
+   use wavycon_key_table, only: integer_key
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: most_points
    use wavycon_surface, only: surface_of_ball, surface_type
