@@ -179,14 +179,18 @@ contains
       character(*), intent(in) :: constant  !! well formed: the same quote at both ends, doubled inside
       character(:), allocatable :: text
 
-      integer :: i
+      character(:), allocatable :: buffer
+      integer :: i, length
 
-      text = ''
+      allocate (character(len(constant)) :: buffer)
+      length = 0
       i = 2
       do while (i < len(constant))
-         text = text//constant(i:i)
+         length = length + 1
+         buffer(length:length) = constant(i:i)
          i = i + merge(2, 1, constant(i:i) == constant(1:1))
       end do
+      text = buffer(:length)
    end function unquoted
 
    !> Number of bytes of the printable character, ASCII or UTF-8, that starts at a place; 0 if none starts there.

@@ -240,7 +240,7 @@ contains
             if (allocated(trouble)) then
                call problems%add(token%first, trouble)
                is_good = .false.
-               if (problems%is_full() .or. used + repeats > key%most_values .or. key%most_values == 1) exit
+               if (problems%is_full() .or. repeats > key%most_values - used .or. key%most_values == 1) exit
             end if
             numbers(used + 1:used + repeats) = value%number
             used = used + repeats

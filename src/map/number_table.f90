@@ -23,6 +23,7 @@ module wavycon_number_table
       procedure :: refuse
    end type number_table
 
+   integer, parameter :: least_numbers = 4096   !! for which room is made at first
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
 
 contains
@@ -96,7 +97,7 @@ contains
             return
          end if
          if (rows == size(table%line) .or. columns > size(table%values, 1)) then
-            call resize(table, columns, max(64, 2*rows), status)
+            call resize(table, columns, max(1, 2*rows, least_numbers/columns), status)
             if (status /= 0) exit
          end if
          rows = rows + 1
