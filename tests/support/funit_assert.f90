@@ -2,23 +2,21 @@
 !> `call funit_check('assertX', expected, actual, ..)`.
 !>
 !> Ranks are 0, 1 or 2; a scalar expected value is compared with every element, of which there must be one. Integers and
-!> logical values are compared as real numbers, which hold them exactly. The arithmetic raises no floating-point
-!> exception, so that a failure is reported in builds that trap them.
+!> logical values are compared as real numbers, which hold them exactly.
 module funit_assert
    use, intrinsic :: iso_fortran_env, only: dp => real64, int64
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, ieee_value
-   use funit_exception, only: SourceLocation, count_assertion, throw
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use funit_runner, only: SourceLocation, count_assertion, throw
    implicit none (type, external)
    private
 
-   public :: funit_check, funit_fail
+   public :: funit_check
 
    interface funit_check
-      procedure :: check_reals, check_integers, check_logicals, check_strings, check_value
+      procedure :: check_reals, check_integers, check_logicals, check_strings, check_value, fail
    end interface funit_check
 
-   character(*), parameter :: newline = new_line('a')
-   character(*), parameter :: indent = newline//'      '
+   character(*), parameter :: indent = new_line('a')//'      '
 
    !> How numbers are written.
    character(*), parameter :: as_real = '(es24.16e3)', as_integer = '(i0)', as_logical = '(l1)'
@@ -87,7 +85,7 @@ contains
 
    end subroutine check_integers
 
-   !> Also of assertTrue and assertFalse, which take no array of rank 2, as in pFUnit.
+   !> Also of assertTrue and assertFalse.
    subroutine check_logicals(assertion, expected, actual, message, location)
       character(*), intent(in) :: assertion
       logical, intent(in) :: expected(..), actual(..)
@@ -123,17 +121,10 @@ contains
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      integer :: i
-
       call count_assertion()
       if (len(expected) == len(actual) .and. expected == actual) return
-      do i = 1, min(len(expected), len(actual))
-         if (expected(i:i) /= actual(i:i)) exit
-      end do
-      call fail(assertion, message, location, &
-         indent//"expected:   '"//expected//"'"//indent//"actual:     '"//actual//"'"//indent// &
-         'difference: from character '//list_text([i])//' on; lengths '// &
-         list_text([len(expected)])//' and '//list_text([len(actual)]))
+      call report(assertion, message, location, indent//"expected:   '"//expected//"'"//indent// &
+         "actual:     '"//actual//"'")
    end subroutine check_strings
 
    !> assertIsFinite and assertIsNaN.
@@ -145,19 +136,19 @@ contains
 
       call count_assertion()
       if (merge(ieee_is_nan(x), ieee_is_finite(x), assertion == 'assertIsNaN')) return
-      call fail(assertion, message, location, indent//'actual:     '//number_text(x, as_real))
+      call report(assertion, message, location, indent//'actual:     '//number_text(x, as_real))
    end subroutine check_value
 
    !> assertFail.
-   subroutine funit_fail(message, location)
-      character(*), intent(in) :: message
+   subroutine fail(assertion, message, location)
+      character(*), intent(in) :: assertion, message
       type(SourceLocation), intent(in) :: location
 
       call count_assertion()
-      call fail('assertFail', message, location, '')
-   end subroutine funit_fail
+      call report(assertion, message, location, '')
+   end subroutine fail
 
-   subroutine fail(assertion, message, location, details)
+   subroutine report(assertion, message, location, details)
       character(*), intent(in) :: assertion
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
@@ -168,7 +159,7 @@ contains
       else
          call throw(assertion//details, location)
       end if
-   end subroutine fail
+   end subroutine report
 
    !> Reports the first pair of numbers for which the relation of an assertion does not hold.
    subroutine compare(assertion, layout, expected, actual, tolerance, message, location)
@@ -179,137 +170,71 @@ contains
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      character(:), allocatable :: details, found, relation, wanted
-      integer :: failures, first, highest_rank
+      character(:), allocatable :: details
+      integer :: first
       logical, allocatable :: holds(:)
+      logical :: alike
       real(dp) :: allowed
       real(dp), allocatable :: e(:)
 
       call count_assertion()
-      relation = relation_of(assertion)
-      allowed = 0.0_dp
-      if (present(tolerance)) allowed = tolerance
-      if (.not. tolerance_is_sound(allowed, relation)) then
-         call fail(assertion, message, location, &
-                   indent//'the tolerance makes no sense: '//number_text(allowed, as_real))
-         return
+      if (size(expected%shape) == 0) then
+         alike = size(actual%numbers) > 0
+         e = spread(expected%numbers(1), 1, size(actual%numbers))
+      else
+         alike = size(expected%shape) == size(actual%shape)
+         if (alike) alike = all(expected%shape == actual%shape)
+         e = expected%numbers
       end if
-      highest_rank = merge(1, 2, assertion == 'assertTrue' .or. assertion == 'assertFalse')
-      if (.not. conform(expected%shape, actual%shape, highest_rank)) then
-         call fail(assertion, message, location, indent//'expected:   shape ('//list_text(expected%shape)//')'// &
+      if (.not. alike) then
+         call report(assertion, message, location, indent//'expected:   shape ('//list_text(expected%shape)//')'// &
             indent//'actual:     shape ('//list_text(actual%shape)//'), which cannot be compared')
          return
       end if
-      e = expected%numbers
-      if (size(expected%shape) == 0) e = spread(e(1), 1, size(actual%numbers))
-      holds = relation_holds(relation, e, actual%numbers, allowed)
+      allowed = 0.0_dp
+      if (present(tolerance)) allowed = tolerance
+      holds = relation_holds(assertion, e, actual%numbers, allowed)
       first = findloc(holds, .false., dim=1)
       if (first == 0) return
 
-      failures = count(.not. holds)
-      wanted = number_text(e(first), layout)
-      found = number_text(actual%numbers(first), layout)
-      if (scan(relation, '<>') > 0) then
-         details = indent//'required:   '//wanted//' '//relation//' '//found
-      else
-         details = indent//'expected:   '//wanted//indent//'actual:     '//found
-      end if
-      if (layout /= as_logical) details = details//indent//'difference: '// &
-         difference_text(e(first), actual%numbers(first), layout)
+      details = indent//'expected:   '//number_text(e(first), layout)//indent//'actual:     '// &
+         number_text(actual%numbers(first), layout)
+      if (layout == as_real .and. ieee_is_finite(e(first)) .and. ieee_is_finite(actual%numbers(first))) &
+         details = details//indent//'difference: '//number_text(actual%numbers(first) - e(first), layout)
       if (present(tolerance)) details = details//' (tolerance '//number_text(tolerance, as_real)//')'
-      if (size(actual%shape) == 1) then
-         details = details//indent//'element:    ('//list_text([first])//')'
-      else if (size(actual%shape) == 2) then
-         details = details//indent//'element:    ('// &
-            list_text([1 + modulo(first - 1, actual%shape(1)), 1 + (first - 1)/actual%shape(1)])//')'
+      if (size(actual%shape) > 0) then
+         details = details//indent//'element:    ('//list_text([1 + modulo(first - 1, actual%shape(1))])
+         if (size(actual%shape) == 2) details = details//', '//list_text([1 + (first - 1)/actual%shape(1)])
+         details = details//'), the first of '//list_text([count(.not. holds)])//' that fail, out of '// &
+            list_text([size(holds)])
       end if
-      if (size(actual%shape) > 0) details = details//', the first of '//list_text([failures])// &
-         ' that fail, out of '//list_text([size(actual%numbers)])
-      call fail(assertion, message, location, details)
+      call report(assertion, message, location, details)
    end subroutine compare
 
-   pure function relation_of(assertion) result(relation)
+   !> No relation holds for NaN, which is not compared: that would be an exception where these are trapped.
+   elemental logical function relation_holds(assertion, expected, actual, tolerance) result(holds)
       character(*), intent(in) :: assertion
-      character(:), allocatable :: relation
-
-      select case (assertion)
-      case ('assertRelativelyEqual')
-         relation = '~'
-      case ('assertLessThan')
-         relation = '<'
-      case ('assertLessThanOrEqual')
-         relation = '<='
-      case ('assertGreaterThan')
-         relation = '>'
-      case ('assertGreaterThanOrEqual')
-         relation = '>='
-      case default
-         relation = '=='
-      end select
-   end function relation_of
-
-   !> No relation holds for NaN.
-   elemental logical function relation_holds(relation, expected, actual, tolerance) result(holds)
-      character(*), intent(in) :: relation
       real(dp), intent(in) :: expected, actual, tolerance
 
       holds = .false.
       if (ieee_is_nan(expected) .or. ieee_is_nan(actual)) return
-      select case (relation)
-      case ('==')
-         holds = actual <= expected .and. actual >= expected
-         if (.not. holds) holds = abs(signed_difference(actual, expected)) <= tolerance
-      case ('~')
+      select case (assertion)
+      case ('assertRelativelyEqual')
          if (.not. (ieee_is_finite(actual) .and. ieee_is_finite(expected))) return
-         if (abs(expected) <= 0.0_dp) return
-         holds = abs(signed_difference(actual, expected)) <= tolerance*abs(expected)
-      case ('<')
+         holds = abs(expected) > 0.0_dp .and. abs(actual - expected) <= tolerance*abs(expected)
+      case ('assertLessThan')
          holds = expected < actual
-      case ('<=')
+      case ('assertLessThanOrEqual')
          holds = expected <= actual
-      case ('>')
+      case ('assertGreaterThan')
          holds = expected > actual
-      case ('>=')
+      case ('assertGreaterThanOrEqual')
          holds = expected >= actual
+      case default
+         holds = actual <= expected .and. actual >= expected
+         if (.not. holds) holds = abs(actual - expected) <= tolerance
       end select
    end function relation_holds
-
-   !> Not NaN, finite, not negative; a relative one of 1 or more would let zero pass.
-   pure logical function tolerance_is_sound(tolerance, relation) result(sound)
-      real(dp), intent(in) :: tolerance
-      character(*), intent(in) :: relation
-
-      sound = .false.
-      if (.not. ieee_is_finite(tolerance)) return
-      sound = tolerance >= 0.0_dp
-      if (relation == '~') sound = sound .and. tolerance < 1.0_dp
-   end function tolerance_is_sound
-
-   !> actual - expected of numbers that are not NaN; infinite, without a trap, where that overflows.
-   elemental real(dp) function signed_difference(actual, expected) result(difference)
-      real(dp), intent(in) :: actual, expected
-
-      if (actual <= expected .and. actual >= expected) then
-         difference = 0.0_dp
-      else if (abs(0.5_dp*actual - 0.5_dp*expected) > 0.5_dp*huge(actual)) then
-         difference = sign(ieee_value(actual, ieee_positive_inf), 0.5_dp*actual - 0.5_dp*expected)
-      else
-         difference = actual - expected
-      end if
-   end function signed_difference
-
-   !> Whether the shapes agree, or the expected value is a scalar and there is something to compare.
-   pure logical function conform(expected, actual, highest_rank)
-      integer, intent(in) :: expected(:), actual(:), highest_rank
-
-      conform = size(actual) <= highest_rank
-      if (size(expected) == 0) then
-         conform = conform .and. product(actual) > 0
-      else
-         conform = conform .and. size(expected) == size(actual)
-         if (conform) conform = all(expected == actual)
-      end if
-   end function conform
 
    !> The shape. gfortran 11 writes beyond the result of `shape` for a scalar of assumed rank, and gfortran 12 gives an
    !> empty array of assumed rank the extent -1.
@@ -324,16 +249,6 @@ contains
          extents(i) = max(size(x, i), 0)
       end do
    end function shape_of
-
-   function difference_text(expected, actual, layout) result(text)
-      real(dp), intent(in) :: expected, actual
-      character(*), intent(in) :: layout
-      character(:), allocatable :: text
-
-      text = 'none: one of them is NaN'
-      if (.not. (ieee_is_nan(actual) .or. ieee_is_nan(expected))) &
-         text = number_text(signed_difference(actual, expected), layout)
-   end function difference_text
 
    !> A number with every digit that it has.
    pure function number_text(x, layout) result(text)

@@ -36,11 +36,4 @@ function(wavycon_add_pf_tests label)
     string(REGEX REPLACE "^test_(.*)\\.pf$" "${label}.\\1" name ${source})
     wavycon_add_pf_test(${name} ${label} ${source} unit_support)
   endforeach()
-  if(PFUNIT_FOUND)
-    # What the stand-in's preprocessor would refuse is an error here too.
-    add_test(NAME ${label}.pf_subset
-      COMMAND Python3::Interpreter ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/pf2f90.py --check ${sources}
-      WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
-    wavycon_test_properties(${label}.pf_subset ${label})
-  endif()
 endfunction()
