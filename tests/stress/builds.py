@@ -8,7 +8,9 @@ import subprocess
 
 import fuzz_decks
 import fuzz_maps
-from common import Part, Table, complaints_about, files_below, run
+from common import Settings, Table, complaints_about, files_below, run, write
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 SECONDS = 120.0  # time limit of a deck; without optimisation none takes as long
 SANITIZED_SECONDS = 8.0  # most processor time of a mutated deck: five times as much as without sanitizers
@@ -34,9 +36,10 @@ DECKS = {
 }
 
 
-def build(source, folder, build_type, flags, c_flags=""):
+def build(name, build_type, flags, c_flags=""):
     """Builds the program. Returns its path, or None and the last words of the failed command."""
-    configure = ["cmake", "-S", source, "-B", folder, "-D", f"CMAKE_BUILD_TYPE={build_type}", "-D", "WAVYCON_TESTS=OFF",
+    folder = ROOT/"build"/name
+    configure = ["cmake", "-S", ROOT, "-B", folder, "-D", f"CMAKE_BUILD_TYPE={build_type}", "-D", "WAVYCON_TESTS=OFF",
                  "-D", f"CMAKE_Fortran_FLAGS={flags}", "-D", f"CMAKE_C_FLAGS={c_flags}"]
     if shutil.which("ninja") and not folder.exists():
         configure += ["-G", "Ninja"]
@@ -45,6 +48,13 @@ def build(source, folder, build_type, flags, c_flags=""):
         if result.returncode:
             return None, (result.stdout + result.stderr)[-2000:]
     return folder/"wavycon", ""
+
+
+def solve(program, text, folder):
+    """Runs a deck; what is wrong with the run."""
+    write({"deck.nml": text}, folder)
+    outcome = run([program, "deck.nml", "--output", "results"], folder, patience=SECONDS)
+    return complaints_about(outcome, (0,), seconds=SECONDS)
 
 
 def compare(one, other, kind):
@@ -71,62 +81,46 @@ def compare(one, other, kind):
     return worst
 
 
-def levels(source, builds, work):
-    part = Part("optimisation levels")
-    worst = {"series": 0.0, "grid": 0.0}
+def levels(settings, work):
+    part = settings.part("optimisation levels")
     for level, flags in LEVELS.items():
         # CMake adds no flags of its own to this build type.
-        program, words = build(source, builds/f"stress-{level}", "None", flags)
+        program, words = build(f"stress-{level}", "None", flags)
         if not program:
             part.count(f"build {level}", [words])
             continue
         for name, (kind, text) in DECKS.items():
-            folder = work/level/name
-            folder.mkdir(parents=True)
-            (folder/"deck.nml").write_text(text)
-            outcome = run([program, "deck.nml", "--output", "results"], folder, patience=SECONDS)
-            complaints = complaints_about(outcome, (0,), seconds=SECONDS)
-            first = work/next(iter(LEVELS))/name/"results"
-            for table in sorted(files_below(first)):
-                if not table.endswith(".dat") or not (folder/"results"/table).exists():
-                    continue
-                difference = compare(first/table, folder/"results"/table, kind)
-                worst[kind] = max(worst[kind], difference)
-                if difference > TOLERANCES[kind]:
-                    complaints.append(f"{table} differs by {difference:.1e} from -O0")
-            if files_below(first) != files_below(folder/"results"):
+            complaints = solve(program, text, work/level/name)
+            first, results = (work/each/name/"results" for each in (next(iter(LEVELS)), level))
+            if files_below(first) != files_below(results):
                 complaints.append("other tables than with -O0")
+            for table in sorted(files_below(first) & files_below(results)):
+                if table.endswith(".dat"):
+                    off = compare(first/table, results/table, kind)
+                    part.limit(kind, off, TOLERANCES[kind], complaints, f"{table} differs by {off:.1e} from -O0")
             part.count(f"{name}, {flags}", complaints)
-    part.worst = ", ".join(f"{kind} {difference:.1e} (allowed {TOLERANCES[kind]:.0e})"
-                           for kind, difference in worst.items())
     return part
 
 
-def sanitizers(source, builds, seed, quick, work, failures):
+def sanitizers(settings, work):
     """Runs decks by the program compiled with -fcheck=all, traps and sanitizers."""
-    program, words = build(source, builds/"stress-sanitize", "Debug", SANITIZERS, SANITIZERS)
-    part = Part("sanitizers")
+    part = settings.part("sanitizers")
+    program, words = build("stress-sanitize", "Debug", SANITIZERS, SANITIZERS)
     if not program:
         part.count("build", [words])
         return part
     suppressions = pathlib.Path(__file__).resolve().parent/"libgfortran.supp"
     os.environ.update(LSAN_OPTIONS=f"suppressions={suppressions}:print_suppressions=0",
                       UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1")
-    run_decks = functools.partial(fuzz_decks.fuzz_runs, seconds=SANITIZED_SECONDS)
-    for number, (fuzz, amount) in enumerate((
-            (fuzz_decks.fuzz_checks, 50 if quick else 500), (run_decks, 10 if quick else 60),
-            (fuzz_maps.fuzz_checks, 50 if quick else 500), (fuzz_maps.fuzz_binary, 50 if quick else 500),
-            (fuzz_maps.fuzz_runs, 10 if quick else 60))):
-        folder = work/f"mutated {number}"
-        folder.mkdir()
-        fuzzed = fuzz(program, seed, amount, folder, failures)
+    checks, runs = settings.amount((500, 60), (50, 10))
+    sanitized = Settings(**dict(vars(settings), program=program))
+    for fuzz, amount in ((fuzz_decks.fuzz_checks, checks),
+                         (functools.partial(fuzz_decks.fuzz_runs, seconds=SANITIZED_SECONDS), runs),
+                         (fuzz_maps.fuzz_checks, checks), (fuzz_maps.fuzz_binary, checks), (fuzz_maps.fuzz_runs, runs)):
+        fuzzed = fuzz(sanitized, work, amount)
         part.tried += fuzzed.tried
         part.passed += fuzzed.passed
         part.failures += fuzzed.failures
     for name, (_, text) in DECKS.items():
-        folder = work/"sanitized"/name
-        folder.mkdir(parents=True)
-        (folder/"deck.nml").write_text(text)
-        outcome = run([program, "deck.nml", "--output", "results"], folder, patience=SECONDS)
-        part.count(name, complaints_about(outcome, (0,), seconds=SECONDS))
+        part.count(name, solve(program, text, work))
     return part

@@ -1,11 +1,15 @@
 """Common to the parts of the campaign: running the program with limits, conditions on every run, and the table."""
+import argparse
 import os
 import pathlib
+import random
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
+import time
 
 sys.dont_write_bytecode = True
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
@@ -13,6 +17,8 @@ from tables import Table  # noqa: E402
 
 SECONDS = 2.0  # most processor time of a deck that needs little work [s]
 PATIENCE = 10.0  # a run that takes longer is killed and counts as hanging [s]
+MOST_KEPT = 10**6  # bytes of a file of a case that failed
+MOST_SHOWN = 20  # failures of a part that are printed
 
 # Messages of the compiler's run-time library, the sanitizers and the C library after a programming error.
 RUNTIME_WORDS = re.compile(
@@ -56,23 +62,75 @@ TABLE = re.compile(rf".*\.({'|'.join(MAY_BE_MISSING)})\.dat")
 
 
 class Part:
-    """A line of the table."""
+    """A line of the table; cases that fail are kept in a folder."""
 
-    def __init__(self, name):
-        self.name = name
+    def __init__(self, name, failures):
+        self.name, self.kept_in = name, failures
         self.tried = self.passed = 0
         self.worst = ""  # the worst number, as text
+        self.numbers = {}  # the worst numbers by their names, shown in place of it
         self.failures = []  # (name of the case, what is wrong)
         self.notes = []
 
-    def count(self, name, complaints):
-        """Counts a case, which failed if there are complaints. Returns whether it passed."""
+    def count(self, name, complaints, files=()):
+        """Counts a case, which failed if there are complaints: its files are then kept. Returns whether it passed."""
         self.tried += 1
-        if complaints:
-            self.failures.append((name, "; ".join(complaints)))
-        else:
+        if not complaints:
             self.passed += 1
-        return not complaints
+            return True
+        self.failures.append((name, "; ".join(complaints)))
+        for file in files:
+            (self.kept_in/name).mkdir(parents=True, exist_ok=True)
+            (self.kept_in/name/file).write_bytes(as_bytes(files[file])[:MOST_KEPT])
+        return False
+
+    def limit(self, what, value, most, complaints, words):
+        """Notes a number, and complains in these words if it is larger than allowed."""
+        self.numbers[what] = max(self.numbers.get(what, 0.0), value)
+        if not value <= most:
+            complaints.append(words)
+
+    def show(self, seconds):
+        """Prints the line, the notes and the failures."""
+        worst = self.worst or ", ".join(f"{what} {value:.2g}" for what, value in self.numbers.items())
+        print(f"{self.name:32}{self.tried:8d}{self.passed:8d}{len(self.failures):8d}{seconds:9.0f}  {worst}")
+        for line in self.notes:
+            print(f"   {line}")
+        for case, words in self.failures[:MOST_SHOWN]:
+            print(f"   FAILED {case}: {words}")
+        if len(self.failures) > MOST_SHOWN:
+            print(f"   and {len(self.failures) - MOST_SHOWN} more")
+        sys.stdout.flush()
+
+
+class Settings(argparse.Namespace):
+    """What the command line asks for, and the folder `results` for the cases of a part that fail."""
+
+    def part(self, name):
+        return Part(name, self.results)
+
+    def amount(self, full, quick):
+        return quick if self.quick else full
+
+    def cases(self, what, kinds, numbers):
+        """Name, random numbers and kind of so many cases of each kind."""
+        for kind in kinds:
+            for number in range(numbers):
+                name = f"{what}-{kind}-{number}".replace(" ", "-")
+                yield name, random.Random(f"{self.seed} {name}"), kind
+
+
+def as_bytes(content):
+    return content if isinstance(content, bytes) else content.encode("utf-8", "surrogatepass")
+
+
+def write(files, folder):
+    """Writes {name: text or bytes} into a new folder."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for name, content in files.items():
+        (folder/name).parent.mkdir(parents=True, exist_ok=True)
+        (folder/name).write_bytes(as_bytes(content))
 
 
 class Outcome:
@@ -83,29 +141,39 @@ class Outcome:
         self.seconds, self.hung = seconds, hung
 
 
-def run(arguments, folder, patience=PATIENCE, limits=(), environment=None, **options):
-    """Runs a program to its end. `limits` are (resource, amount) pairs for it."""
+def start(arguments, folder, limits=(), environment=None, before=None):
+    """Starts a program. `limits` are (resource, amount) pairs for it; `before` is called in its process."""
 
-    def set_limits():
+    def prepare():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         for name, amount in limits:
             resource.setrlimit(name, (amount, amount))
+        if before:
+            before()
 
-    variables = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    if environment is not None:
-        variables = environment
-    begun = processor_time()
-    with subprocess.Popen([str(word) for word in arguments], cwd=folder, env=variables, stdin=subprocess.DEVNULL,
-                          stdout=options.get("stdout", subprocess.PIPE), stderr=options.get("stderr", subprocess.PIPE),
-                          preexec_fn=set_limits) as process:
-        hung = False
+    variables = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1") if environment is None else environment
+    process = subprocess.Popen([str(word) for word in arguments], cwd=folder, env=variables, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare)
+    process.begun = time.monotonic()
+    return process
+
+
+def finish(process, patience=PATIENCE):
+    """Waits for its end."""
+    begun, hung = processor_time(), False
+    with process:
         try:
             stdout, stderr = process.communicate(timeout=patience)
         except subprocess.TimeoutExpired:
             process.kill()
             stdout, stderr = process.communicate()
             hung = True
-    return Outcome(process.returncode, stdout or b"", stderr or b"", processor_time() - begun, hung)
+    return Outcome(process.returncode, stdout, stderr, processor_time() - begun, hung)
+
+
+def run(arguments, folder, patience=PATIENCE, **options):
+    """Runs a program to its end."""
+    return finish(start(arguments, folder, **options), patience)
 
 
 def processor_time():
@@ -190,13 +258,12 @@ def table_complaints(table, may_be_missing):
             if OVERFLOW.fullmatch(word) or word == "NaN" and not re.fullmatch(may_be_missing, name)]
 
 
-def check_all(part, program, cases, work, failures, limits=()):
-    """Runs `--check` of cases, which are a name, {file: bytes} with deck.nml among them, more words of the command, and
+def check_all(part, program, cases, work, limits=()):
+    """Runs `--check` of cases, which are a name, {file: content} with deck.nml among them, more words of the command, and
     a function that says what is wrong with the outcome. Returns the part."""
     slowest, accepted = ("", 0.0), 0
     for name, files, words, judge in cases:
-        for file, content in files.items():
-            (work/file).write_bytes(content)
+        write(files, work)
         outcome = run([program, "--check", "deck.nml", *words], work, limits=limits)
         complaints = complaints_about(outcome, (0, 1, 3)) + judge(outcome)
         made = files_below(work) - set(files)
@@ -204,16 +271,6 @@ def check_all(part, program, cases, work, failures, limits=()):
             complaints.append(f"--check makes {sorted(made)[0]}")
         slowest = max(slowest, (name, outcome.seconds), key=lambda pair: pair[1])
         accepted += outcome.status == 0
-        if not part.count(name, complaints):
-            for file, content in files.items():
-                save(failures/name, file, content)
-        for file in files:
-            (work/file).unlink()
+        part.count(name, complaints, files)
     part.worst = f"{accepted} accepted, {slowest[1]:.2f} s ({slowest[0]})"
     return part
-
-
-def save(folder, name, content):
-    """Saves the input of a failing case."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder/name).write_bytes(content)

@@ -1,11 +1,9 @@
 """Contact conditions of the solutions of random scenes, checked independently: see stress_scenes.f90."""
-import random
-
-from common import RUNTIME_WORDS, Part, run
+from common import RUNTIME_WORDS, run, write
 from hard_maps import KINDS as HARD, QUICK as QUICK_HARD, hard_loads, hard_scene
-from random_scenes import QUICK, Scene, random_loads, random_scene
+from random_scenes import KINDS, QUICK, Scene, random_loads, random_scene
 from rough_surfaces import made_surface
-from summaries import PATIENCE, keep, write
+from summaries import PATIENCE
 
 RESIDUALS = (1e-11, 1e-8, None)  # of grids [mean gap]; None: the default
 EDGE_TOLERANCE = 5e-4  # the default is this part of the gap at the edge: (C10) of src/contact/README.md
@@ -36,11 +34,6 @@ def made_case(stream, kind):
     return with_residual(stream, Scene(kind, cell, words=words), random_loads(stream, 3), "solver = 'grid'")
 
 
-def hardness(stream):
-    """A random hardness over the mean pressure, as a word."""
-    return repr(1.0 + 10.0**stream.uniform(-6.0, 1.5))
-
-
 def with_residual(stream, scene, loads, method):
     residual = stream.choice(RESIDUALS)
     return scene.files(loads, method + (f", residual = {residual!r}" if residual else "")), residual
@@ -64,35 +57,29 @@ def grid_complaints(line, requested):
     return words, residual/allowed, int(iterations)
 
 
-def campaign(program, seed, kinds, scenes, work, failures):
-    """So many scenes of each kind on grids, as many of each kind of hard map and of made surfaces, all also with a
-    hardness. Runs stress_scenes."""
-    part = Part("conditions of contact")
-    all_worst, most = 0.0, 0
-    # The short form has few kinds.
-    hard = HARD if len(kinds) > len(QUICK) else QUICK_HARD
-    cases = [("grid", grid_case, kind) for kind in kinds]
-    cases += [("hard", hard_case, kind) for kind in hard] + [("made", made_case, "self_affine")]
-    for what, case, kind, number, is_hard in [(*each, number, is_hard) for is_hard in (False, True) for each in cases
-                                              for number in range(scenes)]:
-        name = f"conditions-{what}{'-with-a-hardness' if is_hard else ''}-{kind}-{number}".replace(" ", "-")
-        stream = random.Random(f"{seed} {name}")
-        files, requested = case(stream, kind)
-        write(files, work/name)
-        more = [hardness(stream)] if is_hard else []
-        outcome = run([program, "deck.nml", *more], work/name, patience=PATIENCE)
-        failed = False
-        if outcome.status or RUNTIME_WORDS.search(outcome.stderr):
-            words = outcome.stderr.decode(errors="replace").strip()
-            failed = not part.count(name, [f"exit status {outcome.status}: {words}"])
-        for text in outcome.stdout.decode().splitlines():
-            line = [word.strip() for word in text.split("|")]
-            words = [f"no answer: {line[2]}"]
-            if line[0] == "grid":
-                words, worst, iterations = grid_complaints(line, requested)
-                all_worst, most = max(all_worst, worst), max(most, iterations)
-            failed |= not part.count(f"{name} at P = {float(line[1]):.6g}", words)
-        if failed:
-            keep(failures, name, files)
-    part.worst = f"KKT {all_worst:.2f} times the residual allowed in at most {most} iterations"
+def campaign(settings, work):
+    """Scenes of each kind on grids, of each kind of hard map and of made surfaces, all also with a hardness. Runs
+    stress_scenes."""
+    part = settings.part("conditions of contact")
+    most = 0
+    for what, case, kinds in (("grid", grid_case, settings.amount(KINDS, QUICK)),
+                              ("hard", hard_case, settings.amount(HARD, QUICK_HARD)), ("made", made_case, ("self_affine",))):
+        for name, stream, kind in settings.cases(f"conditions-{what}", kinds, settings.amount(24, 2)):
+            files, requested = case(stream, kind)
+            write(files, work)
+            # Of the mean pressure, for half of the scenes.
+            hardness = [repr(1.0 + 10.0**stream.uniform(-6.0, 1.5))] if stream.random() < 0.5 else []
+            outcome = run([settings.programs/"stress_scenes", "deck.nml", *hardness], work, patience=PATIENCE)
+            if outcome.status or RUNTIME_WORDS.search(outcome.stderr):
+                words = outcome.stderr.decode(errors="replace").strip()
+                part.count(name, [f"exit status {outcome.status}: {words}"], files)
+            for text in outcome.stdout.decode().splitlines():
+                line = [word.strip() for word in text.split("|")]
+                words = [f"no answer: {line[2]}"]
+                if line[0] == "grid":
+                    words, worst, iterations = grid_complaints(line, requested)
+                    part.limit("KKT over what is allowed", worst, 1.0, [], "")
+                    most = max(most, iterations)
+                part.count(name, [f"P = {float(line[1]):.6g}: {word}" for word in words], files)
+    part.notes.append(f"at most {most} iterations")
     return part

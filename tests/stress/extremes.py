@@ -1,7 +1,7 @@
 """Decks with the smallest and largest allowed numbers: loads, lengths, moduli, harmonics."""
 import itertools
 
-from common import Part, Table, complaints_about, files_below, result_complaints, run, save
+from common import Table, complaints_about, files_below, result_complaints, run, write
 
 LOADS = ("1e-90", "1e-12", "1e-9", "1e-6", "1e-3", "0.5", "0.999", "0.999999999", "0.999999999999", "1",
          "1.0000000000000002", "1.5", "1e6", "0")
@@ -53,31 +53,24 @@ def decks(quick):
                f"wavelength2 = 1e{power} /\n&load pbar_over_pstar = 0.5 /\n&method accuracy = 0.1 /\n", None)
 
 
-def campaign(program, quick, work, failures):
-    part = Part("extreme numbers, run")
+def campaign(settings, work):
+    part = settings.part("extreme numbers, run")
     kept = {}
-    worst = 0.0
     unsolved = 0
-    for name, text, alike in decks(quick):
+    for name, text, alike in decks(settings.quick):
         folder = work/name
-        folder.mkdir()
-        (folder/"deck.nml").write_text(text)
-        outcome = run([program, "deck.nml", "--output", "results"], folder, patience=60.0)
+        write({"deck.nml": text}, folder)
+        outcome = run([settings.program, "deck.nml", "--output", "results"], folder, patience=60.0)
         # A grid that is too coarse for the load has the status not_accurate, which is right; it is counted.
         complaints = complaints_about(outcome, (0, 2), seconds=20.0)
         unsolved += outcome.status == 2
         complaints += result_complaints(folder, files_below(folder))
         if outcome.status in (0, 2):
-            rows = Table(folder/"results"/"deck.summary.dat").records()
-            kept[name] = rows
-            for row, other in zip(rows, kept.get(alike, [])):
+            kept[name] = Table(folder/"results"/"deck.summary.dat").records()
+            for row, other in zip(kept[name], kept.get(alike, [])):
                 for column in DIMENSIONLESS:
-                    difference = abs(float(row[column]) - float(other[column]))
-                    worst = max(worst, difference)
-                    if difference > TOLERANCE:
-                        complaints.append(f"{column} = {row[column]} at P = {row['pbar_over_pstar']}, "
-                                          f"{other[column]} in other units")
-        if not part.count(f"{name}.nml", complaints):
-            save(failures, f"{name}.nml", text.encode())
-    part.worst = f"units change {worst:.1e}; {unsolved} with status 2"
+                    part.limit("units change", abs(float(row[column]) - float(other[column])), TOLERANCE, complaints,
+                               f"{column} = {row[column]} at P = {row['pbar_over_pstar']}, {other[column]} in other units")
+        part.count(name, complaints, {"deck.nml": text})
+    part.notes.append(f"{unsolved} with status 2")
     return part

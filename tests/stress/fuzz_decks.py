@@ -3,8 +3,7 @@ import random
 import re
 import sys
 
-from common import (SECONDS, Part, check_all, complaints_about, files_below, memory_limits, result_complaints, run,
-                    save)
+from common import SECONDS, as_bytes, check_all, complaints_about, files_below, memory_limits, result_complaints, run, write
 
 MEGABYTE = 1000000
 ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]: a deck of 10 MB must not need more
@@ -64,6 +63,8 @@ TEXTS = ["''", '""', "'", '"', "' '", "'wave_2d'", '"wave_1d"', "'it''s'", '"a""
          "'ä€𝄞'", "'\u202eabc'", "'\u00a0'", "'\x7f'", "'" + "x"*300 + "'", "'" + "é"*100 + "'", "'%s%n%d'", "'\\n'",
          "wave_2d", "'Grid'", "'auto '", "' auto'", "'auto'", "'none'", "'heights.dat'", "'.'", "'..'", "'/dev/full'", "'/dev/null'"]
 LOGICALS = [".true.", ".false.", "t", "f", ".T.", "true", "1", "yes", ".true", ".tru e.", "'t'"]
+SIGNS = ["/", "&", "=", ",", "'", '"', "!", "&end", "$load", "*", "(", ")", "%", ";", "\n", "\r", "\t", "\x00", "\ufeff",
+         "&load", "//", "& load", ",,", "= =", "!&load"]
 # What a mutated deck that is run must not change: the work would have no bound.
 COSTLY = re.compile(r"harmonics|constraint_points|accuracy|sweep_steps|line_points|map_points|grid_points|solver"
                     r"|\d{3,}\s*\*|symmetry", re.IGNORECASE)
@@ -74,14 +75,10 @@ def tokens_of(text):
     return re.findall(r"'[^'\n]*'|\"[^\"\n]*\"|&?\w[\w.+-]*|\s+|.", text, re.DOTALL)
 
 
-def is_blank(token):
-    return not token.strip()
-
-
 def mutate_value(stream, text):
     """One value replaced."""
     tokens = tokens_of(text)
-    places = [i for i, token in enumerate(tokens) if re.match(r"['\"\d.+-]", token) and not is_blank(token)]
+    places = [i for i, token in enumerate(tokens) if re.match(r"['\"\d.+-]", token) and token.strip()]
     if places:
         tokens[stream.choice(places)] = stream.choice(stream.choice((NUMBERS, NUMBERS, TEXTS, LOGICALS)))
     return "".join(tokens)
@@ -100,7 +97,7 @@ def mutate_key(stream, text):
     return text[:place.start()] + new + place.group(2) + text[place.end():]
 
 
-def mutate_tokens(stream, text):
+def mutate_tokens(stream, text, signs=SIGNS):
     """Words removed, doubled or swapped, or signs inserted."""
     tokens = tokens_of(text)
     for _ in range(stream.randint(1, 4)):
@@ -113,8 +110,7 @@ def mutate_tokens(stream, text):
         elif action == 2:
             tokens[i], tokens[j] = tokens[j], tokens[i]
         else:
-            tokens.insert(i, stream.choice(["/", "&", "=", ",", "'", '"', "!", "&end", "$load", "*", "(", ")", "%", ";", "\n",
-                                            "\r", "\t", "\x00", "\ufeff", "&load", "//", "& load", ",,", "= =", "!&load"]))
+            tokens.insert(i, stream.choice(signs))
     return "".join(tokens)
 
 
@@ -184,10 +180,8 @@ def mutated(stream, decks):
     """A deck after one to six mutations."""
     text = stream.choice(decks)
     for _ in range(stream.choice((1, 1, 1, 2, 3, 6))):
-        text = stream.choice(MUTATIONS)(stream, text)
-        if not text:
-            text = "\n"
-    content = text.encode("utf-8", "surrogatepass")
+        text = stream.choice(MUTATIONS)(stream, text) or "\n"
+    content = as_bytes(text)
     if stream.random() < 0.25:
         content = mutate_bytes(stream, content)
     if stream.random() < 0.1:
@@ -211,7 +205,7 @@ def gently_mutated(stream):
         text = re.sub(r"(?<=[=\s,])" + re.escape(value) + r"(?=[\s,])", new, text, count=1)
     if stream.random() < 0.5:
         text = stream.choice((mutate_value, mutate_tokens, mutate_structure, mutate_characters))(stream, text)
-    return (text or "\n").encode("utf-8", "surrogatepass")
+    return text or "\n"
 
 
 def monsters(stream, size):
@@ -252,11 +246,11 @@ def monsters(stream, size):
     yield "unicode", "𝄞é€".encode()*(size//9)
 
 
-def fuzz_checks(program, seed, count, work, failures):
+def fuzz_checks(settings, work, count=None):
     """Mutated decks with --check."""
-    cases = ((f"check-{i}", {"deck.nml": mutated(random.Random(f"{seed} check {i}"), LARGE),
-                             "heights.dat": HEIGHTS.encode()}, (), message_complaints) for i in range(count))
-    return check_all(Part("mutated decks, --check"), program, cases, work, failures)
+    cases = ((name, {"deck.nml": mutated(stream, LARGE), "heights.dat": HEIGHTS}, (), message_complaints)
+             for name, stream, _ in settings.cases("check", ("deck",), count or settings.amount(5000, 150)))
+    return check_all(settings.part("mutated decks, --check"), settings.program, cases, work)
 
 
 def message_complaints(outcome):
@@ -286,54 +280,50 @@ def random_setting(stream):
     return (group + stream.choice("........ =") + key + stream.choice("========.") + value).replace("\x00", "")
 
 
-def fuzz_settings(program, seed, count, work, failures):
+def fuzz_settings(settings, work):
     """Decks with keys that the command line sets, with --check."""
     def cases():
-        for i in range(count):
-            stream = random.Random(f"{seed} set {i}")
+        for name, stream, _ in settings.cases("set", ("deck",), settings.amount(3000, 100)):
             text = stream.choice(LARGE)
             words = [random_setting(stream) for _ in range(stream.choice((1, 1, 2, 4)))]
-            yield (f"set-{i}", {"deck.nml": text.encode(), "heights.dat": HEIGHTS.encode(),
-                                "settings": "\n".join(words).encode("utf-8", "surrogatepass")},
+            yield (name, {"deck.nml": text, "heights.dat": HEIGHTS, "settings": "\n".join(words)},
                    [option for word in words for option in ("--set", word)], message_complaints)
 
-    return check_all(Part("keys that are set, --check"), program, cases(), work, failures)
+    return check_all(settings.part("keys that are set, --check"), settings.program, cases(), work)
 
 
-def fuzz_monsters(program, seed, size, work, failures):
+def fuzz_monsters(settings, work):
     """Large decks with --check, with limits of memory and time."""
     def judge(outcome):
         too_long = [f"says {len(outcome.stderr)} bytes"] if len(outcome.stderr) > MEGABYTE else []
         return message_complaints(outcome) + too_long
 
-    part = Part(f"decks of {size/MEGABYTE:g} MB, --check")
-    cases = ((f"monster-{name.replace(' ', '-')}", {"deck.nml": content}, (), judge)
-             for name, content in monsters(random.Random(f"{seed} monsters"), size))
-    return check_all(part, program, cases, work, failures, memory_limits(program, part, ADDRESS_SPACE))
+    size = settings.amount(10*MEGABYTE, MEGABYTE//10)
+    part = settings.part(f"decks of {size/MEGABYTE:g} MB, --check")
+    cases = ((f"monster-{name}", {"deck.nml": content}, (), judge)
+             for name, content in monsters(random.Random(f"{settings.seed} monsters"), size))
+    return check_all(part, settings.program, cases, work, memory_limits(settings.program, part, ADDRESS_SPACE))
 
 
-def fuzz_runs(program, seed, count, work, failures, seconds=SECONDS):
+def fuzz_runs(settings, work, count=None, seconds=SECONDS):
     """Runs mildly mutated decks that need little work, and checks their results."""
-    part = Part("mutated decks, run")
-    slowest = 0.0
-    unsolved = 0
-    i = 0
-    while part.tried < count:
-        i += 1
-        stream = random.Random(f"{seed} run {i}")
+    part = settings.part("mutated decks, run")
+    slowest, unsolved = 0.0, 0
+    count = count or settings.amount(500, 30)
+    for name, stream, _ in settings.cases("run", ("deck",), 100*count):
+        if part.tried == count:
+            break
         content = gently_mutated(stream)
-        costly = [sorted(COSTLY.findall(text)) for text in (content.decode(errors="replace"), *SMALL)]
+        costly = [sorted(COSTLY.findall(text)) for text in (content, *SMALL)]
         if costly[0] not in costly[1:] and costly[0]:
             continue
         folder = work/"outer"/"inner"
-        folder.mkdir(parents=True)
-        (folder/"deck.nml").write_bytes(content)
-        checked = run([program, "--check", "deck.nml"], folder)
+        write({"outer/inner/deck.nml": content}, work)
+        checked = run([settings.program, "--check", "deck.nml"], folder)
         if checked.status != 0 and stream.random() < 0.9:
-            empty(work)
             continue
         before = files_below(work)
-        outcome = run([program, "deck.nml"], folder)
+        outcome = run([settings.program, "deck.nml"], folder)
         complaints = complaints_about(outcome, seconds=seconds)
         made = files_below(work) - before
         if checked.status == 0 and outcome.status == 1:
@@ -349,17 +339,6 @@ def fuzz_runs(program, seed, count, work, failures, seconds=SECONDS):
         complaints += result_complaints(work, made)
         unsolved += outcome.status == 2
         slowest = max(slowest, outcome.seconds)
-        if not part.count(f"run-{i}.nml", complaints):
-            save(failures, f"run-{i}.nml", content)
-        empty(work)
+        part.count(name, complaints, {"deck.nml": content})
     part.worst = f"{unsolved} with status 2, {slowest:.2f} s"
     return part
-
-
-def empty(folder):
-    """Empties a folder."""
-    for path in sorted(folder.rglob("*"), reverse=True):
-        if path.is_dir() and not path.is_symlink():
-            path.rmdir()
-        else:
-            path.unlink()

@@ -10,9 +10,9 @@ import resource
 import struct
 import sys
 
-from common import (SECONDS, Part, check_all, complaints_about, files_below, memory_limits, result_complaints, run,
-                    save)
-from fuzz_decks import empty, mutate_bytes
+from common import (SECONDS, as_bytes, check_all, complaints_about, files_below, memory_limits, result_complaints, run,
+                    write)
+from fuzz_decks import mutate_bytes, mutate_tokens
 
 MEGABYTE = 1000000
 ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]
@@ -34,6 +34,7 @@ NUMBERS = ["0", "-0", "1", "-1", "+1", "1e-12", "1e12", "1e90", "-1e90", "1.1e90
            "3*1", "(1,2)", "1/2", "", "*", "1e99999", "0." + "9"*80, "9"*99, "9"*101, "1"*400, "½", "１", "NA", "null",
            "'1'", "1\x0b", "1\x00", "\x1b[31m1", "x"]
 GAPS = [" ", "  ", "\t", ",", ", ", ";", " ; ", ",,", ";;", "\x0b", "\x0c", "\u00a0", "|", ":", "\x00", "#"]
+REMARKS = ["#", "\n#\n", "# 1 2 3\n", "\n\n\n", "x y z\n", "\n ,\n", "! 1\n", "// 1\n", '"', "%"]
 # Of heads of binary files.
 HEAD_WORDS = [b"0", b"-1", b"-4", b"1", b"3", b"8193", b"65536", b"4294967296", b"99999999999999999999", b"1e9",
               b"1e999", b"nan", b"inf", b"4.5", b"'<f8'", b"'<i8'", b"'|O'", b"'<f16'", b"True", b"()", b"(4,)", b"(2, 2, 4)",
@@ -87,17 +88,6 @@ def mutate_number(stream, text):
     return text[:place.start()] + stream.choice(NUMBERS) + text[place.end():]
 
 
-def mutate_row(stream, text):
-    """Numbers of a row removed or inserted."""
-    rows = cells(text)
-    row = stream.choice(rows)
-    if row and stream.random() < 0.5:
-        del row[stream.randrange(len(row)):][:stream.randint(1, 3)]
-    else:
-        row[stream.randint(0, len(row)):0] = [stream.choice(NUMBERS)]*stream.randint(1, 5)
-    return joined(rows)
-
-
 def mutate_column(stream, text):
     """A column removed, doubled or inserted."""
     rows = cells(text)
@@ -139,15 +129,15 @@ def mutate_lines(stream, text):
     return "\n".join(lines)
 
 
-def mutate_gap(stream, text):
-    """Other separators between numbers, everywhere or once."""
-    if stream.random() < 0.5:
-        return re.sub(r"[ \t,;]+", lambda _: gap, text) if (gap := stream.choice(GAPS)) else text
-    places = list(re.finditer(r"[ \t,;]+", text))
-    if not places:
-        return text
-    place = stream.choice(places)
-    return text[:place.start()] + stream.choice(GAPS) + text[place.end():]
+def mutate_gaps(stream, text):
+    """Other separators between numbers."""
+    gap = stream.choice(GAPS)
+    return re.sub(r"[ \t,;]+", lambda _: gap, text)
+
+
+def mutate_words(stream, text):
+    """Numbers and gaps removed, doubled or swapped, and numbers, gaps and remarks inserted."""
+    return mutate_tokens(stream, text, stream.choice((NUMBERS, GAPS, REMARKS)))
 
 
 def mutate_decimals(stream, text):
@@ -169,15 +159,8 @@ def mutate_steps(stream, text):
     return joined(rows)
 
 
-def mutate_remarks(stream, text):
-    """Remarks, empty lines and words inserted."""
-    place = stream.randrange(len(text) + 1)
-    remark = stream.choice(["#", "\n#\n", "# 1 2 3\n", "\n\n\n", "x y z\n", "\n ,\n", "! 1\n", "// 1\n", '"', "%"])
-    return text[:place] + remark + text[place:]
-
-
-MUTATIONS = (mutate_number, mutate_number, mutate_number, mutate_row, mutate_column, mutate_lines, mutate_lines,
-             mutate_gap, mutate_decimals, mutate_steps, mutate_remarks)
+MUTATIONS = (mutate_number, mutate_number, mutate_number, mutate_words, mutate_words, mutate_words, mutate_column,
+             mutate_lines, mutate_lines, mutate_gaps, mutate_decimals, mutate_steps)
 
 
 def mutated(stream, gently=False):
@@ -189,7 +172,7 @@ def mutated(stream, gently=False):
         text = text.replace("\n", stream.choice(LINE_ENDS))
     if stream.random() < 0.1:
         text = text.rstrip("\n")
-    content = text.encode("utf-16" if stream.random() < 0.02 else "utf-8", "surrogatepass")
+    content = text.encode("utf-16", "surrogatepass") if stream.random() < 0.02 else as_bytes(text)
     if stream.random() < 0.05:
         content = b"\xef\xbb\xbf" + content
     if stream.random() < (0.05 if gently else 0.25):
@@ -288,22 +271,15 @@ def message_complaints(outcome, content=b""):
     return []
 
 
-def keep(failures, name, text, content):
-    """Saves a failing case: a deck and its map."""
-    save(failures, f"{name}.nml", re.sub(r"file = '[^']*'", f"file = '{name}.dat'", text).encode())
-    save(failures, f"{name}.dat", content)
-
-
-def fuzz_checks(program, seed, count, work, failures):
+def fuzz_checks(settings, work, count=None):
     """Mutated maps with --check."""
     def cases():
-        for i in range(count):
-            stream = random.Random(f"{seed} map {i}")
+        for name, stream, _ in settings.cases("map-check", ("text",), count or settings.amount(3000, 60)):
             content, text = mutated(stream), deck(stream)
-            yield (f"map-check-{i}", {"deck.nml": text.encode(), "heights.dat": content}, (),
+            yield (name, {"deck.nml": text, "heights.dat": content}, (),
                    functools.partial(message_complaints, content=content))
 
-    return check_all(Part("mutated height maps, --check"), program, cases(), work, failures)
+    return check_all(settings.part("mutated height maps, --check"), settings.program, cases(), work)
 
 
 def npy_file(stream, columns, rows):
@@ -377,44 +353,46 @@ def binary_complaints(outcome, name, words):
     return complaints
 
 
-def fuzz_binary(program, seed, count, work, failures):
+def fuzz_binary(settings, work, count=None):
     """Binary maps with mutated heads, numbers and lengths, with --check and limits of memory."""
     def cases():
-        for i in range(count):
-            name, content, text, words = binary_case(random.Random(f"{seed} binary map {i}"))
-            yield (f"map-binary-{i}", {"deck.nml": text.encode(), name: content}, (),
+        for case, stream, _ in settings.cases("map-check", ("binary",), count or settings.amount(3000, 60)):
+            name, content, text, words = binary_case(stream)
+            yield (case, {"deck.nml": text, name: content}, (),
                    functools.partial(binary_complaints, name=name, words=words))
 
-    part = Part("mutated binary height maps, --check")
-    return check_all(part, program, cases(), work, failures, memory_limits(program, part, BINARY_ADDRESS_SPACE))
+    part = settings.part("mutated binary height maps, --check")
+    return check_all(part, settings.program, cases(), work,
+                     memory_limits(settings.program, part, BINARY_ADDRESS_SPACE))
 
 
-def fuzz_runs(program, seed, count, work, failures):
+def fuzz_runs(settings, work, count=None):
     """Solves mildly mutated maps; the resolved deck must give the same summary."""
-    part = Part("mutated height maps, run")
-    slowest, unsolved, refused, i = 0.0, 0, 0, 0
-    while part.tried < count:
-        i += 1
-        stream = random.Random(f"{seed} map run {i}")
+    part = settings.part("mutated height maps, run")
+    slowest, unsolved, refused = 0.0, 0, 0
+    count = count or settings.amount(500, 20)
+    for name, stream, _ in settings.cases("map-run", ("text",), 100*count):
+        if part.tried == count:
+            break
         content, text = mutated(stream, gently=True), deck(stream)
         if len(content) > 20*MOST_POINTS:
             continue
-        (work/"heights.dat").write_bytes(content)
-        (work/"deck.nml").write_text(text)
-        checked = run([program, "--check", "deck.nml"], work)
+        files = {"deck.nml": text, "heights.dat": content}
+        write(files, work)
+        checked = run([settings.program, "--check", "deck.nml"], work)
         if checked.status != 0 and stream.random() < 0.9:
             continue
-        outcome = run([program, "deck.nml"], work)
+        outcome = run([settings.program, "deck.nml"], work)
         complaints = complaints_about(outcome) + message_complaints(outcome, content)
         if checked.status != outcome.status and {checked.status, outcome.status} != {0, 2}:
             complaints.append(f"--check ends with status {checked.status}, the run with {outcome.status}")
-        made = files_below(work) - {"deck.nml", "heights.dat"}
+        made = files_below(work) - set(files)
         if outcome.status in (1, 3) and made:
             complaints.append(f"refused, but makes {sorted(made)[0]}")
         complaints += result_complaints(work, made)
         if outcome.status in (0, 2):
             complaints += reading_complaints(outcome, content, text)
-            again = run([program, "outputs/deck/deck.resolved.nml", "--output", "again"], work)
+            again = run([settings.program, "outputs/deck/deck.resolved.nml", "--output", "again"], work)
             if again.status != outcome.status:
                 complaints.append(f"the resolved deck ends with status {again.status}")
             elif rows(work/"again"/"deck.summary.dat") != rows(work/"outputs"/"deck"/"deck.summary.dat"):
@@ -422,9 +400,7 @@ def fuzz_runs(program, seed, count, work, failures):
         unsolved += outcome.status == 2
         refused += outcome.status in (1, 3)
         slowest = max(slowest, outcome.seconds)
-        if not part.count(f"map-run-{i}.nml", complaints):
-            keep(failures, f"map-run-{i}", text, content)
-        empty(work)
+        part.count(name, complaints, files)
     part.worst = f"{refused} refused, {unsolved} with status 2, {slowest:.2f} s"
     return part
 
@@ -463,76 +439,64 @@ def monsters(stream, size):
     yield "two bytes a character", square.decode().encode("utf-16")*(size//(2*len(square))), 1
 
 
-def fuzz_monsters(program, seed, size, work, failures):
+def fuzz_monsters(settings, work):
     """Large maps with --check, with limits of memory and time."""
-    part = Part(f"height maps of {size/MEGABYTE:g} MB, --check")
-    limits = memory_limits(program, part, ADDRESS_SPACE)
-    slowest = ("", 0.0)
-    text = "&surface kind = 'file', file = 'heights.dat' /\n&load pbar_over_pstar = 0.5 /\n"
-    (work/"deck.nml").write_text(text)
+    size = settings.amount(10*MEGABYTE, MEGABYTE//10)
+    part = settings.part(f"height maps of {size/MEGABYTE:g} MB, --check")
+    limits = memory_limits(settings.program, part, ADDRESS_SPACE)
+    deck_of_all = {"deck.nml": "&surface kind = 'file', file = 'heights.dat' /\n&load pbar_over_pstar = 0.5 /\n"}
 
-    def check(name, status, seconds, limits):
-        nonlocal slowest
-        outcome = run([program, "--check", "deck.nml"], work, patience=2*LARGE_SECONDS, limits=limits)
+    def check(name, content, status, seconds=SECONDS, limits=limits):
+        files = dict(deck_of_all, **{"heights.dat": content})
+        write(files, work)
+        if name == "a file of 3 GB":
+            os.truncate(work/"heights.dat", 3000*MEGABYTE)  # sparse
+        outcome = run([settings.program, "--check", "deck.nml"], work, patience=2*LARGE_SECONDS, limits=limits)
         complaints = complaints_about(outcome, (0, 1, 3) if status is None else (status,), seconds)
         if len(outcome.stderr) > 1000:
             complaints.append(f"says {len(outcome.stderr)} bytes")
         complaints += message_complaints(outcome, b"\n"*size)
-        slowest = max(slowest, (name, outcome.seconds), key=lambda pair: pair[1])
-        return part.count(name, complaints)
+        part.limit("time of one [s]", outcome.seconds, LARGE_SECONDS, [], "")
+        part.count(name, complaints, files)
 
-    for name, content, status in monsters(random.Random(f"{seed} large maps"), size):
-        (work/"heights.dat").write_bytes(content)
-        if not check(name, status, SECONDS, limits):
-            keep(failures, f"map-monster-{name.replace(' ', '-')}", text, content[:MEGABYTE])
-    # A valid map of ten times the size; and a sparse file of 3 GB.
-    (work/"heights.dat").write_bytes((b"0.125 -3.5e-3 "*1024 + b"\n")*max(4, 10*size//14337))
-    check("a map of ten times the size", 0, LARGE_SECONDS, limits)
-    if size >= 10*MEGABYTE and limits:
+    for name, content, status in monsters(random.Random(f"{settings.seed} large maps"), size):
+        check(name, content, status)
+    # A valid map of ten times the size.
+    large = (b"0.125 -3.5e-3 "*1024 + b"\n")*max(4, 10*size//14337)
+    check("a map of ten times the size", large, 0, LARGE_SECONDS)
+    if not settings.quick and limits:
         # The lower limits are too small for the map.
         for bound in range(80, 300, 20):
-            check(f"a map of ten times the size in {bound} MB", None, LARGE_SECONDS,
+            check(f"a map of ten times the size in {bound} MB", large, None, LARGE_SECONDS,
                   [(resource.RLIMIT_AS, bound*MEGABYTE)])
-    with open(work/"heights.dat", "wb") as file:
-        file.truncate(3000*MEGABYTE)
-    check("a file of 3 GB", 1, SECONDS, limits)
-    part.worst = f"{slowest[1]:.2f} s ({slowest[0]})"
+    check("a file of 3 GB", b"", 1)
     return part
 
 
-def odd_files(program, work, failures):
-    """What is no map, and maps of odd sizes: the status and the words that each must give."""
-    part = Part("odd height maps")
+def odd_files(settings, work):
+    """What is no map, and maps of odd sizes: the status and the words that each must give. tests/unit/test_map_file.pf has
+    more of what is no map."""
+    part = settings.part("odd height maps")
     good = matrix(random.Random("odd"), 8, 8)
 
     def attempt(name, content, status, words, map_name="heights.dat", make=None):
-        content = content.encode() if isinstance(content, str) else content
-        folder = work/name
-        folder.mkdir()
         text = (f"&surface kind = 'file', file = '{map_name.replace(chr(39), chr(39)*2)}' /\n"
                 f"&load pbar_over_pstar = 0.1, 0.6 /\n&output map = t, map_points = 8 /\n")
-        (folder/"deck.nml").write_text(text)
+        files = {"deck.nml": text, **({} if content is None else {map_name: content})}
+        write(files, work)
         if make:
-            make(folder/map_name)
-        elif content is not None:
-            (folder/map_name).write_bytes(content)
+            make(work/map_name)
         before = files_below(work)
-        outcome = run([program, "deck.nml"], folder)
-        complaints = complaints_about(outcome, (status,)) + message_complaints(outcome, content or text.encode())
+        outcome = run([settings.program, "deck.nml"], work)
+        complaints = complaints_about(outcome, (status,)) + message_complaints(outcome, as_bytes(content or text))
         if words not in (outcome.stdout + outcome.stderr).decode(errors="replace"):
             complaints.append(f"does not say '{words}'")
         complaints += result_complaints(work, files_below(work) - before)
-        if not part.count(name, complaints):
-            keep(failures, f"map-odd-{name.replace(' ', '-')}", text, content or b"")
+        part.count(name, complaints, files)
 
-    for name, content in (("no bytes", ""), ("remarks alone", "# 1 2 3\n#\n"), ("blanks alone", " \t \n \n\n"),
-                          ("a mark alone", b"\xef\xbb\xbf"), ("line ends alone", "\r\r\n\n\r")):
-        attempt(name, content, 1, "heights.dat: there are no numbers in this file")
     attempt("1048577 columns", "1 "*1048577 + "\n", 1, "a map of 1048577 x 1 points")
-    attempt("text", "The quick brown fox\n", 1, "heights.dat: there are no numbers in this file")
-    attempt("two bytes a character", good.encode("utf-16"), 1, "heights.dat: this is a text of two bytes a character")
     attempt("two bytes, no mark", good.encode("utf-16-le"), 1, "heights.dat: this is no text")
-    attempt("the deck itself", None, 1, "deck.nml: there are no numbers in this file", "deck.nml", lambda path: None)
+    attempt("the deck itself", None, 1, "deck.nml: there are no numbers in this file", "deck.nml")
     attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat: this is no text")
     attempt("points without a grid", "".join(f"{i*i} {i} 1\n" for i in range(9)), 1, "the grid of these points has 65 x")
     attempt("too small", "1e-200 2e-200 1e-200 0\n", 1, "times height_scale, are up to 1e-200 [length]")
@@ -544,19 +508,15 @@ def odd_files(program, work, failures):
         attempt(f"{columns} x {lines}", matrix(stream, columns, lines), 0, shape_words(columns, lines))
         if lines > 1:
             attempt(f"{columns} x {lines} points", points(stream, columns, lines), 0, "format = xyz")
-    attempt("a directory", None, 3, "this is a directory", make=lambda path: path.mkdir())
-    attempt("a pipe", None, 3, "this is a pipe or a device", make=os.mkfifo)
-    attempt("a link to itself", None, 3, "cannot be opened: ", make=lambda path: path.symlink_to(path.name))
-    attempt("a link to nothing", None, 3, "there is no such file", make=lambda path: path.symlink_to("nothing"))
-    attempt("nothing", None, 3, "there is no such file")
-    for device in ("/dev/zero", "/dev/null", "/dev/urandom", "/dev/full", "/dev/tty"):
-        attempt(f"device {device[5:]}", None, 3, "this is a pipe or a device", map_name=device, make=lambda path: None)
-    attempt("below a file", None, 3, "there is no such file", map_name="deck.nml/map.dat", make=lambda path: None)
-    attempt("a long name", None, 3, "cannot be opened: ", map_name="x"*900, make=lambda path: None)
-    for i, name in enumerate(("it's", 'a "map"', "a map", "$(touch CANARY)", "; touch CANARY", "ä€𝄞", "-rf", "a\\nb",
-                              "100%s")):
-        attempt(f"name {i}", good, 0, shape_words(8, 8), map_name=name)
-    attempt("a name of two lines", good, 1, "this quote is not closed on its line", map_name="a\nb")
-    if any(path.name == "CANARY" for path in work.rglob("*")):
-        part.count("CANARY", ["the name of a map reached a shell"])
+    for name, words, make in (("a directory", "this is a directory", lambda path: path.mkdir()),
+                              ("a pipe", "this is a pipe or a device", os.mkfifo),
+                              ("a link to itself", "cannot be opened: ", lambda path: path.symlink_to(path.name)),
+                              ("a link to nothing", "there is no such file", lambda path: path.symlink_to("nothing"))):
+        attempt(name, None, 3, words, make=make)
+    for name, words in (("/dev/zero", "this is a pipe or a device"), ("/dev/full", "this is a pipe or a device"),
+                        ("/dev/tty", "this is a pipe or a device"), ("deck.nml/map.dat", "there is no such file"),
+                        ("x"*900, "cannot be opened: ")):
+        attempt(name[:20].replace("/", "-"), None, 3, words, map_name=name)
+    for name in ("it's", 'a "map"', "a map", "$(touch CANARY)", "ä€𝄞", "-rf", "a\\nb", "100%s"):
+        attempt(f"name {name}", good, 0, shape_words(8, 8), map_name=name)
     return part

@@ -1,11 +1,9 @@
 """Error estimates of random scenes against true errors, from a much finer solution, a closed form or an expansion."""
 import math
-import random
 
-from common import Part
-from random_scenes import FITTED, random_loads, random_scene
+from random_scenes import FITTED, KINDS, QUICK, random_loads, random_scene
 from rough_surfaces import deck
-from summaries import ROUNDING, VALUES, keep, solve
+from summaries import ROUNDING, VALUES, solve
 
 # As README states: the fraction of errors below the estimates, and the largest error over its estimate.
 CONFIDENCE, LARGEST_RATIO = 0.95, 3.0
@@ -16,12 +14,10 @@ FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even fil
           "mirrored file": 1e-2}
 FINEST_OF_OTHERS = 3e-3
 COARSEST = 1e-1
-# Maps with a hardness, their number, and what they have besides VALUES.
-HARD, LOAD_OVER_HARDNESS = "grid with a hardness", (0.05, 0.95)
-HARD_MAPS, QUICK_HARD_MAPS = 300, 6
+# Maps with a hardness, and what they have besides VALUES.
+LOAD_OVER_HARDNESS = (0.05, 0.95)
 OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
-# Balls and rough maps on balls, with free edges, their number, and their values.
-FREE, FREE_SCENES, QUICK_FREE_SCENES = "grid with free edges", 300, 6
+# Values of balls and of rough maps on balls, with free edges.
 OF_FREE_EDGES = ("approach", "contact_area", "peak_pressure")
 FITTED_ACCURACIES = (1e-10, 1e-3)
 FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # ratio of the accuracies of grids, of expansions; finest
@@ -40,7 +36,15 @@ def random_case(stream, kind, solver):
     return scene.files(loads, f"solver = '{solver}', accuracy = {accuracy!r}"), scene.files(loads, truth)
 
 
-def hard_case(stream):
+def grid_case(stream, kind):
+    return random_case(stream, kind, "grid")
+
+
+def fitted_case(stream, kind):
+    return random_case(stream, kind, "fitted")
+
+
+def hard_case(stream, _kind):
     """The files of a random map with a hardness, on its own points, and those of a grid that is four times as fine."""
     points = stream.choice((64, 64, 128, 256))
     longest = stream.choice((0.5, 1.0))
@@ -55,7 +59,7 @@ def hard_case(stream):
             for grid in (points, 4*points)]
 
 
-def free_case(stream):
+def free_case(stream, _kind):
     """The files of a ball to a random accuracy, or of a rough map on a ball on its own points, and those of a much finer
     solution."""
     radius = 10.0**stream.uniform(-0.5, 1.5)
@@ -86,41 +90,34 @@ def ratios_of(row, truth, names):
         yield name, max(abs(value - true) - own, 0.0)/allowed if known else None, allowed
 
 
-def campaign(program, seed, kinds, scenes, work, failures):
-    """So many scenes of each kind with each solver for it, maps with a hardness, and surfaces with free edges."""
-    part = Part("error estimates")
-    ratios = {solver: [] for solver in ("grid", "fitted", HARD, FREE)}
-    more_values = {HARD: VALUES + OF_HARDNESS, FREE: OF_FREE_EDGES}
-    rare = {HARD: hard_case, FREE: free_case}
-    unknown = dict.fromkeys(ratios, 0)
-    cases = [(kind, solver, number) for kind in kinds for solver in ("grid", "fitted") for number in range(scenes)
-             if solver == "grid" or kind in FITTED]
-    cases += [("self_affine", HARD, number) for number in range(HARD_MAPS if scenes > 1 else QUICK_HARD_MAPS)]
-    cases += [("free edges", FREE, number) for number in range(FREE_SCENES if scenes > 1 else QUICK_FREE_SCENES)]
-    for kind, solver, number in cases:
-        name = f"estimates-{solver}-{kind}-{number}".replace(" ", "-")
-        stream = random.Random(f"{seed} {name}")
-        files, finer = rare[solver](stream) if solver in rare else random_case(stream, kind, solver)
-        rows, complaints = solve(program, files, work/name)
-        truths, more = solve(program, finer, work/name)
-        for row, truth in zip(rows, truths):
-            if not (row.has_numbers and truth.has_numbers):
-                continue  # spots have merged
-            for value, ratio, allowed in ratios_of(row, truth, more_values.get(solver, VALUES)):
-                if ratio is None:
-                    unknown[solver] += 1
-                    continue
-                ratios[solver].append(ratio)
-                if ratio > LARGEST_RATIO:
-                    complaints.append(f"{value} of load {row.words['load']} is off by {ratio:.1f} times its estimate, {allowed:.1e}")
-        if not part.count(name, complaints + more):
-            keep(failures, name, files)
-    words = []
-    for solver, all_ratios in ratios.items():
-        held = sum(ratio <= 1.0 for ratio in all_ratios)/max(len(all_ratios), 1)
-        words.append(f"{solver} {max(all_ratios, default=0.0):.2f} times, "
-                     f"{100*held:.1f} % of {len(all_ratios)} hold, {unknown[solver]} are unknown")
-        if len(all_ratios) >= FEWEST:
+def campaign(settings, work):
+    """Scenes of each kind with each solver for it, maps with a hardness, and surfaces with free edges."""
+    part = settings.part("error estimates")
+    kinds, scenes, rare = settings.amount((KINDS, 5, 300), (QUICK, 1, 6))
+    for solver, case, kinds_of_it, number, values in (
+            ("grid", grid_case, kinds, scenes, VALUES),
+            ("fitted", fitted_case, [kind for kind in kinds if kind in FITTED], scenes, VALUES),
+            ("grid with a hardness", hard_case, ("self_affine",), rare, VALUES + OF_HARDNESS),
+            ("grid with free edges", free_case, ("free edges",), rare, OF_FREE_EDGES)):
+        ratios, unknown = [], 0
+        for name, stream, kind in settings.cases(f"estimates-{solver}", kinds_of_it, number):
+            files, finer = case(stream, kind)
+            rows, complaints = solve(settings.program, files, work)
+            truths, more = solve(settings.program, finer, work)
+            # Where spots have merged there are no numbers.
+            for row, truth in [pair for pair in zip(rows, truths) if pair[0].has_numbers and pair[1].has_numbers]:
+                for value, ratio, allowed in ratios_of(row, truth, values):
+                    if ratio is None:
+                        unknown += 1
+                        continue
+                    ratios.append(ratio)
+                    if ratio > LARGEST_RATIO:
+                        complaints.append(f"{value} of load {row.words['load']} is off by {ratio:.1f} times its estimate, "
+                                          f"{allowed:.1e}")
+            part.count(name, complaints + more, files)
+        held = sum(ratio <= 1.0 for ratio in ratios)/max(len(ratios), 1)
+        part.notes.append(f"{solver} {max(ratios, default=0.0):.2f} times, {100*held:.1f} % of {len(ratios)} hold, "
+                          f"{unknown} are unknown")
+        if len(ratios) >= FEWEST:
             part.count(f"estimates of {solver}", [] if held >= CONFIDENCE else [f"only {100*held:.1f} % hold"])
-    part.worst = "; ".join(words)
     return part

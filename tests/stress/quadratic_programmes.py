@@ -4,7 +4,7 @@ import re
 import subprocess
 import threading
 
-from common import RUNTIME_WORDS, Part, run
+from common import RUNTIME_WORDS, run, write
 
 SILENCE = 300.0  # time limit of a programme [s]
 # Of so many programmes one with nearly parallel constraints may be refused: among hundreds of these, rounding may keep
@@ -28,11 +28,11 @@ def read_line(line):
     return case
 
 
-def run_cases(program, seed, first, last, largest, folder):
+def run_cases(program, *numbers):
     """The cases, one by one; after a crash or a hang (None, last output)."""
     last_words = ""
-    with subprocess.Popen([program, str(seed), str(first), str(last), str(largest), str(folder)],
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+    with subprocess.Popen([program, *map(str, numbers)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True) as process:
         watch = threading.Timer(SILENCE, process.kill)
         try:
             watch.start()
@@ -70,35 +70,35 @@ def lost_digits(cases):
     return lines
 
 
-def campaign(programs, seed, count, largest, folder):
-    """The part of the table, and the lines of the table of lost digits."""
-    part = Part("quadratic programmes")
-    folder.mkdir(parents=True, exist_ok=True)
+def campaign(settings, _work):
+    """The notes are the table of lost digits."""
+    part = settings.part("quadratic programmes")
+    count, largest = settings.amount((10000, 300), (400, 30))
     cases = []
-    refused = 0
+    refused = wrong = 0
     first = 1
     while first <= count:
         done = first - 1
-        for case, words in run_cases(programs/"stress_qp", seed, first, count, largest, folder):
+        for case, words in run_cases(settings.programs/"stress_qp", settings.seed, first, count, largest):
             done += 1
+            name = f"stress_qp {settings.seed} {done} {done} {largest}"
             if case is None:
-                part.count(f"case-{done}", [words.strip()])
+                part.count(name, [words.strip()])
                 continue
             cases.append(case)
             complaints = []
             refused += case["verdict"] == "refused" and case["kind"] == "nearly parallel"
+            wrong += case["verdict"] == "wrong"
             if case["verdict"] == "wrong" or case["verdict"] == "refused" and (
                     case["kind"] != "nearly parallel" or refused > max(1, count//EACH_REFUSED)):
                 complaints.append(f'{case["verdict"]}: {case["kind"]}, {case["n"]:.0f} x {case["m"]:.0f}, '
                                   f'condition {case["condition"]:.0e}: {case["status"]}')
-            part.count(f"case-{done}.qp", complaints)
+            part.count(name, complaints)
         first = done + 1
-    solved = [case for case in cases if case["status"] == "converged"]
-    worst = max((max(case[name] for name in RESIDUALS) for case in solved), default=0.0)
-    slowest = max((case["seconds"] for case in cases), default=0.0)
-    wrong = sum(case["verdict"] == "wrong" for case in cases)
-    part.worst = f"KKT {worst:.1e}, {wrong} wrong, {slowest:.1f} s"
-    return part, lost_digits(cases)
+    worst = max((max(case[name] for name in RESIDUALS) for case in cases if case["status"] == "converged"), default=0.0)
+    part.worst = f"KKT {worst:.1e}, {wrong} wrong, {max((case['seconds'] for case in cases), default=0.0):.1f} s"
+    part.notes = lost_digits(cases)
+    return part
 
 
 def discretisations(quick):
@@ -115,21 +115,19 @@ def discretisations(quick):
                     yield 2, n, points, symmetry
 
 
-def loads(programs, quick, folder):
+def loads(settings, work):
     """The paper's programmes at loads from 1e-12 to 1 - 1e-12: see stress_loads.f90."""
-    part = Part("loads of 'beale'")
-    folder.mkdir(parents=True, exist_ok=True)
-    worst = 0.0
-    for discretisation in discretisations(quick):
-        name = "-".join(str(word) for word in discretisation)
-        outcome = run([programs/"stress_loads", *discretisation, folder], folder, patience=SILENCE)
+    part = settings.part("loads of 'beale'")
+    write({}, work)
+    for discretisation in discretisations(settings.quick):
+        name = " ".join(str(word) for word in discretisation)
+        outcome = run([settings.programs/"stress_loads", *discretisation], work, patience=SILENCE)
         if outcome.status or RUNTIME_WORDS.search(outcome.stderr):
             part.count(name, [f"exit status {outcome.status}: {outcome.stderr.decode(errors='replace').strip()}"])
         for line in outcome.stdout.decode().splitlines():
-            words = re.split(r"\s*\|\s*", line.strip())
-            verdict, status = words[6], words[5]
-            part.count(f"{name} at P = {float(words[0]):.3g}", [] if verdict == "passed" else [f"{verdict}: {status}"])
+            load, verdict, status, residual = re.split(r"\s*\|\s*", line.strip())
             if status == "converged":
-                worst = max([worst] + [float(word) for word in words[7:11]])
-    part.worst = f"KKT {worst:.1e}"
+                part.limit("KKT", float(residual), 1.0, [], "")
+            part.count(f"stress_loads {name} at P = {float(load):.3g}",
+                       [] if verdict == "passed" else [f"{verdict}: {status}"])
     return part

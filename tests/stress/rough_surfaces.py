@@ -4,12 +4,11 @@ solved a second time on the whole cell. Spots and summary have the same area, co
 import math
 import random
 
-from common import Part
 from npy import read_npy
 from random_scenes import random_loads
 from same_contact import LARGEST_RATIO, difference
 from spot_areas import area_complaints
-from summaries import keep, solve
+from summaries import solve
 
 MOMENT = 1e-12  # relative error of the moment that was asked for
 FIT = 1e-10  # of trends and filled holes, over the range of the heights
@@ -87,48 +86,40 @@ def relative_difference(rows, others):
                 for a, b in zip(row.values, other.values) if a != b), default=0.0)
 
 
-def made(program, stream, name, work, part, worst, failures):
+def made(settings, stream, name, work, part):
     """A surface from its spectrum."""
     surface, cell, points, (key, value) = made_surface(stream, SIZES)
     loads = random_loads(stream, 4)
-    scale = pressure_scale(program, surface, work/name)
+    solve(settings.program, {"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = 0 /\n"}, work)
+    scale = pstar(work/"results")
     loads = [scale*load for load in loads]
     files = {"deck.nml": deck(surface, loads, EXACT) + TABLES}
-    rows, complaints = solve(program, files, work/name)
+    rows, complaints = solve(settings.program, files, work)
     if rows:
-        results = work/name/"results"
+        results = work/"results"
         off = abs(moment(results, key)/value - 1.0)
-        worst["moments"] = max(worst["moments"], off)
-        if not off <= MOMENT:
-            complaints.append(f"{key} is off by {off:.1e}")
+        part.limit("moments", off, MOMENT, complaints, f"{key} is off by {off:.1e}")
         complaints += area_complaints(results, cell, points[1] > 1)
         complaints += status_complaints(rows)
         heights = (results/"deck.height.npy").read_bytes()
-    failed = not part.count(name, complaints)
+    part.count(name, complaints, files)
     if rows:
         again = {"deck.nml": deck(of_map("height.npy", cell), loads, EXACT), "height.npy": heights}
-        others, complaints = solve(program, again, work/name)
-        off = relative_difference(rows, others)
-        worst["heights read"] = max(worst["heights read"], off)
-        if len(others) != len(rows) or off > SOLVED:
-            complaints.append(f"its heights read again: {off:.1e} away")
-        failed |= not part.count(f"{name}, read", complaints)
+        compare(settings, f"{name}, read", rows, again, work, part, "heights read", relative_difference, SOLVED)
         finer = ", ".join(str(2*n) for n in points if n > 1)
         again = {"deck.nml": deck(surface, loads, f"solver = 'grid', grid_points = {finer}")}
-        others, complaints = solve(program, again, work/name)
-        off = difference(rows, others)
-        worst["points"] = max(worst["points"], off)
-        if len(others) != len(rows) or off > LARGEST_RATIO:
-            complaints.append(f"{off:.1e} times the estimates from that on twice the points")
-        failed |= not part.count(f"{name}, finer", complaints)
-    if failed:
-        keep(failures, name, files)
+        compare(settings, f"{name}, finer", rows, again, work, part, "twice the points over both estimates", difference,
+                LARGEST_RATIO)
 
 
-def pressure_scale(program, surface, folder):
-    """p* of a surface."""
-    solve(program, {"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = 0 /\n"}, folder)
-    return pstar(folder/"results")
+def compare(settings, name, rows, again, work, part, what, off_by, most):
+    """The same loads solved in another way."""
+    others, complaints = solve(settings.program, again, work)
+    off = off_by(rows, others)
+    part.limit(what, off, most, complaints, f"{what}: {off:.1e} away")
+    if len(others) != len(rows):
+        complaints.append(f"{len(others)} loads in place of {len(rows)}")
+    part.count(name, complaints, again)
 
 
 def measured_heights(stream):
@@ -148,8 +139,8 @@ def measured_heights(stream):
     return heights
 
 
-def preparation_complaints(raw, prepared, detrend, edges):
-    """What is wrong with a map without its trend and holes. Returns also the largest error over the range of the map."""
+def preparation_errors(raw, prepared, detrend, edges):
+    """Of a map without its trend and holes the largest errors of these over the range of the map."""
     rows, columns = len(raw), len(raw[0])
     there = [(i, j) for i in range(rows) for j in range(columns) if raw[i][j] is not None]
     size = max(abs(raw[i][j]) for i, j in there)
@@ -160,7 +151,7 @@ def preparation_complaints(raw, prepared, detrend, edges):
     worst = {}
     for m, n in terms[1:]:
         product = math.fsum((prepared[i][j] - mean)*(2*j/columns - 1.0)**m*(2*i/rows - 1.0)**n for i, j in there)
-        worst["trend"] = max(worst.get("trend", 0.0), abs(product)/(len(there)*size))
+        worst["trends"] = max(worst.get("trends", 0.0), abs(product)/(len(there)*size))
     for i in range(rows):
         for j in range(columns):
             if raw[i][j] is not None:
@@ -171,10 +162,10 @@ def preparation_complaints(raw, prepared, detrend, edges):
             near = [(k, l) for k, l in near if 0 <= k < rows and 0 <= l < columns]
             off = math.fsum(prepared[k][l] - prepared[i][j] for k, l in near)
             worst["holes"] = max(worst.get("holes", 0.0), abs(off)/size)
-    return [f"{name} is off by {off:.1e}" for name, off in worst.items() if not off <= FIT], max(worst.values(), default=0.0)
+    return worst
 
 
-def measured(program, stream, name, work, part, worst, failures):
+def measured(settings, stream, name, work, part):
     """A map with holes and a trend."""
     raw = measured_heights(stream)
     rows, columns = len(raw), len(raw[0])
@@ -183,47 +174,33 @@ def measured(program, stream, name, work, part, worst, failures):
     detrend, edges = stream.choice(TRENDS), stream.choice(("periodic", "mirror", "mirror"))
     surface = of_map("heights.dat", cell, f",\n   file_format = 'matrix', detrend = '{detrend}', "
                                           f"fill_missing = 'harmonic', edges = '{edges}'")
-    text = map_text(raw)
-    files = {"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = 0 /\n", "heights.dat": text}
-    solve(program, files, work/name)
-    scale = pstar(work/name/"results")
+    files = {"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = 0 /\n", "heights.dat": map_text(raw)}
+    solve(settings.program, files, work)
+    scale = pstar(work/"results")
     loads = [scale*load for load in random_loads(stream, 4)]
     hardness = loads[-1]*(1.0 + 10.0**stream.uniform(-3.0, 1.0)) if stream.random() < 0.5 else None
     files["deck.nml"] = deck(surface, loads, EXACT, hardness) + TABLES
-    answers, complaints = solve(program, files, work/name)
+    answers, complaints = solve(settings.program, files, work)
     if answers:
-        results = work/name/"results"
+        results = work/"results"
         prepared = read_heights(results/"deck.height.npy")
-        more, off = preparation_complaints(raw, prepared, detrend, edges)
-        worst["trends and holes"] = max(worst["trends and holes"], off)
-        complaints += more + status_complaints(answers)
+        for what, off in preparation_errors(raw, prepared, detrend, edges).items():
+            part.limit(what, off, FIT, complaints, f"{what} are off by {off:.1e}")
+        complaints += status_complaints(answers)
         complaints += area_complaints(results, cell, edges != "mirror")
-    failed = not part.count(name, complaints)
+    part.count(name, complaints, files)
     if answers:
         if edges == "mirror":
             prepared = [row + row[::-1] for row in prepared + prepared[::-1]]
             cell = [2.0*side for side in cell]
         again = {"deck.nml": deck(of_map("prepared.dat", cell), loads, EXACT, hardness),
                  "prepared.dat": map_text(prepared)}
-        others, complaints = solve(program, again, work/name)
-        off = relative_difference(answers, others)
-        worst["whole cell"] = max(worst["whole cell"], off)
-        if len(others) != len(answers) or off > SOLVED:
-            complaints.append(f"the map prepared before: {off:.1e} away")
-        failed |= not part.count(f"{name}, whole", complaints)
-    if failed:
-        keep(failures, name, files)
+        compare(settings, f"{name}, whole", answers, again, work, part, "whole cell", relative_difference, SOLVED)
 
 
-def campaign(program, seed, _kinds, scenes, work, failures):
-    """So many of each kind, eight times."""
-    part = Part("made and measured surfaces")
-    worst = {"moments": 0.0, "trends and holes": 0.0, "heights read": 0.0, "whole cell": 0.0, "points": 0.0}
+def campaign(settings, work):
+    part = settings.part("made and measured surfaces")
     for make in (made, measured):
-        for number in range(8*scenes):
-            name = f"{make.__name__}-{number}"
-            make(program, random.Random(f"{seed} {name}"), name, work, part, worst, failures)
-    part.worst = (f"moments {worst['moments']:.1e}, trends and holes {worst['trends and holes']:.1e}; heights read "
-                  f"{worst['heights read']:.1e}, whole cell {worst['whole cell']:.1e}; twice the points "
-                  f"{worst['points']:.2g} times both estimates")
+        for name, stream, _ in settings.cases("rough", (make.__name__,), settings.amount(48, 8)):
+            make(settings, stream, name, work, part)
     return part

@@ -1,15 +1,13 @@
 !> Solves random quadratic programmes with known solutions by Beale's method and by the dual method, and checks the
 !> results. Prints a line for each case, of the last method.
 !>
-!> usage: stress_qp SEED FIRST LAST LARGEST_N FOLDER   the cases FIRST to LAST; those that fail are saved in FOLDER
-!>        stress_qp FILE                               a case that was saved
+!> usage: stress_qp SEED FIRST LAST LARGEST_N   the cases FIRST to LAST
 program stress_qp
    use, intrinsic :: iso_fortran_env, only: int64
-   use command_words, only: number, word
+   use command_words, only: number
    use stress_exact_programme, only: kind_names, make_programme, nearly_parallel, programme_type, &
                                      random_recipe, recipe_type
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
-   use stress_problem_file, only: read_problem, write_problem
    use stress_random_numbers, only: random_stream
    use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_dual_solver, only: dual_solver
@@ -22,15 +20,10 @@ program stress_qp
 
    integer :: case
 
-   if (command_argument_count() == 1) then
-      call run_file(word(1))
-   else if (command_argument_count() == 5) then
-      do case = number(2), number(3)
-         call run_case(number(1), case, number(4))
-      end do
-   else
-      error stop 'usage: stress_qp SEED FIRST LAST LARGEST_N FOLDER, or stress_qp FILE'
-   end if
+   if (command_argument_count() /= 4) error stop 'usage: stress_qp SEED FIRST LAST LARGEST_N'
+   do case = number(2), number(3)
+      call run_case(number(1), case, number(4))
+   end do
 
 contains
 
@@ -44,7 +37,7 @@ contains
       type(qp_solution) :: solution
       type(random_stream) :: stream
       type(recipe_type) :: recipe
-      character(12) :: name, verdict
+      character(7) :: verdict
       integer :: method
       real(dp) :: error, seconds
 
@@ -70,10 +63,6 @@ contains
          end if
          if (verdict /= 'passed') exit
       end do
-      if (verdict /= 'passed') then
-         write (name, '(i0)') case
-         call write_problem(word(5)//'/case-'//trim(name)//'.qp', programme%problem)
-      end if
       write (*, '(i0, "|", a, 4("|", i0), 2("|", a), 7("|", es10.2e3), "|", i0, "|", f0.3)') case, &
          trim(kind_names(recipe%kind)), recipe%n, recipe%m, recipe%pushing, recipe%twist_bits, &
          trim(status_name(status_of_programme(solution%status))), trim(verdict), programme%condition, &
@@ -106,26 +95,5 @@ contains
       call system_clock(ended)
       seconds = real(ended - begun, dp)/real(rate, dp)
    end subroutine solve
-
-   !> Runs a saved case by both methods.
-   subroutine run_file(path)
-      character(*), intent(in) :: path
-
-      real(dp) :: seconds
-      type(kkt_type) :: kkt
-      type(qp_problem) :: problem
-      type(qp_solution) :: solution
-      integer :: method
-
-      call read_problem(path, problem)
-      do method = 1, 2
-         call solve(problem, method == 1, solution, seconds)
-         write (*, '(a, i0, a, f0.3, a, es10.2e3)') trim(status_name(status_of_programme(solution%status)))//', ', &
-            solution%pivots, ' pivots, ', seconds, ' s, own residual ', solution%kkt_residual
-         kkt = check_in_quad(problem, solution)
-         write (*, '(4(a, es10.2e3))') 'in quadruple precision: stationarity ', kkt%stationarity, ', feasibility ', &
-            kkt%feasibility, ', sign ', kkt%sign, ', complementarity ', kkt%complementarity
-      end do
-   end subroutine run_file
 
 end program stress_qp

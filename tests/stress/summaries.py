@@ -1,12 +1,10 @@
 """Running a scene and reading its summary."""
 import math
-import shutil
 
-from common import Table, complaints_about, files_below, result_complaints, run, save
+from common import Table, complaints_about, files_below, result_complaints, run, write
 
 PATIENCE = 300.0  # time limit of a deck [s]: the finer solutions take long
 VALUES = ("mean_gap_over_amplitude", "contact_area_fraction", "peak_pressure_over_pstar")
-ERRORS = tuple(f"{name}_error" for name in VALUES)
 ROUNDING = 4e-15  # of values of order one: least error estimate, as closed forms give zero
 
 
@@ -19,7 +17,7 @@ class Row:
         self.load = float(words["pbar_over_pstar"])
         self.values = [float(words[name]) for name in VALUES]
         # An error that is unknown may have any size.
-        errors = [float(words[name]) for name in ERRORS]
+        errors = [float(words[f"{name}_error"]) for name in VALUES]
         self.errors = [math.inf if math.isnan(error) else max(error, ROUNDING) for error in errors]
 
     @property
@@ -33,14 +31,6 @@ class Row:
                 for a, b, e, f in zip(self.values, other.values, self.errors, other.errors)]
 
 
-def write(files, folder):
-    """Writes a deck and its height map, text or bytes, into a new folder."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    for name, content in files.items():
-        (folder/name).write_bytes(content if isinstance(content, bytes) else content.encode())
-
-
 def solve(program, files, folder, *words):
     """The rows of a deck's summary, in its order, and what is wrong with the run."""
     write(files, folder)
@@ -51,9 +41,3 @@ def solve(program, files, folder, *words):
     if outcome.status not in (0, 2):
         return [], complaints + [outcome.stderr.decode(errors="replace").strip()]
     return [Row(words) for words in Table(folder/"results"/"deck.summary.dat").records()], complaints
-
-
-def keep(failures, name, files):
-    """Saves a failing case, with its height map."""
-    for file, text in files.items():
-        save(failures/name, file, text.encode())

@@ -6,7 +6,7 @@ import re
 import shutil
 import subprocess
 
-from common import Part, save
+from common import write
 
 STATUS = 99  # of a program in which valgrind found something
 PATIENCE = 600.0  # time limit of a program [s]
@@ -75,45 +75,38 @@ def found(words, folder, status):
     return []
 
 
-def cases(program, programs, quick, work):
+def cases(settings, work):
     """Name, command, folder and exit status of each run."""
+    program, programs = settings.programs/"stress_program", settings.programs.parent
     for name, text, status in DECKS:
-        if quick and name not in ("beale 1-D", "map, ragged"):
-            continue
-        folder = work/name
-        folder.mkdir()
-        for map_name, heights in MAPS.items():
-            (folder/map_name).write_text(heights)
-        (folder/"deck.nml").write_text(text)
-        yield name, [program, "deck.nml"], folder, status
-    if quick:
+        if not settings.quick or name in ("beale 1-D", "map, ragged"):
+            write({"deck.nml": text, **MAPS}, work/name)
+            yield name, [program, "deck.nml"], work/name, status
+    if settings.quick:
         return
     folder = work/"many decks"
-    folder.mkdir()
-    for name, text, _ in DECKS[:4] + DECKS[-1:]:
-        (folder/f"{name.replace(' ', '-')}.nml").write_text(text)
-    decks = sorted(path.name for path in folder.iterdir())
-    options = ["--keep-going", "--table", "all.dat", "--set", "surface.amplitude=2", "--set", "scene.title=it's"]
-    yield "many decks", [program, *decks, *options], folder, 1
-    yield "many decks, --check", [program, "--check", *decks, *options], folder, 1
+    decks = {f"{name.replace(' ', '-')}.nml": text for name, text, _ in DECKS[:4] + DECKS[-1:]}
+    write(decks, folder)
+    options = [*sorted(decks), "--keep-going", "--table", "all.dat", "--set", "surface.amplitude=2", "--set",
+               "scene.title=it's"]
+    yield "many decks", [program, *options], folder, 1
+    yield "many decks, --check", [program, "--check", *options], folder, 1
     for path in sorted(programs.glob("unit/unit.*")) + sorted(programs.glob("exact/exact.*")):
         if path.is_file() and os.access(path, os.X_OK) and path.name not in LEFT_OUT:
-            folder = work/path.name
-            folder.mkdir()
-            yield path.name, [path], folder, 0
+            write({}, work/path.name)
+            yield path.name, [path], work/path.name, 0
 
 
-def campaign(program, programs, quick, work, failures):
-    part = Part("valgrind")
+def campaign(settings, work):
+    part = settings.part("valgrind")
     if not shutil.which("valgrind"):
         part.worst = "skipped: valgrind is not installed"
         return part
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        runs = [(name, pool.submit(found, words, folder, status))
-                for name, words, folder, status in cases(program, programs, quick, work)]
+        runs = [(name, pool.submit(found, words, folder, status)) for name, words, folder, status in cases(settings, work)]
         for name, run in runs:
-            if not part.count(name, run.result()):
-                save(failures, f"{name}.valgrind", (work/name/"valgrind.log").read_bytes())
-    if not quick:
+            log = work/name/"valgrind.log"
+            part.count(name, run.result(), {"valgrind.log": log.read_bytes()} if log.exists() else {})
+    if not settings.quick:
         part.notes.append("left out, for they take minutes: " + ", ".join(LEFT_OUT))
     return part
