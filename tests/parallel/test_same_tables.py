@@ -53,9 +53,13 @@ CASES = {
                                     ("hardness", "pbar_over_pstar = 0.4", "&material hardness = 5 /\n"))},
     # Height maps: of odd size, mirrored, on other points, with more ranks than columns, made.
     "odd": Case(f"{SURFACE}'file', file = 'odd.npy', length_x = 3, length_y = 2.6 /\n"
-                f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n", GRIDS, ALL_RANKS, LAST_DIGIT),
+                f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES}, height = t /\n", GRIDS, ALL_RANKS, LAST_DIGIT),
+    "windowed": Case(f"{SURFACE}'file', file = 'odd.npy', length_x = 3, length_y = 2.6, edges = 'window', "
+                     "detrend = 'quadratic' /\n&load pbar_over_pstar = 0.05 /\n&output height = t, spectrum = t /\n",
+                     GRIDS, SEVERAL_RANKS, LAST_DIGIT),
     "mirrored": Case(f"{SURFACE}'file', file = 'mirrored.npy', edges = 'mirror', detrend = 'plane' /\n"
-                     f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES} /\n", GRIDS, SOME_RANKS, LAST_DIGIT),
+                     f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES}, height = t /\n", GRIDS, SOME_RANKS,
+                     LAST_DIGIT),
     "other_points": Case(f"{SURFACE}'file', file = 'coarse.npy' /\n&load pbar_over_pstar = 0.1 /\n"
                          "&method solver = 'grid', grid_points = 384, 256 /\n", GRIDS, SOME_RANKS, LAST_DIGIT),
     "few_columns": Case(f"{SURFACE}'file', file = 'narrow.npy', length_x = 1, length_y = 50 /\n"
@@ -78,7 +82,9 @@ CASES = {
     "loads_of_grids": Case(f"{SURFACE}'hexagonal' /\n&load sweep_from = 0.05, sweep_to = 0.9, sweep_steps = 20 /\n"
                            "&method solver = 'grid', grid_points = 64 /\n", LOADS, SEVERAL_RANKS),
 }
-MAPS = {"odd": (263, 301, "f8"), "mirrored": (256, 384, "f4"), "coarse": (128, 192, "f8"), "narrow": (2048, 40, "f8")}
+# Points along y and x, precision, column by column.
+MAPS = {"odd": (263, 301, "f8", False), "mirrored": (256, 384, "f4", True), "coarse": (128, 192, "f8", True),
+        "narrow": (2048, 40, "f4", False)}
 
 
 def logs(text):
@@ -161,8 +167,8 @@ class SameTables(ProgramTest):
         return subprocess.run([self.program, *words], cwd=self.folder, capture_output=True, text=True, check=False)
 
     def test_all_decks(self):
-        for name, (rows, along, kind) in MAPS.items():
-            write_npy(self.folder/f"{name}.npy", rough_map(rows, along, rows), kind)
+        for name, (rows, along, *kind) in MAPS.items():
+            write_npy(self.folder/f"{name}.npy", rough_map(rows, along, rows), *kind)
         for name, case in CASES.items():
             (self.folder/f"{name}.nml").write_text(case.deck)
         every = self.serial([*(f"{name}.nml" for name in CASES), "--output", "results"])
@@ -208,7 +214,15 @@ class SameTables(ProgramTest):
         (self.folder/"bad.nml").write_text("&surface kind = 'wave' /\n&load pbar = 0.1 /\n")
         (self.folder/"map.nml").write_text("&surface kind = 'file', file = 'nowhere.npy' /\n"
                                            "&load pbar_over_pstar = 0.1 /\n")
-        for words in (["bad.nml", "nowhere.nml", "map.nml"], ["--bad", "bad.nml"], []):
+        # Each rank reads its own lines: of the last ones of a large map.
+        heights = rough_map(*MAPS["odd"][:2], 1)
+        heights[200][299], heights[200][300] = math.inf, math.nan
+        for order in False, True:
+            write_npy(self.folder/f"infinite{order}.npy", heights, "f8", order)
+            (self.folder/f"infinite{order}.nml").write_text(
+                f"&surface kind = 'file', file = 'infinite{order}.npy' /\n&load pbar_over_pstar = 0.1 /\n")
+        for words in (["bad.nml", "nowhere.nml", "map.nml"], ["--bad", "bad.nml"], [], ["infiniteFalse.nml"],
+                      ["infiniteTrue.nml"]):
             expected = self.serial(words)
             outcome = run(self.mpiexec, max(self.ranks), [self.parallel, *words], self.folder)
             self.assertIn(expected.returncode, (1, 3))

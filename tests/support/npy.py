@@ -20,10 +20,12 @@ def read_npy(path):
     return head, values.tolist()
 
 
-def write_npy(path, heights, kind="f8"):
-    """Rows of numbers, of double ('f8') or single precision ('f4')."""
+def write_npy(path, heights, kind="f8", by_columns=False):
+    """Rows of numbers, of double ('f8') or single precision ('f4'), row by row or column by column."""
     order = {"little": "<", "big": ">"}[sys.byteorder]
-    words = f"{{'descr': '{order}{kind}', 'fortran_order': False, 'shape': ({len(heights)}, {len(heights[0])}), }}"
+    words = (f"{{'descr': '{order}{kind}', 'fortran_order': {by_columns}, "
+             f"'shape': ({len(heights)}, {len(heights[0])}), }}")
     words += " "*(-(10 + len(words) + 1) % 64) + "\n"
-    values = array.array({"f8": "d", "f4": "f"}[kind], [value for row in heights for value in row])
+    lines = zip(*heights) if by_columns else heights
+    values = array.array({"f8": "d", "f4": "f"}[kind], [value for line in lines for value in line])
     path.write_bytes(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(words)) + words.encode() + values.tobytes())

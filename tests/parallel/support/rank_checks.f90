@@ -1,8 +1,8 @@
 !> The checks of a program that several ranks run: a check counts as passed if it holds on all of them.
 module rank_checks
-   use, intrinsic :: iso_fortran_env, only: error_unit, int64, output_unit
+   use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
-   use wavycon_ranks, only: any_rank, end_ranks, is_first_rank, this_rank
+   use wavycon_ranks, only: any_rank, end_ranks, is_first_rank
    implicit none (type, external)
    private
 
@@ -13,12 +13,10 @@ module rank_checks
 
 contains
 
-   subroutine check(holds, words)
+   subroutine check(holds)
       logical, intent(in) :: holds
-      character(*), intent(in), optional :: words   !! shown if it does not hold
 
       good = good .and. holds
-      if (present(words) .and. .not. holds) write (error_unit, '(a, i0, 2a)') 'rank ', this_rank(), ': ', words
    end subroutine check
 
    !> Prints whether all checks of a subject hold, on all ranks.
