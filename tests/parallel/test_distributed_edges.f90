@@ -1,5 +1,5 @@
-!> Edges and peaks of grids that are distributed over the ranks beside those of the same grids whole on each rank: equal to
-!> the last bit. Solutions are in test_same_tables.py.
+!> Edges and peaks of grids that are distributed over the ranks beside those of the same grids whole on each rank: equal
+!> to the last bit. Solutions are in test_same_tables.py.
 !>
 !> `mpirun -n N test_distributed_edges` prints a line for each subject, and ends with status 1 if one of them fails.
 program test_distributed_edges

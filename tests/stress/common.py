@@ -259,8 +259,8 @@ def table_complaints(table, may_be_missing):
 
 
 def check_all(part, program, cases, work, limits=()):
-    """Runs `--check` of cases, which are a name, {file: content} with deck.nml among them, more words of the command, and
-    a function that says what is wrong with the outcome. Returns the part."""
+    """Runs `--check` of cases: a name, {file: content} with deck.nml among them, more words of the command, and a
+    function that says what is wrong with the outcome. Returns the part."""
     slowest, accepted = ("", 0.0), 0
     for name, files, words, judge in cases:
         write(files, work)

@@ -63,7 +63,8 @@ def campaign(settings, work):
     part = settings.part("conditions of contact")
     most = 0
     for what, case, kinds in (("grid", grid_case, settings.amount(KINDS, QUICK)),
-                              ("hard", hard_case, settings.amount(HARD, QUICK_HARD)), ("made", made_case, ("self_affine",))):
+                              ("hard", hard_case, settings.amount(HARD, QUICK_HARD)),
+                              ("made", made_case, ("self_affine",))):
         for name, stream, kind in settings.cases(f"conditions-{what}", kinds, settings.amount(24, 2)):
             files, requested = case(stream, kind)
             write(files, work)

@@ -69,8 +69,9 @@ def campaign(settings, work):
             kept[name] = Table(folder/"results"/"deck.summary.dat").records()
             for row, other in zip(kept[name], kept.get(alike, [])):
                 for column in DIMENSIONLESS:
-                    part.limit("units change", abs(float(row[column]) - float(other[column])), TOLERANCE, complaints,
-                               f"{column} = {row[column]} at P = {row['pbar_over_pstar']}, {other[column]} in other units")
+                    off = abs(float(row[column]) - float(other[column]))
+                    part.limit("units change", off, TOLERANCE, complaints, f"{column} = {row[column]} at P = "
+                               f"{row['pbar_over_pstar']}, {other[column]} in other units")
         part.count(name, complaints, {"deck.nml": text})
     part.notes.append(f"{unsolved} with status 2")
     return part

@@ -87,7 +87,8 @@ class Faults:
 
     def count(self, name, outcome, statuses, folder=None):
         """Counts a case, whose tables must be those of the undisturbed run."""
-        self.part.count(name, complaints_about(outcome, statuses, SECONDS) + (whole(folder, self.reference) if folder else []))
+        differ = whole(folder, self.reference) if folder else []
+        self.part.count(name, complaints_about(outcome, statuses, SECONDS) + differ)
 
     def file_size_limits(self):
         sizes = sorted(path.stat().st_size for path in self.reference.iterdir())
@@ -138,7 +139,8 @@ class Faults:
                     pass  # the program is writing to it; the run is a case all the same
                 self.part.count(f"output directory {name} after {delay} s",
                                 complaints_about(finish(process, SECONDS), (0, 3), SECONDS) +
-                                [f"{left} is left behind" for left in leftovers(folder) if not left.startswith("elsewhere")])
+                                [f"{left} is left behind" for left in leftovers(folder)
+                                 if not left.startswith("elsewhere")])
         if os.geteuid() == 0:
             self.as_nobody()
 
@@ -205,7 +207,8 @@ class Faults:
                 folder = self.folder(text)
                 words, more, delays = [], (), []
                 for _ in range(self.stream.randrange(1, 4)):
-                    said, delay = self.interrupted(folder, length, (signal.SIGINT, signal.SIGTERM, signal.SIGKILL), *more)
+                    signals = signal.SIGINT, signal.SIGTERM, signal.SIGKILL
+                    said, delay = self.interrupted(folder, length, signals, *more)
                     # A later run removes what a killed one left.
                     words += [word for word in said if not word.endswith("left behind")]
                     delays.append(f"{delay:.2f}")

@@ -474,8 +474,8 @@ def fuzz_monsters(settings, work):
 
 
 def odd_files(settings, work):
-    """What is no map, and maps of odd sizes: the status and the words that each must give. tests/unit/test_map_file.pf has
-    more of what is no map."""
+    """What is no map, and maps of odd sizes: the status and the words that each must give. There is more of what is no
+    map in tests/unit/test_map_file.pf."""
     part = settings.part("odd height maps")
     good = matrix(random.Random("odd"), 8, 8)
 
@@ -498,7 +498,8 @@ def odd_files(settings, work):
     attempt("two bytes, no mark", good.encode("utf-16-le"), 1, "heights.dat: this is no text")
     attempt("the deck itself", None, 1, "deck.nml: there are no numbers in this file", "deck.nml")
     attempt("a program", open(sys.executable, "rb").read(100000), 1, "heights.dat: this is no text")
-    attempt("points without a grid", "".join(f"{i*i} {i} 1\n" for i in range(9)), 1, "the grid of these points has 65 x")
+    attempt("points without a grid", "".join(f"{i*i} {i} 1\n" for i in range(9)), 1,
+            "the grid of these points has 65 x")
     attempt("too small", "1e-200 2e-200 1e-200 0\n", 1, "times height_scale, are up to 1e-200 [length]")
     for height in ("0", "0.1", "-1e90", "1e-90", "4.9e-324"):
         for side in (4, 7, 11, 16):

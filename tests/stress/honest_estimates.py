@@ -112,8 +112,8 @@ def campaign(settings, work):
                         continue
                     ratios.append(ratio)
                     if ratio > LARGEST_RATIO:
-                        complaints.append(f"{value} of load {row.words['load']} is off by {ratio:.1f} times its estimate, "
-                                          f"{allowed:.1e}")
+                        complaints.append(f"{value} of load {row.words['load']} is off by {ratio:.1f} times its "
+                                          f"estimate, {allowed:.1e}")
             part.count(name, complaints + more, files)
         held = sum(ratio <= 1.0 for ratio in ratios)/max(len(ratios), 1)
         part.notes.append(f"{solver} {max(ratios, default=0.0):.2f} times, {100*held:.1f} % of {len(ratios)} hold, "

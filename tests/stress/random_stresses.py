@@ -158,7 +158,8 @@ def campaign(settings, work):
             compare_largest(part, tables["largest"], changed["largest"], complaints)
             part.count(f"{name}, {change}", complaints, files)
         if kind in FITTED or kind == "wave_1d":
-            files, rows, tables, complaints = solve_by(f"solver = 'grid', accuracy = {10.0**-stream.uniform(1.0, 3.0)!r}")
+            method = f"solver = 'grid', accuracy = {10.0**-stream.uniform(1.0, 3.0)!r}"
+            files, rows, tables, complaints = solve_by(method)
             _, others, truths, more = solve_by("solver = 'closed_form'" if kind == "wave_1d" else
                                                "solver = 'fitted', accuracy = 1e-8")
             if not all(row.has_numbers for row in others):

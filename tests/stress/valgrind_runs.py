@@ -103,7 +103,8 @@ def campaign(settings, work):
         part.worst = "skipped: valgrind is not installed"
         return part
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        runs = [(name, pool.submit(found, words, folder, status)) for name, words, folder, status in cases(settings, work)]
+        runs = [(name, pool.submit(found, words, folder, status))
+                for name, words, folder, status in cases(settings, work)]
         for name, run in runs:
             log = work/name/"valgrind.log"
             part.count(name, run.result(), {"valgrind.log": log.read_bytes()} if log.exists() else {})

@@ -28,7 +28,8 @@ def translate(path):
         if pending:
             below = re.fullmatch(r"\s*subroutine\s+(\w+)\s*(\(\s*\))?\s*", line)
             if not below:
-                raise ValueError(number, f"@{pending} must stand directly above a subroutine without arguments or comment")
+                raise ValueError(number, f"@{pending} must stand directly above a subroutine without arguments or "
+                                         "comment")
             procedures[pending].append(below[1])
             pending = ""
         directive = re.match(r"(\s*)@\s*(\w*)\s*(.*?)\s*$", line)
@@ -50,8 +51,8 @@ def translate(path):
         raise ValueError(1, "the file has no @test")
     if len(procedures["before"]) > 1 or len(procedures["after"]) > 1:
         raise ValueError(1, "the file has more than one @before or @after")
-    fixtures = "".join(f", &\n      {argument}={name}" for kind, argument in (("before", "set_up"), ("after", "tear_down"))
-                       for name in procedures[kind])
+    fixtures = "".join(f", &\n      {argument}={name}" for kind, argument in
+                       (("before", "set_up"), ("after", "tear_down")) for name in procedures[kind])
     return output + [
         "", f"program run_{module}", "   use funit_runner, only: begin_tests, end_tests, run_test",
         *(f"   use {module}, only: {name}" for kind in PROCEDURES for name in procedures[kind]),
