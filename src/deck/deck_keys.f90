@@ -2,7 +2,7 @@
 module wavycon_deck_keys
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: integer_value, key_type, logical_value, number_text, real_value
+   use wavycon_key_table, only: integer_value, key_type, real_value
    implicit none (type, external)
    private
 
@@ -65,21 +65,16 @@ contains
 
       integer :: i
 
-      select case (key%kind)
-      case (real_value, integer_value)
+      word = values%words(trim(key%name), ',')
+      if (any(key%kind == [real_value, integer_value])) then
          associate (numbers => values%reals(trim(key%name)))
-            i = merge(1, size(numbers), maxval(numbers) <= minval(numbers))
-            word = number_text(key, numbers(:i), ',')
+            if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
          end associate
-      case (logical_value)
-         word = trim(merge('.true. ', '.false.', values%logical(trim(key%name))))
-      case default
-         word = values%text(trim(key%name))
-         do i = 1, len(word)
-            if (word(i:i) == ' ') word(i:i) = '_'
-         end do
-         if (word == '') word = '-'
-      end select
+      end if
+      do i = 1, len(word)
+         if (word(i:i) == ' ') word(i:i) = '_'
+      end do
+      if (word == '') word = '-'
    end function word_of
 
 end module wavycon_deck_keys

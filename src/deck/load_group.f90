@@ -2,7 +2,7 @@
 module wavycon_load_group
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: integer_key, key_group_type, real_key
+   use wavycon_key_table, only: integer_value, key_group_type, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -34,37 +34,40 @@ contains
       type(key_group_type) :: table
 
       table = key_group_type('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
-         real_key('pbar_over_pstar', '', '-', &
+         key_type(real_value, 'pbar_over_pstar', '', '-', &
             'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
-            'work_of_adhesion of &interface, as do those of mean_pressure and force.', &
-            most=largest_pbar_over_pstar, most_values=most_loads, way=10, &
-            required=.true.), &
-         real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
-            most_values=most_loads, way=11), &
-         real_key('mean_gap_over_amplitude', '', '-', &
+            'work_of_adhesion of &interface, as do those of mean_pressure and force.', most=largest_pbar_over_pstar, &
+            most_values=most_loads, way=10, required=.true.), &
+         key_type(real_value, 'mean_pressure', '', 'unit of e_star', &
+            'Mean pressures, over the nominal area.', most_values=most_loads, way=11), &
+         key_type(real_value, 'mean_gap_over_amplitude', '', '-', &
             'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
-            'loads.', least=0.0_dp, most=1.0_dp, most_values=most_loads, way=12), &
-         real_key('mean_gap', '', 'length', 'Mean gaps; the program finds their loads.', least=0.0_dp, &
-            most_values=most_loads, way=13), &
-         real_key('contact_area_fraction', '', '-', &
-            'Fractions of the nominal area in contact; the program finds their loads.', &
-            least=0.0_dp, most=1.0_dp, most_values=most_loads, way=14), &
-         real_key('yield', '', '-', &
+            'loads.', least=0, most=1, most_values=most_loads, way=12), &
+         key_type(real_value, 'mean_gap', '', 'length', &
+            'Mean gaps; the program finds their loads.', least=0, most_values=most_loads, way=13), &
+         key_type(real_value, 'contact_area_fraction', '', '-', &
+            'Fractions of the nominal area in contact; the program finds their loads.', least=0, most=1, &
+            most_values=most_loads, way=14), &
+         key_type(real_value, 'yield', '', '-', &
             'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
-            'least loads that reach them. 1 is first yield.', above=0.0_dp, most_values=most_loads, way=15), &
-         real_key('force', '', 'unit of e_star times length^2', 'Forces on the nominal area; of a profile per '// &
-            'depth.', most_values=most_loads, way=16), &
-         real_key('approach', '', 'length', 'Approaches of the bodies from first touch; the program finds their '// &
-            'loads.', least=0.0_dp, most_values=most_loads, way=17), &
-         real_key('contact_area', '', 'length^2', 'Areas in contact, of a profile lengths; the program finds their '// &
-            'loads.', least=0.0_dp, most_values=most_loads, way=18), &
-         real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, way=19, needs='sweep_to sweep_steps'), &
-         real_key('sweep_to', '', '-', 'Last mean pressure over p* of the sweep, above or below the first.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, way=19, needs='sweep_from'), &
-         integer_key('sweep_steps', '', &
-            'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', &
-            1, most_loads, way=19, needs='sweep_from')], required=.true.)
+            'least loads that reach them. 1 is first yield.', above=0, most_values=most_loads, way=15), &
+         key_type(real_value, 'force', '', 'unit of e_star times length^2', &
+            'Forces on the nominal area; of a profile per depth.', most_values=most_loads, way=16), &
+         key_type(real_value, 'approach', '', 'length', &
+            'Approaches of the bodies from first touch; the program finds their loads.', least=0, &
+            most_values=most_loads, way=17), &
+         key_type(real_value, 'contact_area', '', 'length^2', &
+            'Areas in contact, of a profile lengths; the program finds their loads.', least=0, &
+            most_values=most_loads, way=18), &
+         key_type(real_value, 'sweep_from', '', '-', &
+            'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=19, &
+            needs='sweep_to sweep_steps'), &
+         key_type(real_value, 'sweep_to', '', '-', &
+            'Last mean pressure over p* of the sweep, above or below the first.', least=0, &
+            most=largest_pbar_over_pstar, way=19, needs='sweep_from'), &
+         key_type(integer_value, 'sweep_steps', '', '', &
+            'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=19, &
+            needs='sweep_from')], required=.true.)
    end function load_table
 
    !> Checks the keys, and reports tensions without adhesion.

@@ -2,8 +2,7 @@
 module wavycon_resolved_deck
    use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: allowed_values, integer_value, key_type, logical_value, number_text, real_value
-   use wavycon_kinds, only: dp
+   use wavycon_key_table, only: allowed_values, choice_value, key_type, text_value
    use wavycon_plain_text, only: escaped, newline, quoted
    implicit none (type, external)
    private
@@ -48,25 +47,17 @@ contains
       type(key_type), intent(in) :: key
       character(:), allocatable :: text
 
-      character(:), allocatable :: comment, name
       character(*), parameter :: next_line = newline//'      '
-      real(dp), allocatable :: numbers(:)
+      character(:), allocatable :: comment, words
+      integer :: first
 
-      name = trim(key%name)
       comment = '   ! '
       if (key%unit /= '') comment = comment//'['//trim(key%unit)//'] '
       comment = comment//allowed_values(key)
-      text = newline//'   '//name//' = '
-      select case (key%kind)
-      case (real_value, integer_value)
-         numbers = values%reals(name)
-         text = text//number_text(key, numbers(:1), '')//comment
-         if (size(numbers) > 1) text = text//next_line//number_text(key, numbers(2:), next_line)
-      case (logical_value)
-         text = text//trim(merge('.true. ', '.false.', values%logical(name)))//comment
-      case default
-         text = text//quoted(values%text(name))//comment
-      end select
+      words = values%words(trim(key%name), next_line)
+      if (any(key%kind == [text_value, choice_value])) words = quoted(words)
+      first = index(words//newline, newline) - 1
+      text = newline//'   '//trim(key%name)//' = '//words(:first)//comment//words(first + 1:)
    end function key_text
 
 end module wavycon_resolved_deck
