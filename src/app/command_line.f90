@@ -4,7 +4,7 @@ module wavycon_command_line
    use wavycon_key_reference, only: add_wrapped, key_reference
    use wavycon_nearest_name, only: nearest_name
    use wavycon_output_group, only: longest_directory
-   use wavycon_plain_text, only: escaped, integer_text, is_printable, newline
+   use wavycon_plain_text, only: escaped, integer_text, is_printable, newline, quoted
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
@@ -148,6 +148,10 @@ contains
       if (decks == 0 .and. .not. (command_line%version .or. command_line%help)) then
          call fatal_error(error, exit_bad_input, 'no deck is given')
       else
+         if (allocated(command_line%output)) then
+            settings = settings + 1
+            setting(settings) = setting_type('output', 'directory', quoted(command_line%output))
+         end if
          call make_runs(deck(:decks), setting(:settings), sweep(:sweeps), command_line%runs, error)
       end if
 

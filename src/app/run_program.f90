@@ -7,12 +7,9 @@ module wavycon_run_program
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
-   use wavycon_deck, only: deck_type
    use wavycon_deck_jobs, only: await_job, begin_job, job_has_ended, most_waiting, show_job, signal_status
    use wavycon_deck_keys, only: deck_key, list_keys
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
-   use wavycon_make_scene, only: make_scene
-   use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_ranks, only: end_ranks, is_first_rank, rank_count, rank_library, share_error
    use wavycon_read_deck, only: read_deck
@@ -93,27 +90,22 @@ contains
       type(scene_item), allocatable, intent(out) :: scenes(:)
       integer, intent(out) :: worst   !! the worst exit status
 
-      type(deck_type) :: deck
       type(error_type), allocatable :: error
       integer :: i, j
 
       allocate (scenes(size(command_line%runs)))
       worst = exit_fine
       do i = 1, size(scenes)
-         call read_deck(command_line%runs(i)%path, deck, error, command_line%runs(i)%settings)
-         if (.not. allocated(error)) then
-            if (allocated(command_line%output)) &
-               call deck%output%set('directory', text=plain_directory(command_line%output))
-            if (allocated(command_line%table)) call list_keys(deck, scenes(i)%keys)
-            allocate (scenes(i)%scene)
-            call make_scene(deck, scenes(i)%scene)
-            scenes(i)%case = scenes(i)%scene%case
-            scenes(i)%summary = scenes(i)%scene%directory//'/'//scenes(i)%case//'.summary.dat'
-         end if
+         allocate (scenes(i)%scene)
+         call read_deck(command_line%runs(i)%path, scenes(i)%scene, error, command_line%runs(i)%settings)
          if (allocated(error)) then
             if (is_first_rank()) write (error_unit, '(a)') error%message
             worst = max(worst, error%status)
-            if (allocated(scenes(i)%scene)) deallocate (scenes(i)%scene)
+            deallocate (scenes(i)%scene)
+         else
+            if (allocated(command_line%table)) call list_keys(scenes(i)%scene, scenes(i)%keys)
+            scenes(i)%case = scenes(i)%scene%case
+            scenes(i)%summary = scenes(i)%scene%directory//'/'//scenes(i)%case//'.summary.dat'
          end if
       end do
       if (worst /= exit_fine .and. .not. command_line%keep_going) call finish(worst)

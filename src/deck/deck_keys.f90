@@ -1,8 +1,8 @@
 !> The keys of a deck and their values as words, for tables that compare decks.
 module wavycon_deck_keys
-   use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_value, key_type, real_value
+   use wavycon_scene, only: scene_type
    implicit none (type, external)
    private
 
@@ -23,19 +23,19 @@ contains
 
    !> Lists the keys of &material, &surface, &load, &stress and &method, the same for all decks. Lists of loads have no
    !> effect here: a table has a row for each.
-   subroutine list_keys(deck, keys)
-      type(deck_type), intent(in) :: deck   !! without problems
+   subroutine list_keys(scene, keys)
+      type(scene_type), intent(in) :: scene
       type(deck_key), allocatable, intent(out) :: keys(:)
 
       type(group_values) :: groups(5)
       logical :: is_asked_for
       integer :: i, k, number
 
-      groups(1) = deck%material
-      groups(2) = deck%surface_values
-      groups(3) = deck%load
-      groups(4) = deck%stress
-      groups(5) = deck%method
+      groups(1) = scene%material
+      groups(2) = scene%surface_values
+      groups(3) = scene%load
+      groups(4) = scene%stress
+      groups(5) = scene%method
       allocate (keys(sum([(size(groups(i)%table%keys), i=1, size(groups))])))
       number = 0
       do i = 1, size(groups)

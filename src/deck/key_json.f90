@@ -4,7 +4,7 @@
 !> read_by (for which values of the key that selects a kind or a solver it is read) and meaning. A default is written
 !> as in a deck.
 module wavycon_key_json
-   use wavycon_deck, only: deck_tables
+   use wavycon_deck_tables, only: deck_tables
    use wavycon_key_table, only: full_meaning, integer_value, key_group_type, key_type, no_bound, real_value, &
       text_value, words_of
    use wavycon_kinds, only: dp
@@ -22,10 +22,10 @@ contains
    function key_json() result(json)
       character(:), allocatable :: json
 
-      type(key_group_type), allocatable :: tables(:)
+      type(key_group_type), pointer :: tables(:)
       integer :: i, k
 
-      tables = deck_tables()
+      tables => deck_tables()
       json = '['
       do i = 1, size(tables)
          if (i > 1) json = json//','

@@ -1,9 +1,9 @@
 !> The resolved deck: every key that applies, with the value in effect. To run it repeats the run.
 module wavycon_resolved_deck
-   use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: allowed_values, choice_value, key_type, text_value
    use wavycon_plain_text, only: escaped, newline, quoted
+   use wavycon_scene, only: scene_type
    implicit none (type, external)
    private
 
@@ -12,17 +12,17 @@ module wavycon_resolved_deck
 contains
 
    !> The resolved deck: lines, the last without a newline.
-   function resolved_deck_text(deck) result(text)
-      type(deck_type), intent(in) :: deck  !! as read
+   function resolved_deck_text(scene) result(text)
+      type(scene_type), intent(in) :: scene
       character(:), allocatable :: text
 
-      text = '! '//escaped(deck%path)//' with the value in effect of every key that applies.'
-      text = text//group_text(deck%scene)//group_text(deck%material)//group_text(deck%surface_values)
-      if (deck%load%place > 0) text = text//group_text(deck%load)
+      text = '! '//escaped(scene%deck_path)//' with the value in effect of every key that applies.'
+      text = text//group_text(scene%scene_values)//group_text(scene%material)//group_text(scene%surface_values)
+      if (scene%load%place > 0) text = text//group_text(scene%load)
       ! The groups themselves ask for stresses and for what the interface does.
-      if (deck%stress%place > 0) text = text//group_text(deck%stress)
-      if (deck%interface%place > 0) text = text//group_text(deck%interface)
-      text = text//group_text(deck%method)//group_text(deck%output)
+      if (scene%stress%place > 0) text = text//group_text(scene%stress)
+      if (scene%interface%place > 0) text = text//group_text(scene%interface)
+      text = text//group_text(scene%method)//group_text(scene%output)
    end function resolved_deck_text
 
    !> A group, each line with a newline before it.

@@ -24,7 +24,7 @@ module wavycon_group_values
    !> To ask for a key that is not in the table is a programming error: a Debug build stops, any other build returns
    !> false, 0, or an empty list or text.
    type :: group_values
-      type(key_group_type) :: table
+      type(key_group_type), pointer :: table => null()
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
       character(:), allocatable :: length_unit   !! the deck's label of lengths, for &surface; empty: it gives none
       integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
@@ -57,14 +57,14 @@ contains
    !> Sets the defaults of the table. A key whose default is in words has no value until `set_default` is called.
    subroutine start(self, table, deck_path)
       class(group_values), intent(out) :: self
-      type(key_group_type), intent(in) :: table
+      type(key_group_type), intent(in), target :: table   !! stays as long as the values
       character(*), intent(in) :: deck_path
 
       type(word_value) :: value
       character(:), allocatable :: trouble
       integer :: k
 
-      self%table = table
+      self%table => table
       self%deck_path = deck_path
       self%length_unit = ''
       allocate (self%entries(0:size(table%keys)))
