@@ -2,11 +2,12 @@
 module wavycon_deck_keys
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_value, key_type, real_value
+   use wavycon_plain_text, only: escaped
    use wavycon_scene, only: scene_type
    implicit none (type, external)
    private
 
-   public :: deck_key, list_keys
+   public :: deck_key, list_keys, without_blanks
 
    !> Bytes of a name.
    integer, parameter :: longest_key_name = 49
@@ -63,18 +64,27 @@ contains
       type(key_type), intent(in) :: key
       character(:), allocatable :: word
 
-      integer :: i
-
       word = values%words(trim(key%name), ',')
       if (any(key%kind == [real_value, integer_value])) then
          associate (numbers => values%reals(trim(key%name)))
             if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
          end associate
       end if
+      word = without_blanks(word)
+      if (word == '') word = '-'
+   end function word_of
+
+   !> A text as one word of a table.
+   pure function without_blanks(text) result(word)
+      character(*), intent(in) :: text
+      character(:), allocatable :: word
+
+      integer :: i
+
+      word = escaped(text)
       do i = 1, len(word)
          if (word(i:i) == ' ') word(i:i) = '_'
       end do
-      if (word == '') word = '-'
-   end function word_of
+   end function without_blanks
 
 end module wavycon_deck_keys

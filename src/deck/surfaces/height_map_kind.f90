@@ -32,6 +32,7 @@ contains
 
       type(measured_map) :: heights
       character(:), allocatable :: file, path
+      real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
 
       file = values%text('file')
       ! Beside the deck or, if it is not there, where the program was started.
@@ -40,7 +41,12 @@ contains
       if (path_kind(path) == path_absent) then
          if (path_kind(file) /= path_absent) path = file
       end if
-      call read_map(values, path, heights, error)
+      if (values%has('missing_value')) missing_value = values%real('missing_value')
+      ! Holes, their frame and spikes are found in the whole map.
+      call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
+                           in_slabs=values%text('fill_missing') == 'none' .and. .not. &
+                                    (values%logical('crop_missing') .or. values%logical('despike')))
+      if (.not. allocated(error)) call convert_lengths(path, values%length_unit, heights, error)
       if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
          if (allocated(error)) error%message = escaped(file)// &
             ': there is no such file beside the deck, nor where the program was started'
@@ -118,23 +124,6 @@ contains
                           radii_of(values, 'form_radius'))
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
-
-   !> Reads the map and converts its lengths to the deck's unit. Errors: as of `surface_of_file`.
-   subroutine read_map(values, path, heights, error)
-      type(group_values), intent(in) :: values
-      character(*), intent(in) :: path
-      type(measured_map), intent(out) :: heights
-      type(error_type), allocatable, intent(out) :: error
-
-      real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
-
-      if (values%has('missing_value')) missing_value = values%real('missing_value')
-      ! Holes, their frame and spikes are found in the whole map.
-      call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
-                           in_slabs=values%text('fill_missing') == 'none' .and. .not. &
-                                    (values%logical('crop_missing') .or. values%logical('despike')))
-      if (.not. allocated(error)) call convert_lengths(path, values%length_unit, heights, error)
-   end subroutine read_map
 
    !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
    !> deck give one.
