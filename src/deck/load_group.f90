@@ -105,11 +105,10 @@ contains
 
       character(:), allocatable :: given, key, limit
       integer :: loads_by
-      real(dp), allocatable :: loads(:), mean_pressure(:), target(:)
-      real(dp) :: most
+      real(dp), allocatable :: loads(:)
+      real(dp) :: most   ! in the unit of the loads
 
       call given_loads(values, key, loads_by, loads)
-      call take_loads(values, surface, p_star, loads_by, target, mean_pressure)
       given = key
       if (values%has('sweep_from')) given = 'sweep_from'
       if (surface%has_free_edges) then
@@ -130,24 +129,27 @@ contains
          return
       end if
       ! The bounds of the other keys are in the table.
-      most = 1.0_dp
       select case (key)
       case ('mean_pressure', 'force')
-         most = largest_pbar_over_pstar
-         limit = short_number(most)//' times p* = '//short_number(p_star)
+         most = largest_pbar_over_pstar*p_star
+         if (key == 'force') most = most*surface%nominal_area()
+         limit = short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)
          ! There p* is a modulus times a slope.
-         if (surface%has_free_edges) limit = short_number(most)//' times what presses the map flat'
+         if (surface%has_free_edges) limit = short_number(largest_pbar_over_pstar)//' times what presses the map flat'
       case ('mean_gap')
-         limit = 'the mean gap before load, '//short_number(surface%amplitude)
+         most = surface%amplitude
+         limit = 'the mean gap before load, '//short_number(most)
       case ('approach')
          if (surface%has_hardness() .or. surface%has_free_edges) return
-         limit = 'that of full contact, the mean gap before load, '//short_number(surface%amplitude)
+         most = surface%amplitude
+         limit = 'that of full contact, the mean gap before load, '//short_number(most)
       case ('contact_area')
-         limit = 'the nominal area, '//short_number(surface%nominal_area())
+         most = surface%nominal_area()
+         limit = 'the nominal area, '//short_number(most)
       case default
          return
       end select
-      if (maxval(target) > most) call values%complain(problems, key, &
+      if (maxval(loads) > most) call values%complain(problems, key, &
          key//' = '//short_number(maxval(loads))//' is more than '//limit//'. Do the units agree?')
    end subroutine check_loads_of_surface
 
