@@ -1,7 +1,7 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary. Its rows are read from the
 !> summaries that the runs have written.
 module wavycon_collected_table
-   use wavycon_deck_keys, only: deck_key
+   use wavycon_deck_keys, only: deck_key, without_blanks
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_memory_table, only: column_list, column_name, column_unit
    use wavycon_output_file, only: output_file
@@ -219,32 +219,13 @@ contains
       end do
    end subroutine choose_columns
 
-   !> A text as one word of a table.
-   pure function without_blanks(text) result(word)
-      character(*), intent(in) :: text
-      character(:), allocatable :: word
-
-      integer :: i
-
-      word = escaped(text)
-      do i = 1, len(word)
-         if (word(i:i) == ' ') word(i:i) = '_'
-      end do
-   end function without_blanks
-
    !> The directory of a path; '.' if it has none.
    pure function directory_of(path) result(directory)
       character(*), intent(in) :: path
       character(:), allocatable :: directory
 
-      integer :: slash
-
-      slash = index(path, '/', back=.true.)
-      if (slash == 0) then
-         directory = '.'
-      else
-         directory = path(:max(slash - 1, 1))
-      end if
+      directory = path(:max(index(path, '/', back=.true.) - 1, 0))
+      if (directory == '') directory = trim(merge('/', '.', index(path, '/') == 1))
    end function directory_of
 
 end module wavycon_collected_table

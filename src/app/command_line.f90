@@ -1,10 +1,14 @@
 !> Reads the command line; the texts of --help.
 module wavycon_command_line
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_group_values, only: group_values
    use wavycon_key_reference, only: add_wrapped, key_reference
-   use wavycon_nearest_name, only: nearest_name
+   use wavycon_key_table, only: integer_value, key_group_type, key_index, key_type, logical_value, text_value
+   use wavycon_key_values, only: read_value, word_value
+   use wavycon_kinds, only: dp
+   use wavycon_nearest_name, only: did_you_mean
    use wavycon_output_group, only: longest_directory
-   use wavycon_plain_text, only: escaped, integer_text, is_printable, newline
+   use wavycon_plain_text, only: escaped, integer_text, newline, quoted
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
@@ -17,53 +21,44 @@ module wavycon_command_line
       type(setting_type), allocatable :: settings(:)
    end type run_type
 
-   !> The values of an option --sweep.
+   !> The values of a key: one of --set, all of --sweep.
    type :: sweep_type
       type(setting_type), allocatable :: values(:)
    end type sweep_type
 
    type :: command_line_type
-      type(run_type), allocatable :: runs(:)   !! the decks, each with all combinations of the values of --sweep
-      character(:), allocatable :: output   !! directory in place of that of the decks; not allocated if not given
-      character(:), allocatable :: table    !! file for one table of all decks; not allocated if not given
-      integer :: jobs = 1                   !! processes at a time, >= 1
-      integer :: threads = 1                !! >= 1
-      logical :: check = .false.
-      logical :: keep_going = .false.
-      logical :: quiet = .false.
-      logical :: resume = .false.
-      logical :: version = .false.
-      logical :: help = .false.
+      type(run_type), allocatable :: runs(:)   !! the decks, each with all combinations of the values of its sweeps
+      type(group_values) :: options            !! by their names, such as '--quiet'
    end type command_line_type
 
-   !> An option, as --help has it.
-   type :: option_type
-      character(12) :: name
-      character(27) :: value       !! what follows it; empty: nothing
-      character(440) :: meaning
-   end type option_type
+   integer, parameter :: most_runs = 100000, most_processes = 1024
 
-   type(option_type), parameter :: options(*) = [ &
-      option_type('--check', '', 'validate the decks, say what a run would do, and stop'), &
-      option_type('--set', 'GROUP.KEY=VALUE', 'set a key in place of those of the decks, such as '// &
-         'surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,0.2; may be repeated. Keys of the deck that '// &
-         'contradict it are left out: other ways to give the loads or the stiffness, accuracy or grid_points, keys '// &
-         'of another kind of surface or solver. The name of the case gets key and value, unless scene.case is set '// &
-         'too'), &
-      option_type('--sweep', 'GROUP.KEY=VALUE,...', 'run each deck once for each value, as with --set; several '// &
-         'sweeps: for all combinations'), &
-      option_type('--output', 'DIR', 'write the results to DIR, not to the directory of &output'), &
-      option_type('--table', 'FILE', 'write one table of all decks: a row for each deck and load, with the values '// &
-         'of the keys that are set or differ, and the columns of the summary'), &
-      option_type('--keep-going', '', 'a bad deck does not keep the others from being run'), &
-      option_type('--resume', '', 'continue an interrupted run, to the same tables. Loads that were solved on '// &
-         'grids are read from <case>.checkpoint; loads of the other solvers are fast and are solved again'), &
-      option_type('--jobs', 'N', 'run N decks at a time, each in a process of its own; 1 if not given'), &
-      option_type('--threads', 'N', 'work on large grids with N threads; 1 if not given'), &
-      option_type('--quiet', '', 'write nothing but errors'), &
-      option_type('--version', '', 'show the version and stop'), &
-      option_type('--help', '', 'show this and stop')]
-   integer, parameter :: most_runs = 100000
+   !> The options as keys: the unit of a key is what follows the option in the usage.
+   type(key_type), parameter :: option_keys(*) = [ &
+      key_type(logical_value, '--check', '.false.', '', 'validate the decks, say what a run would do, and stop'), &
+      key_type(text_value, '--set', '', 'GROUP.KEY=VALUE', &
+         'set a key in place of those of the decks, such as surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,0.2; '// &
+         'may be repeated. Keys of the deck that contradict it are left out: other ways to give the loads or the '// &
+         'stiffness, accuracy or grid_points, keys of another kind of surface or solver. The name of the case gets '// &
+         'key and value, unless scene.case is set too'), &
+      key_type(text_value, '--sweep', '', 'GROUP.KEY=VALUE,...', &
+         'run each deck once for each value, as with --set; several sweeps: for all combinations'), &
+      key_type(text_value, '--output', '', 'DIR', 'write the results to DIR, not to the directory of &output', &
+         longest=longest_directory), &
+      key_type(text_value, '--table', '', 'FILE', &
+         'write one table of all decks: a row for each deck and load, with the values of the keys that are set or '// &
+         'differ, and the columns of the summary', longest=longest_directory), &
+      key_type(logical_value, '--keep-going', '.false.', '', 'a bad deck does not keep the others from being run'), &
+      key_type(logical_value, '--resume', '.false.', '', &
+         'continue an interrupted run, to the same tables. Loads that were solved on grids are read from '// &
+         '<case>.checkpoint; loads of the other solvers are fast and are solved again'), &
+      key_type(integer_value, '--jobs', '1', 'N', &
+         'run N decks at a time, each in a process of its own; 1 if not given', 1, most_processes), &
+      key_type(integer_value, '--threads', '1', 'N', 'work on large grids with N threads; 1 if not given', 1, &
+         most_processes), &
+      key_type(logical_value, '--quiet', '.false.', '', 'write nothing but errors'), &
+      key_type(logical_value, '--version', '.false.', '', 'show the version and stop'), &
+      key_type(logical_value, '--help', '.false.', '', 'show this and stop')]
 
 contains
 
@@ -72,15 +67,18 @@ contains
       type(command_line_type), intent(out) :: command_line
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: given, trouble, value, word
+      character(:), allocatable :: trouble, value, word
       type(run_type) :: deck(command_argument_count())
-      type(setting_type) :: setting(size(deck))
       type(sweep_type) :: sweep(size(deck))
-      integer :: decks, equals, i, near, settings, sweeps
+      type(key_group_type), allocatable, target, save :: table
+      type(key_type) :: key
+      type(word_value) :: read
+      integer :: decks, equals, i, k, sweeps
       logical :: options_over
 
+      table = key_group_type('options', '', option_keys)
+      call command_line%options%start(table, '')
       decks = 0
-      settings = 0
       sweeps = 0
       options_over = .false.
       i = 0
@@ -94,117 +92,72 @@ contains
             deck(decks)%path = word
             cycle
          end if
-         equals = index(word, '=')
-         if (equals > 0) then
-            if (any(word(:equals - 1) == options%name .and. options%value /= '')) then
-               given = word(equals + 1:)
-               word = word(:equals - 1)
-            end if
+         options_over = word == '--'
+         if (options_over) cycle
+         if (word == '-h') word = '--help'
+         equals = index(word//'=', '=')
+         k = key_index(option_keys, word(:equals - 1))
+         if (k > 0) then
+            if (option_keys(k)%kind == logical_value .and. equals <= len(word)) k = 0
          end if
-         select case (word)
-         case ('--')
-            options_over = .true.
-         case ('--check')
-            command_line%check = .true.
-         case ('--keep-going')
-            command_line%keep_going = .true.
-         case ('--quiet')
-            command_line%quiet = .true.
-         case ('--resume')
-            command_line%resume = .true.
-         case ('--version')
-            command_line%version = .true.
-         case ('--help', '-h')
-            command_line%help = .true.
-         case ('--set')
-            call take_value(value)
-            settings = settings + 1
-            call read_setting(value, setting(settings), trouble)
-            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
-         case ('--sweep')
-            call take_value(value)
-            sweeps = sweeps + 1
-            call read_sweep(value, sweep(sweeps)%values, error)
-         case ('--output')
-            call take_value(command_line%output)
-            call check_path(word, 'a directory', command_line%output, error)
-         case ('--table')
-            call take_value(command_line%table)
-            call check_path(word, 'a file', command_line%table, error)
-         case ('--threads')
-            call take_value(value)
-            call read_number('--threads', value, command_line%threads, error)
-         case ('--jobs')
-            call take_value(value)
-            call read_number('--jobs', value, command_line%jobs, error)
-         case default
-            near = nearest_name(word, options%name)
-            value = ''
-            if (near > 0) value = ': did you mean '//trim(options(near)%name)//'?'
-            call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'"//value)
-         end select
-         if (allocated(error)) return
-      end do
-      if (decks == 0 .and. .not. (command_line%version .or. command_line%help)) then
-         call fatal_error(error, exit_bad_input, 'no deck is given')
-      else
-         call make_runs(deck(:decks), setting(:settings), sweep(:sweeps), command_line%runs, error)
-      end if
-
-   contains
-
-      !> The value of an option: the text after '=', otherwise the next word; empty if there is none.
-      subroutine take_value(text)
-         character(:), allocatable, intent(out) :: text
-
-         text = ''
-         if (allocated(given)) then
-            call move_alloc(given, text)
-         else if (i < command_argument_count()) then
+         if (k == 0) then
+            call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'"// &
+                             did_you_mean(word, option_keys%name, '', ''))
+            return
+         end if
+         key = option_keys(k)
+         if (key%kind == logical_value) then
+            call command_line%options%set(key%name, [1.0_dp])
+            cycle
+         end if
+         value = word(min(equals, len(word)) + 1:)
+         if (equals > len(word) .and. i < command_argument_count()) then
             i = i + 1
-            text = argument(i)
+            value = argument(i)
          end if
-      end subroutine take_value
-
+         if (value == '' .or. index(value, '--') == 1) then
+            trouble = trim(key%name)//' needs a value: '//trim(key%name)//' '//trim(key%unit)
+         else if (any(key%name == ['--set  ', '--sweep'])) then
+            sweeps = sweeps + 1
+            call read_sweep(trim(key%name), value, sweep(sweeps)%values, trouble)
+         else
+            if (key%kind == text_value) value = quoted(value)
+            call read_value(key, value, read, trouble)
+            if (.not. allocated(trouble)) call command_line%options%take(key%name, 1, [read%number], read%text)
+         end if
+         if (allocated(trouble)) then
+            call fatal_error(error, exit_bad_input, trouble)
+            return
+         end if
+      end do
+      associate (options => command_line%options)
+         if (decks == 0 .and. .not. (options%logical('--version') .or. options%logical('--help'))) then
+            call fatal_error(error, exit_bad_input, 'no deck is given')
+            return
+         end if
+         if (options%has('--output')) then
+            sweeps = sweeps + 1
+            sweep(sweeps)%values = [setting_type('output', 'directory', quoted(options%text('--output')))]
+         end if
+      end associate
+      call make_runs(deck(:decks), sweep(:sweeps), command_line%runs, error)
    end subroutine read_command_line
 
-   !> Reads the value of --threads or --jobs. Errors: exit_bad_input if it is not an integer from 1 to `most`.
-   subroutine read_number(option, text, number, error)
-      character(*), intent(in) :: option, text
-      integer, intent(out) :: number
-      type(error_type), allocatable, intent(out) :: error
-
-      integer, parameter :: most = 1024, longest = 4
-      integer :: status
-
-      number = 0
-      status = 1
-      if (text /= '' .and. len(text) <= longest .and. verify(text, '0123456789') == 0) &
-         read (text, *, iostat=status) number
-      if (status /= 0 .or. number < 1 .or. number > most) &
-         call fatal_error(error, exit_bad_input, option//' needs a number from 1 to '//integer_text(most)// &
-                          ", got '"//escaped(text)//"'")
-   end subroutine read_number
-
-   !> Reads the value of --sweep: a setting for each of its values, which commas outside of quotes separate. Errors:
-   !> exit_bad_input.
-   subroutine read_sweep(word, values, error)
-      character(*), intent(in) :: word   !! group.key=value,value,...
+   !> Reads the value of --set or --sweep: a setting for each value of a sweep, which commas outside of quotes separate.
+   subroutine read_sweep(option, word, values, trouble)
+      character(*), intent(in) :: option, word   !! '--set' or '--sweep'; group.key=value or group.key=value,value,...
       type(setting_type), allocatable, intent(out) :: values(:)
-      type(error_type), allocatable, intent(out) :: error
+      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
       character :: quote
-      character(:), allocatable :: trouble
       integer :: i
       integer, allocatable :: commas(:)
       type(setting_type) :: setting
 
       call read_setting(word, setting, trouble)
-      if (allocated(trouble)) then
-         call fatal_error(error, exit_bad_input, '--sweep needs group.key=value,value,..., such as '// &
-                          "surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'")
-         return
-      end if
+      if (allocated(trouble) .and. option == '--sweep') trouble = '--sweep needs group.key=value,value,..., such as '// &
+         "surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'"
+      if (allocated(trouble)) return
       commas = [0]
       quote = ' '
       do i = 1, len(setting%value)
@@ -213,7 +166,7 @@ contains
                quote = byte
             else if (byte == quote) then
                quote = ' '
-            else if (quote == ' ' .and. byte == ',') then
+            else if (quote == ' ' .and. byte == ',' .and. option == '--sweep') then
                commas = [commas, i]
             end if
          end associate
@@ -229,9 +182,8 @@ contains
 
    !> Each deck with all combinations of the values of all sweeps; the values of the last sweep change fastest. Errors:
    !> exit_bad_input if these are too many.
-   subroutine make_runs(decks, settings, sweeps, runs, error)
+   subroutine make_runs(decks, sweeps, runs, error)
       type(run_type), intent(in) :: decks(:)           !! without settings
-      type(setting_type), intent(in) :: settings(:)    !! of all runs
       type(sweep_type), intent(in) :: sweeps(:)
       type(run_type), allocatable, intent(out) :: runs(:)
       type(error_type), allocatable, intent(out) :: error
@@ -248,35 +200,15 @@ contains
       end if
       allocate (runs(number))
       do r = 1, number
-         allocate (runs(r)%settings(size(settings) + size(sweeps)))
-         do i = 1, size(settings)
-            runs(r)%settings(i) = settings(i)
-         end do
+         allocate (runs(r)%settings(size(sweeps)))
          rest = r - 1
          do i = size(sweeps), 1, -1
-            runs(r)%settings(size(settings) + i) = sweeps(i)%values(mod(rest, size(sweeps(i)%values)) + 1)
+            runs(r)%settings(i) = sweeps(i)%values(mod(rest, size(sweeps(i)%values)) + 1)
             rest = rest/size(sweeps(i)%values)
          end do
          runs(r)%path = decks(rest + 1)%path
       end do
    end subroutine make_runs
-
-   !> Checks a path given to an option as the key `directory` of a deck is checked. Errors: exit_bad_input.
-   subroutine check_path(option, what, path, error)
-      character(*), intent(in) :: option, what   !! such as '--output', 'a directory'
-      character(*), intent(in) :: path
-      type(error_type), allocatable, intent(out) :: error
-
-      if (path == '' .or. index(path, '--') == 1) then
-         call fatal_error(error, exit_bad_input, option//' needs the name of '//what)
-      else if (len(path) > longest_directory) then
-         call fatal_error(error, exit_bad_input, option//': the name of '//what//' must be at most '// &
-                          integer_text(longest_directory)//' bytes long, got '//integer_text(len(path)))
-      else if (.not. is_printable(path)) then
-         call fatal_error(error, exit_bad_input, option//": the name '"//escaped(path)// &
-                          "' must be ASCII or UTF-8 text without control characters")
-      end if
-   end subroutine check_path
 
    !> The text of --help: usage and options, then the reference of all keys.
    function help_text(is_parallel) result(text)
@@ -289,24 +221,24 @@ contains
 
       text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline//newline
       usage = 'DECK...'
-      do i = 1, size(options)
-         usage = usage//' ['//trim(trim(options(i)%name)//' '//options(i)%value)//']'
-         if (any(options(i)%name == ['--set  ', '--sweep'])) usage = usage//'...'
+      do i = 1, size(option_keys)
+         usage = usage//' ['//trim(trim(option_keys(i)%name)//' '//option_keys(i)%unit)//']'
+         if (any(option_keys(i)%name == ['--set  ', '--sweep'])) usage = usage//'...'
       end do
       head = 'usage: wavycon '
       if (is_parallel) head = 'usage: mpirun -n RANKS wavycon-mpi '
       call add_wrapped(text, len('usage: wavycon '), usage, head)
       text = text//newline
-      do i = 1, size(options)
-         head = '   '//trim(trim(options(i)%name)//' '//options(i)%value)
-         if (options(i)%name == '--help') head = head//', -h'
+      do i = 1, size(option_keys)
+         head = '   '//trim(trim(option_keys(i)%name)//' '//option_keys(i)%unit)
+         if (option_keys(i)%name == '--help') head = head//', -h'
          if (len(head) < indent) then
             head = head//repeat(' ', indent - len(head))
          else
             text = text//head//newline
             head = repeat(' ', indent)
          end if
-         call add_wrapped(text, indent, trim(options(i)%meaning), head)
+         call add_wrapped(text, indent, trim(option_keys(i)%meaning), head)
       end do
       text = text//newline
       if (is_parallel) call add_wrapped(text, 0, 'The RANKS processes share the work: large grids are divided '// &

@@ -7,12 +7,9 @@ module wavycon_run_program
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
-   use wavycon_deck, only: deck_type
    use wavycon_deck_jobs, only: await_job, begin_job, job_has_ended, most_waiting, show_job, signal_status
    use wavycon_deck_keys, only: deck_key, list_keys
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
-   use wavycon_make_scene, only: make_scene
-   use wavycon_output_group, only: plain_directory
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_ranks, only: end_ranks, is_first_rank, rank_count, rank_library, share_error
    use wavycon_read_deck, only: read_deck
@@ -50,39 +47,40 @@ contains
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
       integer :: i, worst
+      logical :: quiet
 
       call use_one_thread_for_matrices()
       call outlive_file_size_limit()
       library = rank_library()
       call read_command_line(command_line, error)
-      if (library /= '' .and. command_line%jobs > 1 .and. .not. allocated(error)) &
+      if (library /= '' .and. command_line%options%integer('--jobs') > 1 .and. .not. allocated(error)) &
          call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')
       if (allocated(error)) error%message = error%message//new_line('a')//'wavycon --help shows all options'
       call share_error(error)
       call stop_on(error)
-      if (command_line%help) then
+      if (command_line%options%logical('--help')) then
          call say(help_text(library /= ''))
          call finish(exit_fine)
-      else if (command_line%version) then
+      else if (command_line%options%logical('--version')) then
          if (library /= '') library = ', '//library
          call say('wavycon '//version//' ('//revision//')'//library)
          call finish(exit_fine)
       end if
-      if (.not. is_first_rank()) command_line%quiet = .true.
+      quiet = command_line%options%logical('--quiet') .or. .not. is_first_rank()
 
       call read_decks(command_line, scenes, worst)
-      if (command_line%check) then
+      if (command_line%options%logical('--check')) then
          do i = 1, size(scenes)
             if (.not. allocated(scenes(i)%scene)) cycle
-            call separate(i, command_line%quiet)
-            call check_scene(scenes(i)%scene, command_line%quiet)
+            call separate(i, quiet)
+            call check_scene(scenes(i)%scene, quiet)
          end do
          call finish(worst)
       end if
       command = command_to_resume()
       if (rank_count() > 1) command = 'mpirun -n '//integer_text(rank_count())//' '//command
       if (is_first_rank()) call note_command(command//c_null_char)
-      call run_scenes(command_line, scenes, worst)
+      call run_scenes(command_line, quiet, scenes, worst)
       call finish(worst)
    end subroutine run_program
 
@@ -93,30 +91,25 @@ contains
       type(scene_item), allocatable, intent(out) :: scenes(:)
       integer, intent(out) :: worst   !! the worst exit status
 
-      type(deck_type) :: deck
       type(error_type), allocatable :: error
       integer :: i, j
 
       allocate (scenes(size(command_line%runs)))
       worst = exit_fine
       do i = 1, size(scenes)
-         call read_deck(command_line%runs(i)%path, deck, error, command_line%runs(i)%settings)
-         if (.not. allocated(error)) then
-            if (allocated(command_line%output)) &
-               call deck%output%set('directory', text=plain_directory(command_line%output))
-            if (allocated(command_line%table)) call list_keys(deck, scenes(i)%keys)
-            allocate (scenes(i)%scene)
-            call make_scene(deck, scenes(i)%scene)
-            scenes(i)%case = scenes(i)%scene%case
-            scenes(i)%summary = scenes(i)%scene%directory//'/'//scenes(i)%case//'.summary.dat'
-         end if
+         allocate (scenes(i)%scene)
+         call read_deck(command_line%runs(i)%path, scenes(i)%scene, error, command_line%runs(i)%settings)
          if (allocated(error)) then
             if (is_first_rank()) write (error_unit, '(a)') error%message
             worst = max(worst, error%status)
-            if (allocated(scenes(i)%scene)) deallocate (scenes(i)%scene)
+            deallocate (scenes(i)%scene)
+         else
+            if (command_line%options%has('--table')) call list_keys(scenes(i)%scene, scenes(i)%keys)
+            scenes(i)%case = scenes(i)%scene%case
+            scenes(i)%summary = scenes(i)%scene%directory//'/'//scenes(i)%case//'.summary.dat'
          end if
       end do
-      if (worst /= exit_fine .and. .not. command_line%keep_going) call finish(worst)
+      if (worst /= exit_fine .and. .not. command_line%options%logical('--keep-going')) call finish(worst)
       ! Scenes that would write the same files.
       do i = 2, size(scenes)
          if (.not. allocated(scenes(i)%scene)) cycle
@@ -130,7 +123,7 @@ contains
                              ' would write the same files: both are case '//other%case//' in '// &
                              escaped(other%directory)//'. Give them different cases.')
          end associate
-         if (.not. command_line%keep_going) call stop_on(error)
+         if (.not. command_line%options%logical('--keep-going')) call stop_on(error)
          call show(error)
          worst = max(worst, error%status)
          deallocate (scenes(i)%scene, error)
@@ -138,20 +131,23 @@ contains
    end subroutine read_decks
 
    !> Runs all scenes and writes the collected table.
-   subroutine run_scenes(command_line, scenes, worst)
+   subroutine run_scenes(command_line, quiet, scenes, worst)
       type(command_line_type), intent(in) :: command_line
+      logical, intent(in) :: quiet      !! whether to write nothing but errors
       type(scene_item), intent(inout) :: scenes(:)
       integer, intent(inout) :: worst   !! the worst exit status
 
       type(collected_table) :: collected
       type(error_type), allocatable :: error
-      integer :: begun, failed, i, not_solved, running, status
-      logical :: is_good(size(scenes)), with_table
+      integer :: begun, failed, i, jobs, not_solved, running, status
+      logical :: is_good(size(scenes)), keep_going, with_table
 
-      call set_threads(command_line%threads)
+      jobs = command_line%options%integer('--jobs')
+      keep_going = command_line%options%logical('--keep-going')
+      call set_threads(command_line%options%integer('--threads'))
       with_table = .false.
-      if (is_first_rank()) with_table = allocated(command_line%table)
-      if (with_table) call collected%start(command_line%table, size(scenes), error)
+      if (is_first_rank()) with_table = command_line%options%has('--table')
+      if (with_table) call collected%start(command_line%options%text('--table'), size(scenes), error)
       call share_error(error)
       call stop_on(error)
       is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
@@ -161,9 +157,9 @@ contains
       running = 0
       do i = 1, size(scenes)
          status = exit_bad_input
-         if (is_good(i) .and. command_line%jobs == 1) then
+         if (is_good(i) .and. jobs == 1) then
             call run_one(i, status, error)
-            if (.not. command_line%keep_going) call stop_on(error)
+            if (.not. keep_going) call stop_on(error)
             call show(error)
          else if (is_good(i)) then
             call take_job(i, status)
@@ -179,12 +175,12 @@ contains
          end if
       end do
       if (allocated(error)) deallocate (error)
-      if (with_table) call collected%write(command_line%table, command_line%runs(1)%settings, error)
+      if (with_table) call collected%write(command_line%options%text('--table'), command_line%runs(1)%settings, error)
       call share_error(error)
       if (allocated(error)) worst = max(worst, error%status)
       call show(error)
-      if (.not. command_line%keep_going .or. command_line%quiet) return
-      call separate(size(scenes) + 1, command_line%quiet)
+      if (.not. keep_going .or. quiet) return
+      call separate(size(scenes) + 1, quiet)
       write (output_unit, '(a)') integer_text(size(scenes))//' decks: '// &
          integer_text(size(scenes) - failed - not_solved)//' solved, '//integer_text(not_solved)// &
          ' with loads NOT solved as requested, '//integer_text(failed)//' failed'
@@ -199,8 +195,8 @@ contains
 
          type(results_type) :: results
 
-         call separate(i, command_line%quiet)
-         call run_scene(scenes(i)%scene, command_line%quiet, command_line%resume, results, status, error)
+         call separate(i, quiet)
+         call run_scene(scenes(i)%scene, quiet, command_line%options%logical('--resume'), results, status, error)
          if (allocated(error)) status = error%status
       end subroutine run_one
 
@@ -215,7 +211,7 @@ contains
          logical :: is_here
 
          do
-            do while (running < command_line%jobs .and. begun < min(size(scenes), i + most_waiting))
+            do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
                begun = begun + 1
                if (.not. is_good(begun)) cycle
                call begin_job(begun, is_here, error)

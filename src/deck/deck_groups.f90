@@ -2,6 +2,7 @@
 module wavycon_deck_groups
    use wavycon_deck_scanner, only: at_end, is_broken_word, is_group, is_word, next_part, next_token, &
       part_type, read_entry, scan_type, token_type
+   use wavycon_deck_tables, only: deck_tables
    use wavycon_deck_text, only: deck_text_type
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: allowed_values, key_group_type, key_index, key_type
@@ -22,7 +23,7 @@ contains
    !> each other follow in the modules of the groups.
    subroutine take_groups(text, tables, groups, problems, settings)
       type(deck_text_type), intent(inout) :: text              !! each setting is added as a line
-      type(key_group_type), intent(in) :: tables(:)
+      type(key_group_type), intent(in), target :: tables(:)    !! that stay as long as the values
       type(group_values), intent(out) :: groups(size(tables))  !! one for each table
       type(problem_list_type), intent(inout) :: problems
       type(setting_type), intent(in), optional :: settings(:)  !! keys set in place of those of the deck
@@ -54,10 +55,6 @@ contains
             if (any([(replaces(own_settings(s), tables(i), key), s=1, size(own_settings))])) cycle
             call take_key(text, part, key, tables, groups(i), problems)
          end if
-      end do
-      do i = 1, size(tables)
-         if (tables(i)%required .and. groups(i)%place == 0) call problems%add(0, 'the group &'// &
-            trim(tables(i)%name)//' ('//trim(tables(i)%meaning)//') is missing')
       end do
 
    contains
@@ -120,20 +117,22 @@ contains
 
    !> Reads the keys of one group from a text that holds nothing else, without '&name' and '/', and checks them against
    !> the table, as those of a deck.
-   subroutine read_group_text(table, keys, values, text, problems)
-      type(key_group_type), intent(in) :: table
+   subroutine read_group_text(group, keys, values, text, problems)
+      integer, intent(in) :: group                         !! a number of wavycon_deck_tables
       character(*), intent(in) :: keys                     !! such as "solver = 'grid', accuracy = 1e-4"
       type(group_values), intent(out) :: values
       type(deck_text_type), intent(out) :: text            !! to which the places of the problems refer
       type(problem_list_type), intent(inout) :: problems
 
       type(group_values) :: groups(1)
-      type(key_group_type) :: tables(1)
+      type(key_group_type), pointer :: tables(:)
+      character(:), allocatable :: name
 
+      tables => deck_tables()
       ! The keys may end in a comment, so that the '/' needs a line of its own.
-      text = deck_text_type('&'//trim(table%name), '&'//trim(table%name)//' '//keys//newline//'/')
-      tables(1) = table
-      call take_groups(text, tables, groups, problems)
+      name = '&'//trim(tables(group)%name)
+      text = deck_text_type(name, name//' '//keys//newline//'/')
+      call take_groups(text, tables(group:group), groups, problems)
       values = groups(1)
    end subroutine read_group_text
 

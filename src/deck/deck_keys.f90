@@ -1,12 +1,13 @@
 !> The keys of a deck and their values as words, for tables that compare decks.
 module wavycon_deck_keys
-   use wavycon_deck, only: deck_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: integer_value, key_type, logical_value, number_text, real_value
+   use wavycon_key_table, only: integer_value, key_type, real_value
+   use wavycon_plain_text, only: escaped
+   use wavycon_scene, only: scene_type
    implicit none (type, external)
    private
 
-   public :: deck_key, list_keys
+   public :: deck_key, list_keys, without_blanks
 
    !> Bytes of a name.
    integer, parameter :: longest_key_name = 49
@@ -23,19 +24,19 @@ contains
 
    !> Lists the keys of &material, &surface, &load, &stress and &method, the same for all decks. Lists of loads have no
    !> effect here: a table has a row for each.
-   subroutine list_keys(deck, keys)
-      type(deck_type), intent(in) :: deck   !! without problems
+   subroutine list_keys(scene, keys)
+      type(scene_type), intent(in) :: scene
       type(deck_key), allocatable, intent(out) :: keys(:)
 
       type(group_values) :: groups(5)
       logical :: is_asked_for
       integer :: i, k, number
 
-      groups(1) = deck%material
-      groups(2) = deck%surface_values
-      groups(3) = deck%load
-      groups(4) = deck%stress
-      groups(5) = deck%method
+      groups(1) = scene%material
+      groups(2) = scene%surface_values
+      groups(3) = scene%load
+      groups(4) = scene%stress
+      groups(5) = scene%method
       allocate (keys(sum([(size(groups(i)%table%keys), i=1, size(groups))])))
       number = 0
       do i = 1, size(groups)
@@ -63,23 +64,27 @@ contains
       type(key_type), intent(in) :: key
       character(:), allocatable :: word
 
+      word = values%words(trim(key%name), ',')
+      if (any(key%kind == [real_value, integer_value])) then
+         associate (numbers => values%reals(trim(key%name)))
+            if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
+         end associate
+      end if
+      word = without_blanks(word)
+      if (word == '') word = '-'
+   end function word_of
+
+   !> A text as one word of a table.
+   pure function without_blanks(text) result(word)
+      character(*), intent(in) :: text
+      character(:), allocatable :: word
+
       integer :: i
 
-      select case (key%kind)
-      case (real_value, integer_value)
-         associate (numbers => values%reals(trim(key%name)))
-            i = merge(1, size(numbers), maxval(numbers) <= minval(numbers))
-            word = number_text(key, numbers(:i), ',')
-         end associate
-      case (logical_value)
-         word = trim(merge('.true. ', '.false.', values%logical(trim(key%name))))
-      case default
-         word = values%text(trim(key%name))
-         do i = 1, len(word)
-            if (word(i:i) == ' ') word(i:i) = '_'
-         end do
-         if (word == '') word = '-'
-      end select
-   end function word_of
+      word = escaped(text)
+      do i = 1, len(word)
+         if (word(i:i) == ' ') word(i:i) = '_'
+      end do
+   end function without_blanks
 
 end module wavycon_deck_keys

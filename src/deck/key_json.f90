@@ -4,10 +4,9 @@
 !> read_by (for which values of the key that selects a kind or a solver it is read) and meaning. A default is written
 !> as in a deck.
 module wavycon_key_json
-   use wavycon_constants, only: largest_number
-   use wavycon_deck, only: deck_tables
-   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_index, key_type, real_value, &
-      text_value, type_names
+   use wavycon_deck_tables, only: deck_tables
+   use wavycon_key_table, only: full_meaning, integer_value, key_group_type, key_type, no_bound, real_value, &
+      text_value, words_of
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text, newline
    implicit none (type, external)
@@ -15,15 +14,18 @@ module wavycon_key_json
 
    public :: key_json
 
+   !> In the order of the kinds of wavycon_key_table.
+   character(*), parameter :: type_names(*) = ['real   ', 'integer', 'logical', 'text   ', 'choice ']
+
 contains
 
    function key_json() result(json)
       character(:), allocatable :: json
 
-      type(key_group_type), allocatable :: tables(:)
+      type(key_group_type), pointer :: tables(:)
       integer :: i, k
 
-      tables = deck_tables()
+      tables => deck_tables()
       json = '['
       do i = 1, size(tables)
          if (i > 1) json = json//','
@@ -31,34 +33,29 @@ contains
                 ', "required": '//truth(tables(i)%required)//', "keys": ['
          do k = 1, size(tables(i)%keys)
             if (k > 1) json = json//','
-            json = json//newline//' '//key_object(tables(i), tables(i)%keys(k))
+            json = json//newline//' '//key_object(tables(i)%keys(k))
          end do
          json = json//']}'
       end do
       json = json//newline//']'
    end function key_json
 
-   function key_object(table, key) result(json)
-      type(key_group_type), intent(in) :: table
-      type(key_type), intent(in) :: key   !! of the table
+   function key_object(key) result(json)
+      type(key_type), intent(in) :: key
       character(:), allocatable :: json
 
       json = '{"name": '//text(key%name)//', "type": '//text(type_names(key%kind))//', "unit": '//text(key%unit)// &
              ', "default": '//text(key%default)//', "required": '//truth(key%required .and. key%way == 0)
-      if (any(key%kind == [real_value, integer_value])) json = json//', "least": '//bound(key%least)// &
-         ', "above": '//truth(key%above)//', "most": '//bound(key%most)//', "below": '//truth(key%below)// &
-         ', "most_values": '//integer_text(key%most_values)
+      if (any(key%kind == [real_value, integer_value])) json = json//', "least": '//bound(max(key%least, key%above))// &
+         ', "above": '//truth(key%above > -no_bound)//', "most": '//bound(min(key%most, key%below))// &
+         ', "below": '//truth(key%below < no_bound)//', "most_values": '//integer_text(key%most_values)
       if (key%kind == text_value) json = json//', "longest": '//integer_text(key%longest)
-      if (key%kind == choice_value) json = json//', "choices": '//list(key%choices)
-      if (any(key%read_by)) then
-         associate (selector => table%keys(key_index(table%keys, table%selector)))
-            json = json//', "read_by": '//list(pack(selector%choices, key%read_by))
-         end associate
-      end if
-      json = json//', "meaning": '//text(key%meaning)//'}'
+      if (key%choices /= '') json = json//', "choices": '//list(words_of(key%choices))
+      if (key%of /= '') json = json//', "read_by": '//list(words_of(key%of))
+      json = json//', "meaning": '//text(full_meaning(key))//'}'
    end function key_object
 
-   !> A list of texts; blank ones are left out.
+   !> A list of texts.
    pure function list(names) result(json)
       character(*), intent(in) :: names(:)
       character(:), allocatable :: json
@@ -67,7 +64,7 @@ contains
 
       json = ''
       do i = 1, size(names)
-         if (names(i) /= '') json = json//', '//text(names(i))
+         json = json//', '//text(names(i))
       end do
       json = '['//json(3:)//']'
    end function list
@@ -77,7 +74,7 @@ contains
       character(:), allocatable :: json
 
       json = 'null'
-      if (abs(number) < largest_number) json = exact_number(number)
+      if (abs(number) < no_bound) json = exact_number(number)
    end function bound
 
    pure function truth(value) result(json)

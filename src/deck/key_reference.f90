@@ -1,7 +1,7 @@
 !> The reference of all groups and keys for --help, generated from the same tables that decks are checked against.
 module wavycon_key_reference
-   use wavycon_deck, only: deck_tables
-   use wavycon_key_table, only: allowed_values, key_group_type, key_type
+   use wavycon_deck_tables, only: deck_tables
+   use wavycon_key_table, only: allowed_values, full_meaning, key_group_type, key_type
    use wavycon_plain_text, only: newline
    implicit none (type, external)
    private
@@ -16,11 +16,11 @@ contains
    function key_reference() result(reference)
       character(:), allocatable :: reference
 
-      type(key_group_type), allocatable :: tables(:)
+      type(key_group_type), pointer :: tables(:)
       integer :: i, k
 
       reference = ''
-      tables = deck_tables()
+      tables => deck_tables()
       call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
          "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
@@ -51,7 +51,7 @@ contains
       if (key%needs /= '') line = line//'; needs '//trim(key%needs)
       if (key%required .and. key%way == 0) line = line//'; required'
       call add_wrapped(reference, name_width + 3, line, head='   '//name)
-      call add_wrapped(reference, name_width + 3, trim(key%meaning))
+      call add_wrapped(reference, name_width + 3, full_meaning(key))
    end subroutine add_key
 
    !> Adds a text as lines that begin with blanks and break between words.

@@ -1,8 +1,9 @@
 !> The &load group: the loads to solve for, by force, mean pressure, mean gap, approach, contact area or stress.
 module wavycon_load_group
+   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: integer_key, key_group_type, real_key
+   use wavycon_key_table, only: integer_value, key_group_type, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -11,7 +12,7 @@ module wavycon_load_group
    implicit none (type, external)
    private
 
-   public :: load_table, check_load_group, check_loads_of_surface, given_loads, pressures_of_loads
+   public :: load_table, check_load_group, check_loads_of_surface, given_loads, take_loads
 
    !> Largest load accepted. Contact is full from 1 on: a load far above it is most likely a mistake of units.
    real(dp), parameter :: largest_pbar_over_pstar = 1.0e6_dp
@@ -34,37 +35,40 @@ contains
       type(key_group_type) :: table
 
       table = key_group_type('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
-         real_key('pbar_over_pstar', '', '-', &
+         key_type(real_value, 'pbar_over_pstar', '', '-', &
             'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
-            'work_of_adhesion of &interface, as do those of mean_pressure and force.', &
-            most=largest_pbar_over_pstar, most_values=most_loads, way=10, &
-            required=.true.), &
-         real_key('mean_pressure', '', 'unit of e_star', 'Mean pressures, over the nominal area.', &
-            most_values=most_loads, way=11), &
-         real_key('mean_gap_over_amplitude', '', '-', &
+            'work_of_adhesion of &interface, as do those of mean_pressure and force.', most=largest_pbar_over_pstar, &
+            most_values=most_loads, way=10, required=.true.), &
+         key_type(real_value, 'mean_pressure', '', 'unit of e_star', &
+            'Mean pressures, over the nominal area.', most_values=most_loads, way=11), &
+         key_type(real_value, 'mean_gap_over_amplitude', '', '-', &
             'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
-            'loads.', least=0.0_dp, most=1.0_dp, most_values=most_loads, way=12), &
-         real_key('mean_gap', '', 'length', 'Mean gaps; the program finds their loads.', least=0.0_dp, &
-            most_values=most_loads, way=13), &
-         real_key('contact_area_fraction', '', '-', &
-            'Fractions of the nominal area in contact; the program finds their loads.', &
-            least=0.0_dp, most=1.0_dp, most_values=most_loads, way=14), &
-         real_key('yield', '', '-', &
+            'loads.', least=0, most=1, most_values=most_loads, way=12), &
+         key_type(real_value, 'mean_gap', '', 'length', &
+            'Mean gaps; the program finds their loads.', least=0, most_values=most_loads, way=13), &
+         key_type(real_value, 'contact_area_fraction', '', '-', &
+            'Fractions of the nominal area in contact; the program finds their loads.', least=0, most=1, &
+            most_values=most_loads, way=14), &
+         key_type(real_value, 'yield', '', '-', &
             'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
-            'least loads that reach them. 1 is first yield.', above=0.0_dp, most_values=most_loads, way=15), &
-         real_key('force', '', 'unit of e_star times length^2', 'Forces on the nominal area; of a profile per '// &
-            'depth.', most_values=most_loads, way=16), &
-         real_key('approach', '', 'length', 'Approaches of the bodies from first touch; the program finds their '// &
-            'loads.', least=0.0_dp, most_values=most_loads, way=17), &
-         real_key('contact_area', '', 'length^2', 'Areas in contact, of a profile lengths; the program finds their '// &
-            'loads.', least=0.0_dp, most_values=most_loads, way=18), &
-         real_key('sweep_from', '', '-', 'First mean pressure over p* of a sweep in equal steps.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, way=19, needs='sweep_to sweep_steps'), &
-         real_key('sweep_to', '', '-', 'Last mean pressure over p* of the sweep, above or below the first.', &
-            least=0.0_dp, most=largest_pbar_over_pstar, way=19, needs='sweep_from'), &
-         integer_key('sweep_steps', '', &
-            'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', &
-            1, most_loads, way=19, needs='sweep_from')], required=.true.)
+            'least loads that reach them. 1 is first yield.', above=0, most_values=most_loads, way=15), &
+         key_type(real_value, 'force', '', 'unit of e_star times length^2', &
+            'Forces on the nominal area; of a profile per depth.', most_values=most_loads, way=16), &
+         key_type(real_value, 'approach', '', 'length', &
+            'Approaches of the bodies from first touch; the program finds their loads.', least=0, &
+            most_values=most_loads, way=17), &
+         key_type(real_value, 'contact_area', '', 'length^2', &
+            'Areas in contact, of a profile lengths; the program finds their loads.', least=0, &
+            most_values=most_loads, way=18), &
+         key_type(real_value, 'sweep_from', '', '-', &
+            'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=19, &
+            needs='sweep_to sweep_steps'), &
+         key_type(real_value, 'sweep_to', '', '-', &
+            'Last mean pressure over p* of the sweep, above or below the first.', least=0, &
+            most=largest_pbar_over_pstar, way=19, needs='sweep_from'), &
+         key_type(integer_value, 'sweep_steps', '', '', &
+            'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=19, &
+            needs='sweep_from')], required=.true.)
    end function load_table
 
    !> Checks the keys, and reports tensions without adhesion.
@@ -99,15 +103,14 @@ contains
       type(problem_list_type), intent(inout) :: problems
       logical, intent(in) :: has_own_sides                   !! whether the sides do not follow from the loads
 
-      character(:), allocatable :: given, key
+      character(:), allocatable :: given, key, limit
       integer :: loads_by
       real(dp), allocatable :: loads(:)
-      real(dp) :: worst
+      real(dp) :: most   ! in the unit of the loads
 
       call given_loads(values, key, loads_by, loads)
       given = key
       if (values%has('sweep_from')) given = 'sweep_from'
-      worst = maxval(loads)
       if (surface%has_free_edges) then
          if (any(periodic_lists == key)) then
             call values%complain(problems, given, given//' needs a surface that is repeated: one with free edges '// &
@@ -125,48 +128,63 @@ contains
             'the surface is flat: give its loads by pressure, not by gap, area or yield')
          return
       end if
+      ! The bounds of the other keys are in the table.
       select case (key)
       case ('mean_pressure', 'force')
-         if (maxval(pressures_of_loads(key, loads, surface, p_star)) <= largest_pbar_over_pstar*p_star) return
-         given = ' times p* = '//short_number(p_star)
+         most = largest_pbar_over_pstar*p_star
+         if (key == 'force') most = most*surface%nominal_area()
+         limit = short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)
          ! There p* is a modulus times a slope.
-         if (surface%has_free_edges) given = ' times what presses the map flat'
-         call values%complain(problems, key, key//' = '//short_number(worst)//' is more than '// &
-                              short_number(largest_pbar_over_pstar)//given//'. Do the units agree?')
+         if (surface%has_free_edges) limit = short_number(largest_pbar_over_pstar)//' times what presses the map flat'
       case ('mean_gap')
-         call check_most('the mean gap before load', surface%amplitude)
+         most = surface%amplitude
+         limit = 'the mean gap before load, '//short_number(most)
       case ('approach')
-         if (.not. (surface%has_hardness() .or. surface%has_free_edges)) &
-            call check_most('that of full contact, the mean gap before load', surface%amplitude)
+         if (surface%has_hardness() .or. surface%has_free_edges) return
+         most = surface%amplitude
+         limit = 'that of full contact, the mean gap before load, '//short_number(most)
       case ('contact_area')
-         call check_most('the nominal area', surface%nominal_area())
+         most = surface%nominal_area()
+         limit = 'the nominal area, '//short_number(most)
+      case default
+         return
       end select
-
-   contains
-
-      !> Reports a load above the largest one.
-      subroutine check_most(what, most)
-         character(*), intent(in) :: what
-         real(dp), intent(in) :: most
-
-         if (worst > most) call values%complain(problems, key, key//' = '//short_number(worst)//' is more than '// &
-                                                what//', '//short_number(most)//'. Do the units agree?')
-      end subroutine check_most
-
+      if (maxval(loads) > most) call values%complain(problems, key, &
+         key//' = '//short_number(maxval(loads))//' is more than '//limit//'. Do the units agree?')
    end subroutine check_loads_of_surface
 
-   !> The mean pressures of loads by pressure [pressure].
-   pure function pressures_of_loads(key, loads, surface, p_star) result(pressures)
-      character(*), intent(in) :: key            !! 'pbar_over_pstar', 'mean_pressure' or 'force'
-      real(dp), intent(in) :: loads(:)           !! [unit of the key]
+   !> Converts loads to the program's normalisation.
+   subroutine take_loads(values, surface, p_star, loads_by, target, mean_pressure)
+      type(group_values), intent(in) :: values                   !! of a &load group without problems
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: p_star             !! [pressure]
-      real(dp) :: pressures(size(loads))
+      real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
+      integer, intent(out) :: loads_by                           !! a name of wavycon_scene
+      real(dp), allocatable, intent(out) :: target(:)            !! as of scene_type
+      real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
 
-      pressures = loads
-      if (key == 'pbar_over_pstar') pressures = p_star*loads
-      if (key == 'force') pressures = loads/surface%nominal_area()
-   end function pressures_of_loads
+      character(:), allocatable :: key
+
+      call given_loads(values, key, loads_by, target)
+      select case (key)
+      case ('pbar_over_pstar')
+         mean_pressure = p_star*target
+      case ('mean_pressure')
+         mean_pressure = target
+      case ('force')
+         mean_pressure = target/surface%nominal_area()
+      case ('mean_gap', 'approach')
+         if (p_star > 0.0_dp) target = target/surface%amplitude
+      case ('contact_area')
+         target = target/surface%nominal_area()
+      end select
+      if (loads_by /= by_pressure) return
+      if (p_star <= 0.0_dp) then
+         ! On a flat surface contact is full at every load.
+         target = merge(ieee_value(1.0_dp, ieee_positive_inf), 1.0_dp, mean_pressure > 0.0_dp)
+      else if (key /= 'pbar_over_pstar') then
+         target = mean_pressure/p_star
+      end if
+   end subroutine take_loads
 
    !> The loads in the deck's order; a sweep is a list of pbar_over_pstar. None if the group does not give them.
    pure subroutine given_loads(values, key, loads_by, loads)

@@ -2,7 +2,7 @@
 module wavycon_material_group
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: key_group_type, real_key
+   use wavycon_key_table, only: key_group_type, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -22,23 +22,24 @@ contains
       type(key_group_type) :: table
 
       table = key_group_type('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
-         real_key('e_star', '1.0', 'pressure', &
-            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0.0_dp, way=10), &
-         real_key('e1', '', 'pressure', "Young's modulus of the first body.", above=0.0_dp, way=11, needs='nu1'), &
-         real_key('nu1', '', '-', "Poisson's ratio of the first body.", above=-1.0_dp, most=0.5_dp, way=11, &
-            needs='e1'), &
-         real_key('e2', '', 'pressure', &
-            "Young's modulus of the second body. Without it the second body is rigid.", above=0.0_dp, way=11, &
+         key_type(real_value, 'e_star', '1.0', 'pressure', &
+            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0, way=10), &
+         key_type(real_value, 'e1', '', 'pressure', &
+            "Young's modulus of the first body.", above=0, way=11, needs='nu1'), &
+         key_type(real_value, 'nu1', '', '-', &
+            "Poisson's ratio of the first body.", above=-1, most=0.5_dp, way=11, needs='e1'), &
+         key_type(real_value, 'e2', '', 'pressure', &
+            "Young's modulus of the second body. Without it the second body is rigid.", above=0, way=11, &
             needs='nu2 e1'), &
-         real_key('nu2', '', '-', "Poisson's ratio of the second body.", above=-1.0_dp, most=0.5_dp, way=11, &
-            needs='e2'), &
-         real_key('hardness', '', 'unit of e_star', &
+         key_type(real_value, 'nu2', '', '-', &
+            "Poisson's ratio of the second body.", above=-1, most=0.5_dp, way=11, needs='e2'), &
+         key_type(real_value, 'hardness', '', 'unit of e_star', &
             'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
             'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', &
-            above=0.0_dp)])
+            above=0)])
    end function material_table
 
-   !> Checks the keys. Leaves e_star out of the resolved deck if e1 is given. Finds E* and, where there is a surface, p*
+   !> Checks the keys. Finds E* and, where there is a surface, p*
    !> and its hardness: not one of a flat surface, nor one so far from p* that its unit is most likely wrong.
    subroutine check_material_group(values, surface, e_star, p_star, problems)
       type(group_values), intent(inout) :: values
@@ -53,7 +54,6 @@ contains
       p_star = 0.0_dp
       before = problems%number
       call check_relations(values, problems)
-      if (values%has('e1')) call values%leave_out('e_star')
       if (problems%number > before .or. values%any_bad() .or. .not. allocated(surface)) return
       e_star = plane_strain_modulus(values)
       p_star = surface%full_contact_pressure(e_star)

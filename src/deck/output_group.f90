@@ -4,7 +4,7 @@ module wavycon_output_group
    use wavycon_grid_keys, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
-   use wavycon_key_table, only: choice_key, integer_key, key_group_type, key_type, logical_key, text_key
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, text_value
    use wavycon_methods, only: traits_of
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
@@ -42,24 +42,24 @@ contains
       allocate (rows(0))
       do i = 1, size(tables)
          if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
-         rows = [rows, logical_key(trim(tables(i)%key), '.false.', tables(i)%meaning)]
+         rows = [rows, key_type(logical_value, trim(tables(i)%key), '.false.', '', tables(i)%meaning)]
       end do
       table = key_group_type('output', 'which files are written, and where', [ &
-         text_key('directory', "'outputs/<case>'", &
+         key_type(text_value, 'directory', "'outputs/<case>'", '', &
             'Where the results go, relative to where the program is started; made if it is not there.', &
-            longest_directory), rows, &
-         integer_key('line_points', "128, or the grid's", &
+            longest=longest_directory), rows, &
+         key_type(integer_value, 'line_points', "128, or the grid's", '', &
             'intervals of the lines along a side of the cell; both ends are points. The default is the larger '// &
-            'number of points of the grid, if it is given, or of the file, multiplied to be at least 128.', &
-            8, most_points), &
-         integer_key('map_points', "128, or the grid's", &
+            'number of points of the grid, if it is given, or of the file, multiplied to be at least 128.', 8, &
+            most_points), &
+         key_type(integer_value, 'map_points', "128, or the grid's", '', &
             'points of the map along x and y; one number for both. The default is that of the grid, if it is '// &
             'given, or of the file. Where they are those of the grid that was solved the map shows its points, '// &
             'otherwise what lies between them.', 3, most_points, most_values=2), &
-         choice_key('map_format', "'auto'", &
+         key_type(choice_value, 'map_format', "'auto'", '', &
             "'text'; 'npy', a file of numpy, short and fast to read; 'auto', text up to "//integer_text(text_side)// &
-            ' x '//integer_text(text_side)//' points, npy beyond.', [character(4) :: 'auto', 'text', 'npy']), &
-         integer_key('histogram_bins', '100', &
+            ' x '//integer_text(text_side)//' points, npy beyond.', choices='auto text npy'), &
+         key_type(integer_value, 'histogram_bins', '100', '', &
             'bins of the histograms of pressure and of gap, of equal width.', 4, most_bins)])
    end function output_table
 

@@ -5,26 +5,28 @@
 !> NAMELIST.
 module wavycon_read_deck
    use wavycon_ball_kind, only: set_ball_sides
-   use wavycon_deck, only: deck_tables, deck_type, interface_number, load_number, material_number, method_number, &
-      number_of_groups, output_number, scene_number, stress_number, surface_number
    use wavycon_deck_groups, only: take_groups
    use wavycon_deck_scanner, only: at_end, next_token, token_type
+   use wavycon_deck_tables, only: deck_tables, interface_number, load_number, material_number, method_number, &
+      number_of_groups, output_number, scene_number, stress_number, surface_number
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
-   use wavycon_interface_group, only: check_interface_group
+   use wavycon_interface_group, only: check_interface_group, make_interface_setting
    use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads
+   use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads, take_loads
    use wavycon_material_group, only: check_material_group, plane_strain_modulus
    use wavycon_methods, only: check_method_group
    use wavycon_output_group, only: check_output_group
-   use wavycon_plain_text, only: escaped
+   use wavycon_plain_text, only: escaped, newline
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
+   use wavycon_resolved_deck, only: resolved_deck_text
+   use wavycon_scene, only: scene_type
    use wavycon_scene_group, only: check_scene_group
    use wavycon_settings, only: name_case, setting_type
-   use wavycon_stress_group, only: check_stress_group
+   use wavycon_stress_group, only: check_stress_group, make_stress_setting
    use wavycon_surface_group, only: check_sides, check_surface_group, make_surface
    implicit none (type, external)
    private
@@ -37,9 +39,9 @@ contains
    !>
    !> Errors: exit_file_trouble if the deck or its height map cannot be read; exit_bad_input, with a report of all
    !> problems, for a bad deck; exit_bad_input for a bad height map.
-   subroutine read_deck(path, deck, error, settings)
+   subroutine read_deck(path, scene, error, settings)
       character(*), intent(in) :: path
-      type(deck_type), intent(out) :: deck  !! to be used only if there is no error
+      type(scene_type), intent(out) :: scene  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
@@ -47,13 +49,13 @@ contains
 
       call read_deck_text(path, text, error)
       if (allocated(error)) return
-      call parse_deck(text, deck, error, settings)
+      call parse_deck(text, scene, error, settings)
    end subroutine read_deck
 
    !> Reads a deck from its text. Errors: as of `read_deck`, and exit_bad_input for heights of a kind that has no file.
-   subroutine parse_deck(deck_text, deck, error, settings, heights, in_memory)
+   subroutine parse_deck(deck_text, scene, error, settings, heights, in_memory)
       type(deck_text_type), intent(in) :: deck_text
-      type(deck_type), intent(out) :: deck  !! to be used only if there is no error
+      type(scene_type), intent(out) :: scene  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
@@ -64,10 +66,11 @@ contains
       logical, intent(in), optional :: in_memory
 
       type(group_values) :: groups(number_of_groups)
-      type(key_group_type) :: tables(number_of_groups)
+      type(key_group_type), pointer :: tables(:)
       type(problem_list_type) :: problems
       type(token_type) :: token
       type(deck_text_type) :: text
+      integer :: i
       logical :: is_file
 
       is_file = .true.
@@ -78,39 +81,43 @@ contains
          call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
          return
       end if
-      tables = deck_tables()
-      tables(load_number)%required = is_file
+      tables => deck_tables()
       call take_groups(text, tables, groups, problems, settings)
-      deck%path = text%path
-      deck%scene = groups(scene_number)
-      deck%material = groups(material_number)
-      deck%surface_values = groups(surface_number)
-      deck%load = groups(load_number)
-      deck%stress = groups(stress_number)
-      deck%interface = groups(interface_number)
-      deck%method = groups(method_number)
-      deck%output = groups(output_number)
+      do i = 1, size(tables)
+         if (tables(i)%required .and. groups(i)%place == 0 .and. (is_file .or. i /= load_number)) &
+            call problems%add(0, 'the group &'//trim(tables(i)%name)//' ('//trim(tables(i)%meaning)//') is missing')
+      end do
+      scene%deck_path = text%path
+      scene%scene_values = groups(scene_number)
+      scene%material = groups(material_number)
+      scene%surface_values = groups(surface_number)
+      scene%load = groups(load_number)
+      scene%stress = groups(stress_number)
+      scene%interface = groups(interface_number)
+      scene%method = groups(method_number)
+      scene%output = groups(output_number)
 
-      call check_scene_group(deck%scene, problems, is_file)
-      if (present(settings)) call name_case(deck%scene, settings, problems)
-      call read_surface(deck, problems, error, heights)
-      call check_material_and_loads(deck, problems)
-      call check_stress_group(deck%stress, deck%material, deck%load, problems, deck%surface)
-      call check_method_group(deck%method, deck%surface_values%text('kind'), deck%surface, problems)
-      call check_interface_group(deck%interface, deck%material, deck%method, problems, deck%surface)
-      call check_output_group(deck%output, deck%scene%text('case'), deck%method, deck%surface, problems)
+      call check_scene_group(scene%scene_values, problems, is_file)
+      if (present(settings)) call name_case(scene%scene_values, settings, problems)
+      call read_surface(scene, problems, error, heights)
+      call check_material_and_loads(scene, problems)
+      call check_stress_group(scene%stress, scene%material, scene%load, problems, scene%surface)
+      call check_method_group(scene%method, scene%surface_values%text('kind'), scene%surface, problems)
+      call check_interface_group(scene%interface, scene%material, scene%method, problems, scene%surface)
+      call check_output_group(scene%output, scene%scene_values%text('case'), scene%method, scene%surface, problems)
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of
       ! them.
       if (problems%number > 0) then
          if (allocated(error)) deallocate (error)
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
       end if
+      if (.not. allocated(error)) call complete(scene)
    end subroutine parse_deck
 
    !> Checks &surface and, if it has no problems, makes the surface. A unit that its file names becomes the deck's label
    !> if the deck gives none. Errors: as of `make_surface`.
-   subroutine read_surface(deck, problems, error, heights)
-      type(deck_type), intent(inout) :: deck
+   subroutine read_surface(scene, problems, error, heights)
+      type(scene_type), intent(inout) :: scene
       type(problem_list_type), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: heights(:, :)   !! as of parse_deck
@@ -118,22 +125,22 @@ contains
       integer :: before
 
       before = problems%number
-      call check_surface_group(deck%surface_values, problems)
-      if (problems%number > before .or. deck%surface_values%any_bad()) return
-      call set_sides_of_loads(deck, problems)
+      call check_surface_group(scene%surface_values, problems)
+      if (problems%number > before .or. scene%surface_values%any_bad()) return
+      call set_sides_of_loads(scene, problems)
       if (problems%number > before) return
-      if (deck%scene%has('length_unit')) deck%surface_values%length_unit = deck%scene%text('length_unit')
-      call make_surface(deck%surface_values, deck%surface, deck%map, error, heights)
+      if (scene%scene_values%has('length_unit')) scene%surface_values%length_unit = scene%scene_values%text('length_unit')
+      call make_surface(scene%surface_values, scene%surface, scene%map, error, heights)
       if (allocated(error)) return
-      if (allocated(deck%surface)) call check_sides(deck%surface_values, deck%surface, problems)
-      if (.not. allocated(deck%map)) return
-      if (allocated(deck%map%length_unit)) call deck%scene%set('length_unit', text=deck%map%length_unit)
+      if (allocated(scene%surface)) call check_sides(scene%surface_values, scene%surface, problems)
+      if (.not. allocated(scene%map)) return
+      if (allocated(scene%map%length_unit)) call scene%scene_values%set('length_unit', text=scene%map%length_unit)
    end subroutine read_surface
 
    !> Sets the default sides of a ball, which follow from its loads. If &material or &load has problems, which are
    !> reported later, the sides stay as they are.
-   subroutine set_sides_of_loads(deck, problems)
-      type(deck_type), intent(inout) :: deck
+   subroutine set_sides_of_loads(scene, problems)
+      type(scene_type), intent(inout) :: scene
       type(problem_list_type), intent(inout) :: problems
 
       character(:), allocatable :: key
@@ -141,40 +148,79 @@ contains
       real(dp) :: hardness
       real(dp), allocatable :: loads(:)
 
-      if (deck%surface_values%text('kind') /= 'ball') return
-      if (deck%material%any_bad() .or. deck%load%any_bad()) return
+      if (scene%surface_values%text('kind') /= 'ball') return
+      if (scene%material%any_bad() .or. scene%load%any_bad()) return
       allocate (loads(0))
-      if (deck%load%place > 0) call given_loads(deck%load, key, loads_by, loads)
+      if (scene%load%place > 0) call given_loads(scene%load, key, loads_by, loads)
       if (size(loads) == 0) then
          key = ''
          loads = [0.0_dp]
-         if (deck%load%place == 0 .and. .not. deck%surface_values%has('length_x')) call deck%surface_values%complain( &
+         if (scene%load%place == 0 .and. .not. scene%surface_values%has('length_x')) call scene%surface_values%complain( &
             problems, 'kind', "without loads kind = 'ball' needs length_x")
       end if
       hardness = huge(hardness)
-      if (deck%material%has('hardness')) hardness = deck%material%real('hardness')
+      if (scene%material%has('hardness')) hardness = scene%material%real('hardness')
       ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
-      if (key == 'yield' .and. .not. deck%stress%any_bad()) &
-         loads = 2*loads*max(0.0_dp, deck%stress%real('yield_stress'))
-      call set_ball_sides(deck%surface_values, plane_strain_modulus(deck%material), hardness, key, maxval(abs(loads)))
+      if (key == 'yield' .and. .not. scene%stress%any_bad()) &
+         loads = 2*loads*max(0.0_dp, scene%stress%real('yield_stress'))
+      call set_ball_sides(scene%surface_values, plane_strain_modulus(scene%material), hardness, key, maxval(abs(loads)))
    end subroutine set_sides_of_loads
 
    !> Checks &material, which gives p* and the hardness of the surface, and &load and, where these and the surface have
    !> no problems, the loads against p* and Delta.
-   subroutine check_material_and_loads(deck, problems)
-      type(deck_type), intent(inout) :: deck   !! after read_surface
+   subroutine check_material_and_loads(scene, problems)
+      type(scene_type), intent(inout) :: scene   !! after read_surface
       type(problem_list_type), intent(inout) :: problems
 
       integer :: before
 
       before = problems%number
-      call check_material_group(deck%material, deck%surface, deck%e_star, deck%p_star, problems)
-      call check_load_group(deck%load, deck%interface%has('work_of_adhesion'), problems)
-      if (problems%number > before .or. deck%material%any_bad() .or. deck%load%any_bad()) return
-      if (deck%load%place == 0 .or. .not. allocated(deck%surface)) return
-      call check_loads_of_surface(deck%load, deck%surface, deck%p_star, problems, &
-                                  has_own_sides=deck%surface_values%text('kind') /= 'ball' .or. &
-                                                deck%surface_values%has('length_x'))
+      call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star, problems)
+      call check_load_group(scene%load, scene%interface%has('work_of_adhesion'), problems)
+      if (problems%number > before .or. scene%material%any_bad() .or. scene%load%any_bad()) return
+      if (scene%load%place == 0 .or. .not. allocated(scene%surface)) return
+      call check_loads_of_surface(scene%load, scene%surface, scene%p_star, problems, &
+                                  has_own_sides=scene%surface_values%text('kind') /= 'ball' .or. &
+                                                scene%surface_values%has('length_x'))
    end subroutine check_material_and_loads
+
+   !> Sets what follows from the values of a deck without problems: loads, labels, settings, the resolved deck.
+   subroutine complete(scene)
+      type(scene_type), intent(inout) :: scene
+
+      character(:), allocatable :: file
+
+      scene%roughness = scene%surface%roughness()
+      scene%gives_modulus = scene%material%has('e_star') .or. scene%material%has('e1')
+      scene%has_units = scene%gives_modulus .or. scene%scene_values%has('pressure_unit') .or. &
+                        scene%scene_values%has('length_unit')
+      if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
+      if (scene%load%place > 0) then
+         call take_loads(scene%load, scene%surface, scene%p_star, scene%loads_by, scene%target, scene%mean_pressure)
+      else
+         allocate (scene%target(0), scene%mean_pressure(0))
+      end if
+      call make_stress_setting(scene%stress, scene%material, scene%p_star, scene%stress_setting)
+      call make_interface_setting(scene%interface, scene%material, scene%surface, scene%p_star, &
+                                  scene%interface_setting)
+      scene%title = scene%scene_values%text('title')
+      scene%case = scene%scene_values%text('case')
+      scene%pressure_unit = scene%scene_values%text('pressure_unit')
+      scene%length_unit = scene%scene_values%text('length_unit')
+      scene%directory = scene%output%text('directory')
+      scene%surface_kind = scene%surface_values%text('kind')
+      call scene%output%set('directory', text='')
+      scene%fingerprint = resolved_deck_text(scene)
+      ! The first line has the path of the deck.
+      scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
+      call scene%output%set('directory', text=scene%directory)
+      ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
+      file = scene%surface_values%text('file')
+      if (allocated(scene%map)) then
+         if (scene%map%path /= '') call scene%surface_values%set('file', text=scene%map%path)
+      end if
+      scene%resolved_deck = resolved_deck_text(scene)
+      if (file /= '') call scene%surface_values%set('file', text=file)
+   end subroutine complete
 
 end module wavycon_read_deck

@@ -1,7 +1,7 @@
 !> The &scene group: the name of the case and the labels of its units.
 module wavycon_scene_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_group_type, text_key
+   use wavycon_key_table, only: key_group_type, key_type, text_value
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
@@ -21,16 +21,17 @@ contains
       type(key_group_type) :: table
 
       table = key_group_type('scene', 'what the case is called', [ &
-         text_key('title', "''", 'One line for the log and the heads of tables.', longest_name, &
-            may_be_blank=.true.), &
-         text_key('case', "the deck's name", &
-            'Stem of the names of the result files: '//plain_in_words// &
-            ". The deck's name is that of its file without '.nml'.", longest_name), &
-         text_key('pressure_unit', "'pressure'", "Label of the deck's unit of pressures and moduli in the heads of "// &
-            "tables and in pictures, such as 'MPa'. No number is converted.", longest_unit), &
-         text_key('length_unit', "'length'", "Label of the deck's unit of lengths, such as 'mm'. "// &
-            "A height map whose file names units is converted to it or, if the deck gives none, sets it.", &
-            longest_unit)])
+         key_type(text_value, 'title', "''", '', &
+            'One line for the log and the heads of tables.', longest=longest_name, may_be_blank=.true.), &
+         key_type(text_value, 'case', "the deck's name", '', &
+            'Stem of the names of the result files: '//plain_in_words//". The deck's name is that of its file "// &
+            "without '.nml'.", longest=longest_name), &
+         key_type(text_value, 'pressure_unit', "'pressure'", '', &
+            "Label of the deck's unit of pressures and moduli in the heads of tables and in pictures, such as "// &
+            "'MPa'. No number is converted.", longest=longest_unit), &
+         key_type(text_value, 'length_unit', "'length'", '', &
+            "Label of the deck's unit of lengths, such as 'mm'. A height map whose file names units is converted "// &
+            'to it or, if the deck gives none, sets it.', longest=longest_unit)])
    end function scene_table
 
    !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.

@@ -2,7 +2,7 @@
 module wavycon_settings
    use wavycon_deck_scanner, only: quotes
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_value, key_group_type, key_index, text_value
+   use wavycon_key_table, only: choice_value, is_read, key_group_type, key_index, text_value, words_of
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, quoted, unquoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: longest_name, name_letters
@@ -62,7 +62,7 @@ contains
       type(key_group_type), intent(in) :: table   !! of the group that the key stands in
       character(*), intent(in) :: key
 
-      integer :: chosen, k, own
+      integer :: k, own
 
       replaces = setting%group == table%name .and. key == setting%key
       if (replaces .or. setting%group /= table%name) return
@@ -71,8 +71,8 @@ contains
       if (own == 0 .or. k == 0) return
       associate (keys => table%keys)
          if (setting%key == table%selector) then
-            chosen = findloc(keys(own)%choices(:keys(own)%number_of_choices) == plain_value(setting), .true., dim=1)
-            if (chosen > 0) replaces = any(keys(k)%read_by) .and. .not. keys(k)%read_by(chosen)
+            replaces = any(words_of(keys(own)%choices) == plain_value(setting)) .and. &
+                       .not. is_read(keys(k), plain_value(setting))
          else
             replaces = keys(own)%way > 0 .and. keys(own)%way/10 == keys(k)%way/10 .and. keys(own)%way /= keys(k)%way
          end if

@@ -3,7 +3,7 @@ module wavycon_stress_group
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_group_values, only: group_values
    use wavycon_key_relations, only: check_relations
-   use wavycon_key_table, only: choice_key, integer_key, key_group_type, logical_key, real_key
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
    use wavycon_problems, only: problem_list_type
@@ -17,8 +17,7 @@ module wavycon_stress_group
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
 
-   !> The choices of `lateral`.
-   character(11), parameter :: laterals(*) = ['constrained', 'free       ', 'hydrostatic']
+   !> The choices of `lateral`, in the order of its key.
    integer, parameter :: lateral_is(*) = [laterally_constrained, laterally_free, hydrostatic]
 
 contains
@@ -28,35 +27,39 @@ contains
       type(key_group_type) :: table
 
       table = key_group_type('stress', 'stresses below the surface, and when it yields', [ &
-         logical_key('largest', '.true.', 'A table of the largest von Mises stress and the largest shear stress of '// &
-            'each load, and where they are.'), &
-         logical_key('line', '.false.', 'A table of the stresses on the line below the crest.'), &
-         choice_key('section', "'none'", "a table of the stresses on a vertical section through the crest, along "// &
-            "'x', 'y' or the 'diagonal' of the cell.", [character(8) :: 'none', 'x', 'y', 'diagonal']), &
-         logical_key('planes', '.false.', &
+         key_type(logical_value, 'largest', '.true.', '', &
+            'A table of the largest von Mises stress and the largest shear stress of each load, and where they are.'), &
+         key_type(logical_value, 'line', '.false.', '', 'A table of the stresses on the line below the crest.'), &
+         key_type(choice_value, 'section', "'none'", '', &
+            "a table of the stresses on a vertical section through the crest, along 'x', 'y' or the 'diagonal' of "// &
+            'the cell.', choices='none x y diagonal'), &
+         key_type(logical_value, 'planes', '.false.', '', &
             'A table of the stresses on the planes at the given depths, with the points and in the format of maps.'), &
-         real_key('depths', '', 'length', &
-            'Depths of the planes; also of the points of line and section unless a range is given.', least=0.0_dp, &
+         key_type(real_value, 'depths', '', 'length', &
+            'Depths of the planes; also of the points of line and section unless a range is given.', least=0, &
             most_values=most_depths, way=10), &
-         real_key('depths_over_cell_x', '', '-', &
-            'The same over the side of the cell along x, which is the wavelength of a wave.', least=0.0_dp, &
+         key_type(real_value, 'depths_over_cell_x', '', '-', &
+            'The same over the side of the cell along x, which is the wavelength of a wave.', least=0, &
             most_values=most_depths, way=11), &
-         real_key('depth_from', '0.0', '-', 'First depth of a range in equal steps, over the side of the cell '// &
-            'along x, for line and section; also for the planes unless depths are given.', least=0.0_dp), &
-         real_key('depth_to', '1.0', '-', 'Last depth of the range.', least=0.0_dp), &
-         integer_key('depth_steps', '65', 'Number of depths of the range, both ends included.', 1, most_depths), &
-         real_key('nu', 'nu1, nu2', '-', "Poisson's ratios of the first and the second body; one number: of both. "// &
-            'The default is that of &material. Where they differ the stresses of both bodies are computed.', &
-            above=-1.0_dp, most=0.5_dp, most_values=2), &
-         choice_key('lateral', "'constrained'", "the lateral stresses of the mean pressure pbar. 'constrained': no "// &
-            "lateral strain, -nu pbar/(1 - nu); 'free': 0; 'hydrostatic': -pbar.", &
-            laterals), &
-         real_key('yield_stress', '', 'unit of e_star', &
-            'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0.0_dp, &
+         key_type(real_value, 'depth_from', '0.0', '-', &
+            'First depth of a range in equal steps, over the side of the cell along x, for line and section; also '// &
+            'for the planes unless depths are given.', least=0), &
+         key_type(real_value, 'depth_to', '1.0', '-', 'Last depth of the range.', least=0), &
+         key_type(integer_value, 'depth_steps', '65', '', &
+            'Number of depths of the range, both ends included.', 1, most_depths), &
+         key_type(real_value, 'nu', 'nu1, nu2', '-', &
+            "Poisson's ratios of the first and the second body; one number: of both. The default is that of "// &
+            '&material. Where they differ the stresses of both bodies are computed.', above=-1, most=0.5_dp, &
             most_values=2), &
-         choice_key('yield_criterion', "'von_mises'", "which stress reaches the yield stress: 'von_mises', the von "// &
-            "Mises stress; 'tresca', twice the largest shear stress.", [character(9) :: 'von_mises', 'tresca'], &
-            needs='yield_stress')])
+         key_type(choice_value, 'lateral', "'constrained'", '', &
+            "the lateral stresses of the mean pressure pbar. 'constrained': no lateral strain, -nu pbar/(1 - nu); "// &
+            "'free': 0; 'hydrostatic': -pbar.", choices='constrained free hydrostatic'), &
+         key_type(real_value, 'yield_stress', '', 'unit of e_star', &
+            'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0, &
+            most_values=2), &
+         key_type(choice_value, 'yield_criterion', "'von_mises'", '', &
+            "which stress reaches the yield stress: 'von_mises', the von Mises stress; 'tresca', twice the largest "// &
+            'shear stress.', choices='von_mises tresca', needs='yield_stress')])
    end function stress_table
 
    !> Sets the defaults that depend on &material and reports what is missing or contradicts.
@@ -97,7 +100,6 @@ contains
             call values%complain(problems, 'section', &
             "the surface does not change along y: section must be 'none' or 'x'")
       end if
-      if (.not. values%has('yield_stress')) call values%leave_out('yield_criterion')
    end subroutine check_stress_group
 
    !> What the group asks for. A rigid body has no stresses, and a body that is like the other is left out.
@@ -114,7 +116,7 @@ contains
       if (values%place == 0) return
       allocate (setting)
       nu = values%pair('nu')
-      lateral = lateral_is(findloc(laterals == values%text('lateral'), .true., dim=1))
+      lateral = lateral_is(values%choice('lateral'))
       allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%text('yield_criterion') == 'tresca'
       if (values%has('yield_stress') .and. p_star > 0.0_dp) setting%yield_stress = values%pair('yield_stress')/p_star

@@ -1,25 +1,28 @@
-!> The &surface group: the gap between the bodies. Its keys are those of the kinds of surface.
+!> The &surface group: the gap between the bodies.
 module wavycon_surface_group
-   use wavycon_ball_kind, only: ball_kind, ball_surface
+   use wavycon_ball_kind, only: ball_surface
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
-   use wavycon_height_map_kind, only: height_map_kind, surface_of_file, surface_of_heights
-   use wavycon_key_relations, only: alternative_group, alternative_type, check_relations
-   use wavycon_key_table, only: key_group_type
+   use wavycon_height_map_kind, only: surface_of_file, surface_of_heights
+   use wavycon_key_relations, only: check_relations
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, of, real_value, &
+      text_value
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
+   use wavycon_map_tuning, only: usual_window_width
+   use wavycon_measured_map, only: most_points
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_problems, only: problem_list_type
-   use wavycon_self_affine_kind, only: check_self_affine, self_affine_kind, self_affine_of
+   use wavycon_self_affine_kind, only: check_self_affine, self_affine_of
    use wavycon_surface, only: surface_type
-   use wavycon_wave_kinds, only: check_sum, get_wave_kinds, number_of_wave_kinds, wave_surface
+   use wavycon_wave_kinds, only: check_sum, wave_surface
    implicit none (type, external)
    private
 
-   public :: get_surface_kinds, surface_table, check_surface_group, check_sides, make_surface
+   public :: surface_table, check_surface_group, check_sides, make_surface
 
-   integer, parameter, public :: number_of_kinds = 8
+   integer, parameter :: longest_path = 1000, most_waves = 1000, highest_wave = 128
 
    !> Largest ratio of the sides of a cell. The iterations on a grid grow as the square root of the longer side over the
    !> shortest step. Up to this ratio waves, sums of waves and random maps of up to 128 x 128 points were all solved,
@@ -28,26 +31,128 @@ module wavycon_surface_group
 
 contains
 
-   !> All kinds, in the order of the key reference. A key that two of them read must have the same type, unit and bounds
-   !> in both; its meaning may differ.
-   subroutine get_surface_kinds(kinds)
-      type(alternative_type), intent(out) :: kinds(number_of_kinds)
-
-      call get_wave_kinds(kinds(:number_of_wave_kinds))
-      kinds(6) = height_map_kind()
-      kinds(7) = self_affine_kind()
-      kinds(8) = ball_kind()
-   end subroutine get_surface_kinds
-
    !> The table of keys of &surface: `kind` and the keys of all kinds of surface.
    function surface_table() result(table)
       type(key_group_type) :: table
 
-      type(alternative_type) :: kinds(number_of_kinds)
+      character(*), parameter :: on_a_ball = "a ball that the map or the surface lies on, with edges = 'free'."
 
-      call get_surface_kinds(kinds)
-      table = alternative_group('surface', 'which waves or heights the bodies carry', 'kind', '', kinds, &
-                                required=.true.)
+      table = key_group_type('surface', 'which waves or heights the bodies carry', required=.true., selector='kind', &
+                             keys=[ &
+         key_type(choice_value, 'kind', '', '', &
+            "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': amplitude (1 - cos phi "// &
+            "cos theta), theta = 2 pi y/wavelength_y. 'crossed_1d': a wave on each of two blocks. 'hexagonal': "// &
+            "three equal waves at 60 degrees to each other. 'sum': any waves. 'file': a height map. 'self_affine': "// &
+            "a random rough surface, made from its spectrum. 'ball': a ball on a half-space, not repeated.", &
+            choices='wave_1d wave_2d crossed_1d hexagonal sum file self_affine ball', required=.true.), &
+         of('wave_1d wave_2d hexagonal', [ &
+            key_type(real_value, 'amplitude', '1.0', 'length', &
+               'mean gap before load, of wave_1d and wave_2d half the height from trough to crest; 0 is a flat '// &
+               'surface.', least=0), &
+            key_type(real_value, 'wavelength', '1.0', 'length', &
+               'wavelength along x, of hexagonal that of each of the three waves.', above=0)]), &
+         of('wave_2d', key_type(real_value, 'wavelength_y', 'wavelength', 'length', 'wavelength along y.', above=0)), &
+         of('crossed_1d', [ &
+            key_type(real_value, 'amplitude1', '', 'length', &
+               'amplitude of the wave along x, on the first block.', least=0, required=.true.), &
+            key_type(real_value, 'wavelength1', '', 'length', 'wavelength along x.', above=0, required=.true.), &
+            key_type(real_value, 'amplitude2', '', 'length', &
+               'amplitude of the wave along y, on the second block.', least=0, required=.true.), &
+            key_type(real_value, 'wavelength2', '', 'length', 'wavelength along y.', above=0, required=.true.)]), &
+         of('sum file self_affine ball', [ &
+            key_type(real_value, 'length_x', '1.0', 'length', 'side of the periodic cell along x.', above=0), &
+            key_type(real_value, 'length_y', 'length_x', 'length', &
+               'side of the periodic cell along y; without it points of a file are equally far apart along x and y.', &
+               above=0)]), &
+         of('sum', [ &
+            key_type(real_value, 'amplitudes', '', 'length', &
+               'the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) - phases).', &
+               most_values=most_waves, required=.true.), &
+            key_type(integer_value, 'waves_x', '', '', &
+               'number of periods of each wave in the cell along x; may be negative.', -highest_wave, highest_wave, &
+               most_values=most_waves, required=.true.), &
+            key_type(integer_value, 'waves_y', '0', '', &
+               'number of periods of each wave in the cell along y. If all are 0 the surface is a profile.', &
+               -highest_wave, highest_wave, most_values=most_waves), &
+            key_type(real_value, 'phases', '0', 'degree', 'phase of each wave.', -360, 360, most_values=most_waves)]), &
+         of('file', [ &
+            key_type(text_value, 'file', '', '', &
+               'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
+               "program is started. The last row and column are the cell's last, not copies of the first.", &
+               longest=longest_path, required=.true.), &
+            key_type(choice_value, 'file_format', "'auto'", '', &
+               "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
+               "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if "// &
+               'all lines have three numbers, xz if all have two. xyz and xz give the sides of the cell, gsf and '// &
+               'heads of texts also units: leave out length_x and length_y.', choices='auto matrix xyz xz npy gsf'), &
+            key_type(real_value, 'missing_value', '', '-', &
+               'heights of the file that have this value are missing, as are nan and empty fields between commas, '// &
+               'semicolons or tabs.'), &
+            key_type(real_value, 'height_scale', '1.0', 'length', &
+               "length of one unit of the file's heights; beside a file with units a factor.", above=0), &
+            key_type(logical_value, 'crop_missing', '.false.', '', &
+               'whether rows and columns at the borders in which all heights are missing are cut off. The sides of '// &
+               'the cell are those of the whole file.'), &
+            key_type(logical_value, 'despike', '.false.', '', &
+               'whether spikes, heights far from all around them, become the median of their neighbours.'), &
+            key_type(choice_value, 'detrend', "'none'", '', &
+               "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' "// &
+               "or 'quadratic', a polynomial of the second degree.", choices='none mean plane quadratic'), &
+            key_type(choice_value, 'fill_missing', "'none'", '', &
+               "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
+               "smooth surface of Laplace's equation.", choices='none harmonic')]), &
+         of('file self_affine', &
+            key_type(choice_value, 'edges', "'periodic'", '', &
+               "how the surface continues beyond its borders: 'periodic', its last points are neighbours of its "// &
+               "first; 'free', not at all: it is pressed on a half-space; of file also 'mirror', by its mirror "// &
+               "images; 'window', periodic after a taper to the mean at the borders.", &
+               choices='periodic mirror window free')), &
+         of('file', &
+            key_type(real_value, 'window_width', short_number(usual_window_width), '-', &
+               "with edges = 'window': width of the taper at each border, over the side.", above=0, most=0.5_dp, &
+               needs="edges='window'")), &
+         of('file self_affine', [ &
+            key_type(real_value, 'short_wavelength', '', 'length', &
+               'shortest wave; without it all waves of a file stay, and the short cut-off of self_affine is '// &
+               'rolloff_wavelength/64.', above=0), &
+            key_type(real_value, 'form_radius', '', 'length', &
+               'radius of '//on_a_ball, above=0, way=30, needs="edges='free'"), &
+            key_type(real_value, 'form_radius_x', '', 'length', &
+               'radius of curvature along x of '//on_a_ball, above=0, way=31, needs="form_radius_y edges='free'"), &
+            key_type(real_value, 'form_radius_y', '', 'length', &
+               'radius of curvature along y.', above=0, way=31, needs="form_radius_x edges='free'")]), &
+         of('self_affine', [ &
+            key_type(real_value, 'hurst', '0.8', '-', 'Hurst exponent of the roughness.', 0, 1), &
+            key_type(real_value, 'rms_height', '', 'length', &
+               'root mean square of the height; or give rms_slope.', above=0, way=10, required=.true.), &
+            key_type(real_value, 'rms_slope', '', '-', &
+               'root mean square of the slope, the size of the gradient; or give rms_height.', above=0, way=11), &
+            key_type(real_value, 'spectral_density', '', 'length^4', &
+               'in place of rms_height or rms_slope: the spectral density of waves longer than rolloff_wavelength, '// &
+               'as &output spectrum has it; of a profile in length^3.', above=0, way=12), &
+            key_type(real_value, 'long_wavelength', 'the longer side of the cell', 'length', &
+               'longest wave, the long cut-off.', above=0), &
+            key_type(real_value, 'rolloff_wavelength', 'long_wavelength', 'length', &
+               'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', above=0), &
+            key_type(choice_value, 'spectrum', "'ideal'", '', &
+               "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process "// &
+               'with this spectrum. Phases are random.', choices='ideal random'), &
+            key_type(integer_value, 'seed', '1', '', &
+               'of the random numbers. The surface depends on the seed and on the keys above, not on points.', 1, &
+               huge(1))]), &
+         of('self_affine ball', &
+            key_type(integer_value, 'points', 'as kind says', '', &
+               'points of the cell along x and y on which the surface is made, and solved unless &method says '// &
+               'otherwise; one number for both, and 1 along y for a profile. The default of self_affine is the '// &
+               'least power of two with at least four points to short_wavelength, if that is not more than 8192; '// &
+               'without points of a ball grids are refined to the accuracy of &method.', 1, most_points, &
+               most_values=2)), &
+         of('ball', [ &
+            key_type(real_value, 'radius', '', 'length', 'radius of the ball.', above=0, way=20, required=.true.), &
+            key_type(real_value, 'radius_x', '', 'length', &
+               'radius of curvature along x of the ball.', above=0, way=21, needs='radius_y'), &
+            key_type(real_value, 'radius_y', '', 'length', &
+               'radius of curvature along y.', above=0, way=21, needs='radius_x')])])
    end function surface_table
 
    !> Checks the keys against the kind and sets the defaults that depend on it.

@@ -1,9 +1,10 @@
 !> The values of one group of a deck: for each key of the group's table the value that the deck gives, or its default.
 module wavycon_group_values
    use wavycon_assertion, only: assert
-   use wavycon_key_table, only: key_group_type, key_index
+   use wavycon_key_table, only: integer_value, key_group_type, key_index, logical_value, real_value, words_of
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
@@ -23,7 +24,7 @@ module wavycon_group_values
    !> To ask for a key that is not in the table is a programming error: a Debug build stops, any other build returns
    !> false, 0, or an empty list or text.
    type :: group_values
-      type(key_group_type) :: table
+      type(key_group_type), pointer :: table => null()
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
       character(:), allocatable :: length_unit   !! the deck's label of lengths, for &surface; empty: it gives none
       integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
@@ -43,6 +44,8 @@ module wavycon_group_values
       procedure :: integer => get_integer
       procedure :: logical => get_logical
       procedure :: text
+      procedure :: choice
+      procedure :: words
       procedure :: set
       procedure :: set_default
       procedure :: complain
@@ -54,14 +57,14 @@ contains
    !> Sets the defaults of the table. A key whose default is in words has no value until `set_default` is called.
    subroutine start(self, table, deck_path)
       class(group_values), intent(out) :: self
-      type(key_group_type), intent(in) :: table
+      type(key_group_type), intent(in), target :: table   !! stays as long as the values
       character(*), intent(in) :: deck_path
 
       type(word_value) :: value
       character(:), allocatable :: trouble
       integer :: k
 
-      self%table = table
+      self%table => table
       self%deck_path = deck_path
       self%length_unit = ''
       allocate (self%entries(0:size(table%keys)))
@@ -202,6 +205,51 @@ contains
 
       words = self%entries(self%find(key))%text
    end function text
+
+   !> The number of the value of a choice key among its choices; 0 if it has none.
+   pure integer function choice(self, key)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key
+
+      integer :: k
+
+      k = self%find(key)
+      choice = 0
+      if (k > 0) choice = findloc(words_of(self%table%keys(k)%choices) == self%text(key), .true., dim=1)
+   end function choice
+
+   !> A value as a deck gives it, numbers to all digits and texts without quotes.
+   pure function words(self, key, between) result(text)
+      class(group_values), intent(in) :: self
+      character(*), intent(in) :: key       !! of the table
+      character(*), intent(in) :: between   !! two numbers
+      character(:), allocatable :: text
+
+      integer, parameter :: most_digits = 24   !! and signs of a number
+      character(:), allocatable :: number
+      integer :: i, used
+
+      associate (kind => self%table%keys(self%find(key))%kind, numbers => self%entries(self%find(key))%numbers)
+         select case (kind)
+         case (real_value, integer_value)
+            ! To append each number would copy the text each time, for up to 100000 numbers.
+            allocate (character((most_digits + len(between))*size(numbers)) :: text)
+            used = 0
+            do i = 1, size(numbers)
+               number = exact_number(numbers(i))
+               if (kind == integer_value) number = integer_text(nint(numbers(i)))
+               if (i > 1) number = between//number
+               text(used + 1:used + len(number)) = number
+               used = used + len(number)
+            end do
+            text = text(:used)
+         case (logical_value)
+            text = trim(merge('.true. ', '.false.', self%logical(key)))
+         case default
+            text = self%text(key)
+         end select
+      end associate
+   end function words
 
    !> Sets a value in place of the deck's or the default.
    pure subroutine set(self, key, numbers, text)

@@ -2,46 +2,46 @@
 !>
 !> Checks of decks, the key reference of --help and the comments of resolved decks all follow from these tables.
 module wavycon_key_table
-   use wavycon_constants, only: largest_number
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: exact_number, in_quotes, integer_text, listed, short_number
+   use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
    implicit none (type, external)
    private
 
-   public :: key_type, key_group_type, real_key, integer_key, logical_key, text_key, choice_key
-   public :: allowed_values, key_index, number_text, ways_in_words
+   public :: key_type, key_group_type, of
+   public :: allowed_values, full_meaning, is_read, key_index, ways_in_words, words_of
 
    !> Types of values.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
       choice_value = 5
-   character(*), parameter, public :: type_names(*) = ['real   ', 'integer', 'logical', 'text   ', 'choice ']
 
-   integer, parameter :: name_length = 24, choice_length = 12
-   integer, parameter, public :: most_choices = 12
+   integer, parameter, public :: name_length = 24
+   real(dp), parameter, public :: no_bound = huge(1.0_dp)
    integer, parameter, public :: meaning_length = 640
 
    type :: key_type
-      character(name_length) :: name = ''
       integer :: kind = real_value
-      character(meaning_length) :: meaning = ''
+      character(name_length) :: name = ''
       !> As in a deck; in words if it depends on other keys: the group's check then sets it. Empty: no default.
       character(40) :: default = ''
       character(24) :: unit = ''                         !! '-' if dimensionless; empty for texts, flags and counts
-      logical :: required = .false.                      !! whether a deck must give it, or what gives the same
-      !> Keys of a group that give the same quantity in different ways have the same tens here, which are not 0, and
-      !> different ones: they contradict each other, and --set of one of them replaces the others.
-      integer :: way = 0
-      !> What must stand beside the key in a deck: names of keys of the group, or key='value', with blanks between them.
-      character(32) :: needs = ''
-      real(dp) :: least = -largest_number, most = largest_number
-      logical :: above = .false., below = .false.        !! whether `least` and `most` themselves are excluded
+      character(meaning_length) :: meaning = ''
+      real(dp) :: least = -no_bound, most = no_bound     !! bounds of a number, themselves allowed
+      real(dp) :: above = -no_bound, below = no_bound    !! bounds, themselves excluded
       integer :: most_values = 1                         !! more than 1: a list
       integer :: longest = 0                             !! bytes of a text
       logical :: may_be_blank = .false.                  !! of a text
-      integer :: number_of_choices = 0
-      character(choice_length) :: choices(most_choices) = ''   !! only the first number_of_choices are set
-      !> Which choices of the group's selector read the key, and which need it; none: it is not a key of alternatives.
-      logical :: read_by(most_choices) = .false., needed_by(most_choices) = .false.
+      character(80) :: choices = ''                      !! the words that a choice may be, with blanks between them
+      logical :: required = .false.                      !! whether a deck must give it, or what gives the same
+      !> Keys of a group that give the same quantity in different ways have the same tens here, which are not 0, and
+      !> different ones: they contradict each other, --set of one of them replaces the others, and of defaults only that
+      !> of the way that is given has an effect.
+      integer :: way = 0
+      !> What must stand beside the key in a deck: names of keys of the group, or key='value', with blanks between them.
+      !> Without it its default has no effect.
+      character(32) :: needs = ''
+      !> Of a group with a selector: the choices of the selector with which the key is read, with blanks between them;
+      !> empty: all.
+      character(48) :: of = ''
    end type key_type
 
    type :: key_group_type
@@ -49,82 +49,54 @@ module wavycon_key_table
       character(80) :: meaning = ''
       type(key_type), allocatable :: keys(:)
       logical :: required = .false.
-      character(name_length) :: selector = ''      !! the key that selects an alternative; empty: there are none
+      !> The key that selects an alternative, as a kind of surface or a solver, by its name; empty: there are none.
+      character(name_length) :: selector = ''
    end type key_group_type
 
 contains
 
-   !> A key whose value is a number or, with most_values, a list of numbers.
-   pure function real_key(name, default, unit, meaning, least, most, above, below, most_values, required, way, needs) &
-      result(key)
-      character(*), intent(in) :: name, default, unit, meaning
-      real(dp), intent(in), optional :: least, most    !! bounds, themselves allowed
-      real(dp), intent(in), optional :: above, below   !! bounds, themselves excluded
-      integer, intent(in), optional :: most_values, way
-      logical, intent(in), optional :: required
-      character(*), intent(in), optional :: needs
-      type(key_type) :: key
+   !> Keys that are read with some choices of the group's selector only.
+   elemental type(key_type) function of(choices, key) result(own)
+      character(*), intent(in) :: choices   !! as of key_type
+      type(key_type), intent(in) :: key
 
-      key = key_type(name, real_value, meaning, default, unit)
-      if (present(least)) key%least = least
-      if (present(most)) key%most = most
-      if (present(above)) key%least = above
-      if (present(below)) key%most = below
-      key%above = present(above)
-      key%below = present(below)
-      if (present(most_values)) key%most_values = most_values
-      if (present(required)) key%required = required
-      if (present(way)) key%way = way
-      if (present(needs)) key%needs = needs
-   end function real_key
+      own = key
+      own%of = choices
+   end function of
 
-   !> A key whose value is an integer from least to most or, with most_values, a list of them.
-   pure function integer_key(name, default, meaning, least, most, most_values, required, way, needs) result(key)
-      character(*), intent(in) :: name, default, meaning
-      integer, intent(in) :: least, most
-      integer, intent(in), optional :: most_values, way
-      logical, intent(in), optional :: required
-      character(*), intent(in), optional :: needs
-      type(key_type) :: key
+   !> The words of a text with blanks between them.
+   pure function words_of(text) result(words)
+      character(*), intent(in) :: text
+      character(name_length), allocatable :: words(:)
 
-      key = real_key(name, default, '', meaning, real(least, dp), real(most, dp), most_values=most_values, &
-                     required=required, way=way, needs=needs)
-      key%kind = integer_value
-   end function integer_key
+      character(:), allocatable :: left
+      integer :: blank
 
-   pure function logical_key(name, default, meaning, needs) result(key)
-      character(*), intent(in) :: name, default, meaning
-      character(*), intent(in), optional :: needs   !! if it is true
-      type(key_type) :: key
+      allocate (words(0))
+      left = trim(adjustl(text))//' '
+      do while (left /= '')
+         blank = index(left, ' ')
+         words = [character(name_length) :: words, left(:blank)]
+         left = adjustl(left(blank:))
+      end do
+   end function words_of
 
-      key = key_type(name, logical_value, meaning, default)
-      if (present(needs)) key%needs = needs
-   end function logical_key
+   !> Whether a key is read with a choice of the group's selector.
+   elemental logical function is_read(key, choice)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: choice
 
-   pure function text_key(name, default, meaning, longest, may_be_blank, required) result(key)
-      character(*), intent(in) :: name, default, meaning
-      integer, intent(in) :: longest
-      logical, intent(in), optional :: may_be_blank, required
-      type(key_type) :: key
+      is_read = key%of == '' .or. index(' '//key%of, ' '//trim(choice)//' ') > 0
+   end function is_read
 
-      key = key_type(name, text_value, meaning, default, longest=longest)
-      if (present(may_be_blank)) key%may_be_blank = may_be_blank
-      if (present(required)) key%required = required
-   end function text_key
+   !> The meaning of a key, with the choices that read it: "Of a and b: this."
+   pure function full_meaning(key) result(words)
+      type(key_type), intent(in) :: key
+      character(:), allocatable :: words
 
-   !> A key whose value is one of a few words.
-   pure function choice_key(name, default, meaning, choices, required, needs) result(key)
-      character(*), intent(in) :: name, default, meaning
-      character(*), intent(in) :: choices(:)  !! at most `most_choices`
-      logical, intent(in), optional :: required
-      character(*), intent(in), optional :: needs
-      type(key_type) :: key
-
-      key = key_type(name, choice_value, meaning, default, number_of_choices=size(choices))
-      key%choices(:size(choices)) = choices
-      if (present(required)) key%required = required
-      if (present(needs)) key%needs = needs
-   end function choice_key
+      words = trim(key%meaning)
+      if (key%of /= '') words = 'Of '//listed(words_of(key%of), ' and ')//': '//words
+   end function full_meaning
 
    !> The number of a key in a table; 0 if it is not there.
    pure integer function key_index(keys, name)
@@ -153,7 +125,7 @@ contains
       case (text_value)
          words = 'text in quotes, at most '//integer_text(key%longest)//' bytes'
       case (choice_value)
-         words = listed(in_quotes(key%choices(:key%number_of_choices)), ' or ')
+         words = listed(in_quotes(words_of(key%choices)), ' or ')
       end select
    end function allowed_values
 
@@ -177,42 +149,17 @@ contains
       words = listed(pack(ways, ways /= ''), ', or ')
    end function ways_in_words
 
-   !> Numbers of a real or integer key as a deck gives them, to all digits.
-   pure function number_text(key, numbers, between) result(text)
-      type(key_type), intent(in) :: key
-      real(dp), intent(in) :: numbers(:)
-      character(*), intent(in) :: between   !! two numbers
-      character(:), allocatable :: text
-
-      integer, parameter :: most_digits = 24   !! and signs of a number
-      character(:), allocatable :: number, room
-      integer :: i, used
-
-      ! To append to `text` would copy it each time, for up to 100000 numbers.
-      allocate (character((most_digits + len(between))*size(numbers)) :: room)
-      used = 0
-      do i = 1, size(numbers)
-         number = exact_number(numbers(i))
-         if (key%kind == integer_value) number = integer_text(nint(numbers(i)))
-         if (i > 1) number = between//number
-         room(used + 1:used + len(number)) = number
-         used = used + len(number)
-      end do
-      text = room(:used)
-   end function number_text
-
    !> The bounds of a number, with a blank before them; empty if there are none.
    pure function bounds(key) result(words)
       type(key_type), intent(in) :: key
       character(:), allocatable :: words
 
       words = ''
-      if (key%least > -largest_number) words = merge(' > ', ' >=', key%above)
-      if (key%least > -largest_number) words = trim(words)//' '//short_number(key%least)
-      if (key%most < largest_number) then
-         if (len(words) > 0) words = words//' and'
-         words = words//trim(merge(' < ', ' <=', key%below))//' '//short_number(key%most)
-      end if
+      if (key%least > -no_bound) words = ' >= '//short_number(key%least)
+      if (key%above > -no_bound) words = ' > '//short_number(key%above)
+      if (len(words) > 0 .and. min(key%most, key%below) < no_bound) words = words//' and'
+      if (key%most < no_bound) words = words//' <= '//short_number(key%most)
+      if (key%below < no_bound) words = words//' < '//short_number(key%below)
    end function bounds
 
 end module wavycon_key_table

@@ -5,7 +5,7 @@ module wavycon_key_values
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_decimal_number, only: read_decimal
    use wavycon_key_table, only: allowed_values, choice_value, integer_value, key_type, logical_value, &
-      real_value, text_value
+      name_length, real_value, text_value, words_of
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted
@@ -97,8 +97,7 @@ contains
       else if (.not. is_integer .and. (abs(number) > largest_number .or. &
                                        (abs(number) < smallest_number .and. abs(number) > 0.0_dp))) then
          trouble = must_be(key, word)//'; numbers may be 0 or from 1e-90 to 1e90 in size'
-      else if (number < key%least .or. number > key%most .or. key%above .and. number <= key%least .or. &
-               key%below .and. number >= key%most) then
+      else if (number < key%least .or. number > key%most .or. number <= key%above .or. number >= key%below) then
          trouble = must_be(key, word)
       end if
    end subroutine read_number
@@ -131,17 +130,18 @@ contains
       character(:), allocatable, intent(out) :: text
       character(:), allocatable, intent(out) :: trouble
 
+      character(name_length), allocatable :: choices(:)
+
       text = word
-      associate (choices => key%choices(:key%number_of_choices))
-         if (is_constant(word)) then
-            text = unquoted(word)
-            if (len(text) <= len(choices) .and. any(choices == text)) return
-         else if (any(choices == lower_case(word))) then
-            trouble = trim(key%name)//" must be in quotes: '"//lower_case(word)//"'"
-            return
-         end if
-         trouble = must_be(key, word)//did_you_mean(lower_case(text), choices, "'", "'")
-      end associate
+      choices = words_of(key%choices)
+      if (is_constant(word)) then
+         text = unquoted(word)
+         if (any(choices == text)) return   ! blanks at its end are ignored
+      else if (any(choices == lower_case(word))) then
+         trouble = trim(key%name)//" must be in quotes: '"//lower_case(word)//"'"
+         return
+      end if
+      trouble = must_be(key, word)//did_you_mean(lower_case(text), choices, "'", "'")
    end subroutine read_choice
 
    !> Whether a word, which ends with its closing quote if it begins with a quote, is a character constant.

@@ -3,16 +3,15 @@ module wavycon_deck_session
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_deck, only: deck_type
    use wavycon_deck_groups, only: read_group_text
+   use wavycon_deck_tables, only: load_number
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_find_interface, only: find_interface
    use wavycon_find_stresses, only: find_stresses
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, check_loads_of_surface, load_table
-   use wavycon_make_scene, only: make_scene, take_loads
+   use wavycon_load_group, only: check_load_group, check_loads_of_surface, take_loads
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen
    use wavycon_plain_text, only: exact_number, integer_text, newline
@@ -91,14 +90,12 @@ contains
       real(dp), intent(in), optional :: heights(:, :)
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
-      type(deck_type) :: deck
       type(scene_type), allocatable :: scene
       type(table_type), allocatable :: tables(:)
 
-      call parse_deck(deck_text_type(path, text), deck, error, settings, heights, in_memory=.true.)
-      if (allocated(error)) return
       allocate (scene)
-      call make_scene(deck, scene)
+      call parse_deck(deck_text_type(path, text), scene, error, settings, heights, in_memory=.true.)
+      if (allocated(error)) return
       ! A search by yield asks for stresses.
       self%keeps_fields = keep_fields .or. scene%loads_by == by_yield
       call start_results(scene, self%results, tables, self%keeps_fields)
@@ -154,7 +151,7 @@ contains
 
       call check_ready(self, error)
       if (allocated(error)) return
-      call read_group_text(load_table(), quantity//' = '//exact_number(value), values, text, problems)
+      call read_group_text(load_number, quantity//' = '//exact_number(value), values, text, problems)
       call check_load_group(values, self%results%scene%interface%has('work_of_adhesion'), problems)
       if (problems%number == 0) &
          call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems, &

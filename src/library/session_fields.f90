@@ -9,16 +9,17 @@ module wavycon_session_fields
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_groups, only: read_group_text
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
+   use wavycon_deck_tables, only: deck_tables, material_number, stress_number
    use wavycon_deck_text, only: deck_text_type
    use wavycon_elastic_body, only: elastic_body
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
-   use wavycon_material_group, only: material_table
    use wavycon_plain_text, only: exact_number, integer_text, quoted
    use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
-   use wavycon_stress_group, only: make_stress_setting, stress_table
+   use wavycon_stress_group, only: make_stress_setting
    use wavycon_stress_setting, only: stress_setting
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
@@ -225,17 +226,19 @@ contains
       type(deck_text_type) :: text
       type(group_values) :: material, values
       type(problem_list_type) :: problems
+      type(key_group_type), pointer :: tables(:)
       type(stress_setting), allocatable :: setting
 
       call own_points(session, solved, points, offset, error)
       if (allocated(error)) return
-      call read_group_text(stress_table(), 'nu = '//exact_number(nu)//', lateral = '//quoted(lateral), values, text, &
+      call read_group_text(stress_number, 'nu = '//exact_number(nu)//', lateral = '//quoted(lateral), values, text, &
                            problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return
       end if
-      call material%start(material_table(), '')
+      tables => deck_tables()
+      call material%start(tables(material_number), '')
       call make_stress_setting(values, material, 0.0_dp, setting)
       body = setting%body(1)
       if (allocated(solved%stresses) .or. .not. session%scale%p_star > 0.0_dp) return

@@ -5,8 +5,8 @@ module wavycon_mpi_ranks
       mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
       mpi_datatype, mpi_double_precision, mpi_finalize, mpi_get_library_version, mpi_ibarrier, mpi_in_place, &
       mpi_info_null, mpi_init_thread, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, mpi_max_library_version_string, &
-      mpi_request, mpi_status_ignore, mpi_statuses_ignore, mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, &
-      mpi_type_contiguous, mpi_type_create_hindexed_block, mpi_type_free, mpi_type_vector, mpi_waitall
+      mpi_proc_null, mpi_request, mpi_status_ignore, mpi_statuses_ignore, mpi_sum, mpi_test, mpi_thread_funneled, &
+      mpi_type_commit, mpi_type_contiguous, mpi_type_create_hindexed_block, mpi_type_free, mpi_type_vector, mpi_waitall
    use wavycon_error, only: exit_bad_input, exit_file_trouble
    use wavycon_kinds, only: dp
    use wavycon_ranks, only: communicator, use_communicator
@@ -86,22 +86,17 @@ contains
 
       !> Two ranks may be neighbours on both sides: the tag tells which block a message is.
       integer, parameter :: downwards = 1, upwards = 2
+      integer :: above, below
       type(mpi_request) :: requests(4)
-      integer :: number
 
       associate (unused => self); end associate
-      number = 0
-      if (low >= 0) then
-         call mpi_irecv(from_low, bytes, mpi_byte, low, upwards, mpi_comm_world, requests(number + 1))
-         call mpi_isend(to_low, bytes, mpi_byte, low, downwards, mpi_comm_world, requests(number + 2))
-         number = number + 2
-      end if
-      if (high >= 0) then
-         call mpi_irecv(from_high, bytes, mpi_byte, high, downwards, mpi_comm_world, requests(number + 1))
-         call mpi_isend(to_high, bytes, mpi_byte, high, upwards, mpi_comm_world, requests(number + 2))
-         number = number + 2
-      end if
-      call mpi_waitall(number, requests, mpi_statuses_ignore)
+      below = merge(low, mpi_proc_null, low >= 0)
+      above = merge(high, mpi_proc_null, high >= 0)
+      call mpi_irecv(from_low, bytes, mpi_byte, below, upwards, mpi_comm_world, requests(1))
+      call mpi_isend(to_low, bytes, mpi_byte, below, downwards, mpi_comm_world, requests(2))
+      call mpi_irecv(from_high, bytes, mpi_byte, above, downwards, mpi_comm_world, requests(3))
+      call mpi_isend(to_high, bytes, mpi_byte, above, upwards, mpi_comm_world, requests(4))
+      call mpi_waitall(size(requests), requests, mpi_statuses_ignore)
    end subroutine exchange
 
    !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.

@@ -6,7 +6,7 @@ module wavycon_table
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_index, logical_value, text_value
    use wavycon_kinds, only: dp
-   use wavycon_methods, only: solvers_with
+   use wavycon_methods, only: solvers_for
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: short_number
    use wavycon_results, only: results_type
@@ -154,7 +154,7 @@ contains
 
          character(:), allocatable :: others
 
-         others = solvers_with(trim(self%file), surface)
+         others = solvers_for(surface, trim(self%file))
          words = "solver = '"//trim(solver_names(traits%solver))//"' "//what
          if (others == '') then
             words = words//', nor does any other for this surface'

@@ -1,8 +1,6 @@
 !> Runs a deck as the program does.
 module wavycon_deck_run
-   use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type, exit_fine
-   use wavycon_make_scene, only: make_scene
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
@@ -27,7 +25,6 @@ contains
       integer, intent(out) :: status          !! the program's exit status: exit_fine, exit_not_converged or the error's
       type(error_type), allocatable, intent(out) :: error
 
-      type(deck_type) :: deck
       type(results_type) :: results
       type(scene_type), allocatable :: scene
       type(setting_type), allocatable :: settings(:)
@@ -35,11 +32,8 @@ contains
       allocate (settings(merge(0, 1, directory == '')))
       if (size(settings) > 0) settings(1) = setting_type('output', 'directory', directory)
       status = exit_fine
-      call read_deck(path, deck, error, settings)
-      if (.not. allocated(error)) then
-         allocate (scene)
-         call make_scene(deck, scene)
-      end if
+      allocate (scene)
+      call read_deck(path, scene, error, settings)
       if (.not. allocated(error)) call run_scene(scene, quiet, .false., results, status, error)
       if (allocated(error)) status = error%status
    end subroutine run_deck

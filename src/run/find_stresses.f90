@@ -53,15 +53,10 @@ contains
       type(work_sharing), intent(in) :: sharing
       type(largest_stress), intent(inout) :: stresses(:, :)   !! shape (bodies, loads); of the own loads
 
-      integer :: load, n
       integer(int64) :: words(size(stresses)*storage_size(stresses)/storage_size(0_int64))
 
       words = transfer(stresses, words)
-      n = size(words)/size(stresses, 2)
-      do load = 1, size(stresses, 2)
-         if (.not. sharing%is_own_load(load)) words((load - 1)*n + 1:load*n) = 0
-      end do
-      call sharing%add(words)
+      call sharing%share_loads(words)
       stresses = reshape(transfer(words, stresses), shape(stresses))
    end subroutine share_stresses
 

@@ -46,7 +46,7 @@ contains
       call log%start(quiet)
       call start_results(scene, results, tables)
       call show_scene(results, log)
-      call check_sharing(results, tables, error)
+      if (results%sharing%kind == distributed_grids) call collect(results, tables, error)
       if (allocated(error)) return
       if (results%sharing%is_shared()) then
          call solve_and_write(results, tables, resume, log, status, error)
@@ -60,25 +60,6 @@ contains
          status = int(status_of_all(1))
       end if
    end subroutine run_scene
-
-   !> Checks that the first rank has the memory for the fields of a given grid, before it is solved. Errors:
-   !> exit_file_trouble.
-   subroutine check_sharing(results, tables, error)
-      type(results_type), intent(in) :: results   !! started
-      type(table_type), intent(in) :: tables(:)
-      type(error_type), allocatable, intent(out) :: error
-
-      integer(int64) :: points
-      integer :: i
-      logical :: by_first(size(tables))
-
-      if (results%sharing%kind /= distributed_grids) return
-      by_first = [(.not. tables(i)%is_written_by_all(results), i=1, size(tables))]
-      points = 0
-      if (any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)) &
-         points = size(results%scene%target)*product(int(results%traits%given_grid, int64))
-      call check_memory(results, points, any(tables%needs_surface .and. by_first), error)
-   end subroutine check_sharing
 
    !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
    subroutine solve_and_write(results, tables, resume, log, status, error)
@@ -124,21 +105,23 @@ contains
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
-      logical :: by_all(size(tables)), by_first
+      logical :: are_distributed, by_all(size(tables))
       integer :: i
 
-      by_first = results%sharing%kind == distributed_grids
+      are_distributed = results%sharing%kind == distributed_grids
       by_all = .false.
-      if (by_first) by_all = [(tables(i)%is_written_by_all(results), i=1, size(tables))]
-      call write_tables(results, tables, by_all, by_first, error)
-      if (allocated(error)) return
-      if (by_first) then
-         call collect(results, any(tables%needs_fields .and. .not. by_all) .or. asks_for_largest(results%scene), &
-                      any(tables%needs_surface .and. .not. by_all), error)
+      if (are_distributed) then
+         by_all = [(tables(i)%is_written_by_all(results), i=1, size(tables))]
+         do i = 1, size(tables)
+            if (by_all(i)) call tables(i)%write(results, error)
+            call results%sharing%share_error(error)
+            if (allocated(error)) return
+         end do
+         call collect(results, tables, error)
          if (allocated(error)) return
          call results%sharing%work_alone(.true.)
       end if
-      if (results%sharing%is_first() .or. .not. by_first) then
+      if (results%sharing%is_first() .or. .not. are_distributed) then
          if (asks_for_largest(results%scene)) then
             call find_stresses(results, log)
             call log%say_timed('largest stresses found')
@@ -146,8 +129,11 @@ contains
          end if
          if (allocated(results%scene%interface_setting)) call find_interface(results, log)
       end if
-      if (results%sharing%is_first()) call write_tables(results, tables, .not. by_all, .false., error)
-      if (by_first) call results%sharing%work_alone(.false.)
+      do i = 1, size(tables)
+         if (results%sharing%is_first() .and. .not. (by_all(i) .or. allocated(error))) &
+            call tables(i)%write(results, error)
+      end do
+      if (are_distributed) call results%sharing%work_alone(.false.)
       call results%sharing%share_error(error)
    end subroutine write_results
 
@@ -260,58 +246,28 @@ contains
       call file%finish(error)
    end subroutine prepare_directory
 
-   !> Writes tables. Errors: exit_file_trouble.
-   subroutine write_tables(results, tables, selected, by_all, error)
-      type(results_type), intent(in) :: results
+   !> Brings what is distributed over the ranks, and what tables need that the first one writes alone, to the first one:
+   !> the fields load by load, the surface. Before the loads are solved it only checks that there is the memory for it,
+   !> as far as the grid is given. Errors: exit_file_trouble if the first rank lacks the memory, on all ranks.
+   subroutine collect(results, tables, error)
+      type(results_type), intent(inout) :: results   !! started
       type(table_type), intent(in) :: tables(:)
-      logical, intent(in) :: selected(:)   !! of each table
-      logical, intent(in) :: by_all        !! whether all ranks write them together: an error of one is that of all
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: i
-
-      do i = 1, size(tables)
-         if (.not. selected(i)) cycle
-         call tables(i)%write(results, error)
-         if (by_all) call results%sharing%share_error(error)
-         if (allocated(error)) return
-      end do
-   end subroutine write_tables
-
-   !> Brings what is distributed over the ranks to the first one: the fields load by load, the surface. Errors:
-   !> exit_file_trouble if it lacks the memory.
-   subroutine collect(results, fields, surface, error)
-      type(results_type), intent(inout) :: results
-      logical, intent(in) :: fields, surface   !! what is needed
-      type(error_type), allocatable, intent(out) :: error
-
-      integer(int64) :: points
-      integer :: load
-
-      points = 0
-      if (fields) points = sum([(results%loads(load)%distributed_points(), load=1, size(results%loads))])
-      call check_memory(results, points, surface, error)
-      if (allocated(error)) return
-      if (fields) then
-         do load = 1, size(results%loads)
-            call results%loads(load)%collect_fields()
-         end do
-      end if
-      if (surface) call gather_series(results%solver%surface%shape, first_only=.true.)
-   end subroutine collect
-
-   !> Checks that the first rank has the memory for what is distributed over the ranks. Its error is that of all.
-   !> Errors: exit_file_trouble.
-   subroutine check_memory(results, points, surface, error)
-      type(results_type), intent(in) :: results
-      integer(int64), intent(in) :: points   !! of the grids of all loads whose fields are needed
-      logical, intent(in) :: surface         !! whether the surface is needed
       type(error_type), allocatable, intent(out) :: error
 
       integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
+      integer :: i, load
       integer(int64) :: numbers
+      logical :: by_first(size(tables)), fields, surface
 
-      numbers = points
+      by_first = [(.not. tables(i)%is_written_by_all(results), i=1, size(tables))]
+      fields = any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)
+      surface = any(tables%needs_surface .and. by_first)
+      numbers = 0
+      if (fields .and. allocated(results%loads)) then
+         numbers = sum([(results%loads(load)%distributed_points(), load=1, size(results%loads))])
+      else if (fields) then
+         numbers = size(results%scene%target)*product(int(results%traits%given_grid, int64))
+      end if
       ! The series, and twice as much while it is gathered.
       if (surface .and. results%solver%surface%is_distributed()) &
          numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
@@ -322,6 +278,11 @@ contains
             "summary, a map with map_format = 'npy' and the points of the grid, and the heights, or solve fewer loads")
       end if
       call results%sharing%share_error(error)
-   end subroutine check_memory
+      if (allocated(error) .or. .not. allocated(results%loads)) return
+      do load = 1, merge(size(results%loads), 0, fields)
+         call results%loads(load)%collect_fields()
+      end do
+      if (surface) call gather_series(results%solver%surface%shape, first_only=.true.)
+   end subroutine collect
 
 end module wavycon_run_scene

@@ -107,21 +107,14 @@ contains
    end subroutine solve_target
 
    !> Gives all ranks the measures of all loads. A rank keeps the solutions of its own loads as they are.
-   !>
-   !> Numbers travel as 8-byte words: sums of words of which all but one are zero are exact, of real numbers those of
-   !> NaN and of -0 are not.
    subroutine share_solutions(results)
       type(results_type), intent(inout) :: results   !! with solutions of the own loads
 
       integer :: load
       integer(int64), allocatable :: words(:)
 
-      allocate (words(record_words*size(results%loads)), source=0_int64)
-      do load = 1, size(results%loads)
-         if (results%sharing%is_own_load(load)) &
-            words((load - 1)*record_words + 1:load*record_words) = words_of_record(results%loads(load))
-      end do
-      call results%sharing%add(words)
+      words = [(words_of_record(results%loads(load)), load=1, size(results%loads))]
+      call results%sharing%share_loads(words)
       do load = 1, size(results%loads)
          if (.not. results%sharing%is_own_load(load)) &
             results%loads(load)%solution_record = record_of_words(words((load - 1)*record_words + 1:load*record_words))

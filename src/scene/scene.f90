@@ -1,4 +1,5 @@
-!> A scene: all that a deck describes, with loads in the program's normalisation (pressures in p*, gaps in Delta).
+!> A scene: all that a deck describes, the checked values of its groups with every default set, the surface, and the
+!> loads in the program's normalisation (pressures in p*, gaps in Delta).
 module wavycon_scene
    use wavycon_group_values, only: group_values
    use wavycon_interface_setting, only: interface_setting
@@ -40,7 +41,8 @@ module wavycon_scene
       !> stress, in the deck's order.
       real(dp), allocatable :: target(:)
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
-      type(group_values) :: stress, interface, method, output   !! the groups of these names
+      !> The groups of these names; `scene_values` and `surface_values` are &scene and &surface.
+      type(group_values) :: scene_values, material, surface_values, load, stress, interface, method, output
       type(stress_setting), allocatable :: stress_setting   !! allocated if the deck has &stress
       type(interface_setting), allocatable :: interface_setting   !! allocated if the deck has &interface
    end type scene_type

@@ -36,6 +36,7 @@ module wavycon_work_sharing
       procedure :: words
       procedure :: deal_loads
       procedure :: is_own_load
+      procedure :: share_loads
       procedure, nopass :: share_numbers
       !> Says whether each rank works on something else from now on, without exchange.
       procedure, nopass :: work_alone
@@ -117,6 +118,23 @@ contains
       is_own_load = .true.
       if (allocated(self%rank_of_load)) is_own_load = self%rank_of_load(load) == self%rank
    end function is_own_load
+
+   !> Gives all ranks what each has of its own loads.
+   !>
+   !> It travels as 8-byte words: sums of words of which all but one are zero are exact, of real numbers those of NaN and
+   !> of -0 are not.
+   subroutine share_loads(self, words)
+      class(work_sharing), intent(in) :: self   !! after deal_loads, with distributed loads
+      integer(int64), intent(inout), contiguous :: words(:)   !! equally many of each load
+
+      integer :: load, n
+
+      n = size(words)/size(self%rank_of_load)
+      do load = 1, size(self%rank_of_load)
+         if (.not. self%is_own_load(load)) words((load - 1)*n + 1:load*n) = 0
+      end do
+      call add_integers_over_ranks(words)
+   end subroutine share_loads
 
    !> Gives all ranks the numbers that one of them has, bit by bit.
    subroutine share_numbers(is_own, numbers)

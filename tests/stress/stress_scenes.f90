@@ -9,18 +9,15 @@ program stress_scenes
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: status_name
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_deck, only: deck_type
    use wavycon_error, only: error_type
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_read_deck, only: read_deck
-   use wavycon_make_scene, only: make_scene
    use wavycon_methods, only: start_solver
    use wavycon_scene, only: scene_type
    implicit none (type, external)
 
    type(contact_solution) :: solution
-   type(deck_type) :: deck
    type(error_type), allocatable :: error
    type(grid_kkt) :: of_grid
    type(scene_type) :: scene
@@ -30,9 +27,8 @@ program stress_scenes
    integer :: i
 
    if (all(command_argument_count() /= [1, 2])) error stop 'usage: stress_scenes DECK [HARDNESS]'
-   call read_deck(word(1), deck, error)
+   call read_deck(word(1), scene, error)
    call stop_on(error)
-   call make_scene(deck, scene)
    call start_solver(scene%surface, scene%method, .true., solver)
    do i = 1, size(scene%target)
       if (command_argument_count() > 1) then

@@ -5,7 +5,7 @@
 module unit_support
    use wavycon, only: dp, error_type, surface_type, wave_1d, wave_2d
    use wavycon_contact_measures, only: contact_measures
-   use wavycon_deck, only: deck_type
+   use wavycon_scene, only: scene_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_map_file, only: read_height_map
    use wavycon_measured_map, only: measured_map
@@ -156,7 +156,7 @@ contains
    !> The deck of a text, which must be one.
    subroutine good_deck(content, deck)
       character(*), intent(in) :: content
-      type(deck_type), intent(out) :: deck
+      type(scene_type), intent(out) :: deck
 
       type(error_type), allocatable :: error
 
@@ -169,7 +169,7 @@ contains
       character(*), intent(in) :: content
       character(:), allocatable :: words
 
-      type(deck_type) :: deck
+      type(scene_type) :: deck
       type(error_type), allocatable :: error
 
       call parse_deck(deck_text_type('a.nml', content), deck, error)

@@ -1,10 +1,9 @@
-!> The keys of solver = 'beale', the paper's truncated Fourier series.
+!> What the keys of solver = 'beale', the paper's truncated Fourier series, mean: limits, checks and options.
 module wavycon_beale_keys
    use wavycon_beale_contact, only: paper_constraint_points, paper_harmonics, qp_options
    use wavycon_constraint_points, only: choose_points
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_key, integer_key, key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -12,43 +11,16 @@ module wavycon_beale_keys
    implicit none (type, external)
    private
 
-   public :: beale_in_words, beale_keys, beale_options, check_beale_keys
+   public :: beale_in_words, beale_options, check_beale_keys
 
    !> Largest values accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for hours.
-   integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
+   integer, parameter, public :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
    !> Most elements of the constraints' matrix. A few copies of it exist at a time, each of 160 MB.
    real(dp), parameter :: most_elements = 2.0e7_dp
-   !> The choices of `symmetry`.
-   character(8), parameter :: symmetries(*) = ['full    ', 'diagonal', 'none    ']
+   !> The choices of `symmetry`, in the order of its key.
    integer, parameter :: symmetry_is(*) = [symmetry_full, symmetry_diagonal, symmetry_none]
 
 contains
-
-   function beale_keys() result(keys)
-      type(key_type) :: keys(5)
-
-      type(qp_options) :: default
-
-      keys = [ &
-         integer_key('harmonics', '9 (2-D), 10 (1-D)', 'highest harmonic of the pressure, in each direction.', &
-            1, most_harmonics), &
-         integer_key('constraint_points', 'in proportion to harmonics', &
-            'equally spaced points on half a wavelength, ends included, in each direction, '// &
-            'at which the pressure is constrained. More than harmonics; at most 601 in 2-D. The default is '// &
-            "3 harmonics in 2-D and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
-            maxval(most_constraint_points)), &
-         choice_key('symmetry', "'full'", &
-            "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
-            "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
-            symmetries), &
-         choice_key('minimiser', "'dual'", &
-            "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
-            "method, from the load before; 'beale': Beale's method as in the paper, "// &
-            "each load from an even pressure.", &
-            ['dual ', 'beale']), &
-         real_key('edge_level', short_number(default%edge_level), 'p*', &
-            'the isobar that is taken as the edge of contact.', above=0.0_dp, below=1.0_dp)]
-   end function beale_keys
 
    !> Sets the defaults that depend on the surface, and reports numbers that do not fit each other or the memory.
    subroutine check_beale_keys(values, surface, problems)
@@ -105,7 +77,7 @@ contains
    pure integer function symmetry_of(values) result(symmetry)
       type(group_values), intent(in) :: values
 
-      symmetry = symmetry_is(findloc(symmetries == values%text('symmetry'), .true., dim=1))
+      symmetry = symmetry_is(values%choice('symmetry'))
    end function symmetry_of
 
    pure type(qp_options) function beale_options(values) result(options)

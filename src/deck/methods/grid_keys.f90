@@ -1,9 +1,7 @@
-!> The keys of solvers that refine to an accuracy, and of those on grids.
+!> What the keys of solvers on grids mean: checks and options.
 module wavycon_grid_keys
-   use wavycon_contact_solver, only: default_accuracy
    use wavycon_grid_contact, only: grid_options
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: integer_key, key_type, real_key
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_problems, only: problem_list_type
@@ -11,33 +9,9 @@ module wavycon_grid_keys
    implicit none (type, external)
    private
 
-   public :: accuracy_key, check_grid_keys, grid_in_words, grid_keys, options_of_grid, points_of_grid
+   public :: check_grid_keys, grid_in_words, options_of_grid, points_of_grid
 
 contains
-
-   !> The key of solvers that refine.
-   pure type(key_type) function accuracy_key() result(key)
-      key = real_key('accuracy', short_number(default_accuracy), '-', &
-         'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
-         '''fitted'' with lines, map, contours, spots, histograms or details also of the gap at a trough. A load '// &
-         'that misses it has the status not_accurate.', least=1.0e-12_dp, most=0.1_dp, way=10)
-   end function accuracy_key
-
-   !> The keys of solvers on grids.
-   pure function grid_keys() result(keys)
-      type(key_type) :: keys(3)
-
-      keys(1) = accuracy_key()
-      keys(2) = integer_key('grid_points', '', &
-         'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
-         'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated '// &
-         'from 64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, way=11)
-      keys(3) = real_key('residual', '', '-', &
-         'with grid_points or a height map on its own points: largest root mean square over the grid of gaps in '// &
-         'contact and of overlaps, over the mean gap, for comparisons with other programs. The default keeps the '// &
-         'iteration error below a tenth of the error estimates.', &
-         least=1.0e-13_dp, most=0.1_dp, way=11)
-   end function grid_keys
 
    !> The grid in effect on the whole cell, along x and y: that of the deck, which refers to surface%parts(), or,
    !> without an accuracy, that which the surface was given on. Zeros if the accuracy decides.

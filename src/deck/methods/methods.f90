@@ -2,18 +2,19 @@
 module wavycon_methods
    use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
       points_are_given, points_are_of_the_map
-   use wavycon_beale_contact, only: beale_contact
-   use wavycon_beale_keys, only: beale_in_words, beale_keys, beale_options, check_beale_keys
+   use wavycon_beale_contact, only: beale_contact, qp_options
+   use wavycon_beale_keys, only: beale_in_words, beale_options, check_beale_keys, most_constraint_points, most_harmonics
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_grid_contact, only: grid_contact
-   use wavycon_grid_keys, only: accuracy_key, check_grid_keys, grid_in_words, grid_keys, options_of_grid
+   use wavycon_grid_keys, only: check_grid_keys, grid_in_words, options_of_grid
    use wavycon_group_values, only: group_values
-   use wavycon_key_relations, only: alternative_group, alternative_type, check_relations
-   use wavycon_key_table, only: key_group_type
+   use wavycon_key_relations, only: check_relations
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
+      words_of
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: in_quotes, listed, short_number
    use wavycon_problems, only: problem_list_type
@@ -22,44 +23,61 @@ module wavycon_methods
    implicit none (type, external)
    private
 
-   public :: method_table, get_methods, check_method_group, default_solver, solvers_for, solvers_with, traits_of, &
+   public :: method_table, check_method_group, default_solver, solvers_for, traits_of, &
       start_solver, why_chosen
 
-   integer, parameter, public :: number_of_methods = 5
-   character(12), parameter :: names(number_of_methods) = [character(12) :: 'beale', 'grid', 'fitted', 'closed_form', &
-                                                           'auto']
+   !> All solvers, in the order of the key reference.
+   character(*), parameter :: names = 'beale grid fitted closed_form auto'
 
 contains
-
-   !> All solvers, in the order of the key reference. A key that two of them read must have the same type, unit and
-   !> bounds in both; its meaning may differ.
-   subroutine get_methods(methods)
-      type(alternative_type), intent(out) :: methods(number_of_methods)
-
-      methods%name = names
-      methods(1)%meaning = "the paper's truncated Fourier series, for its waves; their default. The key minimiser "// &
-         "says how its quadratic programme is solved: by default not by Beale's method"
-      allocate (methods(1)%keys, source=beale_keys())
-      methods(2)%meaning = 'ever finer grids until mean gap, area and peak pressure are accurate'
-      allocate (methods(2)%keys, source=grid_keys())
-      methods(3)%meaning = 'collocation fitted to the edge of contact, of spots or of closed pools of gap'
-      allocate (methods(3)%keys, source=[accuracy_key()])
-      methods(4)%meaning = "Westergaard's solution of the 1-D wave"
-      allocate (methods(4)%keys(0))
-      methods(5)%meaning = "the closed form where there is one, otherwise 'fitted' where it applies, with "// &
-         "'grid' for loads at which these are not accurate enough, otherwise and with a hardness 'grid'"
-      allocate (methods(5)%keys, source=grid_keys())
-   end subroutine get_methods
 
    !> The table of keys of &method: `solver` and the keys of all solvers.
    function method_table() result(table)
       type(key_group_type) :: table
 
-      type(alternative_type) :: methods(number_of_methods)
+      type(qp_options) :: default
 
-      call get_methods(methods)
-      table = alternative_group('method', 'how the contact is computed', 'solver', 'by the surface', methods, &
-                                required=.false.)
+      table = key_group_type('method', 'how the contact is computed', selector='solver', keys=[ &
+         key_type(choice_value, 'solver', 'by the surface', '', &
+            "'beale': the paper's truncated Fourier series, for its waves; their default. The key minimiser says "// &
+            "how its quadratic programme is solved: by default not by Beale's method. 'grid': ever finer grids "// &
+            "until mean gap, area and peak pressure are accurate. 'fitted': collocation fitted to the edge of "// &
+            "contact, of spots or of closed pools of gap. 'closed_form': Westergaard's solution of the 1-D wave. "// &
+            "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for "// &
+            "loads at which these are not accurate enough, otherwise and with a hardness 'grid'.", choices=names), &
+         of('beale', [ &
+            key_type(integer_value, 'harmonics', '9 (2-D), 10 (1-D)', '', &
+               'highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
+            key_type(integer_value, 'constraint_points', 'in proportion to harmonics', '', &
+               'equally spaced points on half a wavelength, ends included, in each direction, at which the '// &
+               'pressure is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in '// &
+               "2-D and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
+               maxval(most_constraint_points)), &
+            key_type(choice_value, 'symmetry', "'full'", '', &
+               "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+               "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+               choices='full diagonal none'), &
+            key_type(choice_value, 'minimiser', "'dual'", '', &
+               "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
+               "method, from the load before; 'beale': Beale's method as in the paper, each load from an even "// &
+               'pressure.', choices='dual beale'), &
+            key_type(real_value, 'edge_level', short_number(default%edge_level), 'p*', &
+               'the isobar that is taken as the edge of contact.', above=0, below=1)]), &
+         of('grid fitted auto', &
+            key_type(real_value, 'accuracy', short_number(default_accuracy), '-', &
+               'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
+               "'fitted' with lines, map, contours, spots, histograms or details also of the gap at a trough. A "// &
+               'load that misses it has the status not_accurate.', 1e-12_dp, 0.1_dp, way=10)), &
+         of('grid auto', [ &
+            key_type(integer_value, 'grid_points', '', '', &
+               'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for '// &
+               'both. Even numbers. For height maps, read or made, the default is their own grid. Errors are '// &
+               'estimated from 64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, &
+               way=11), &
+            key_type(real_value, 'residual', '', '-', &
+               'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
+               'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
+               'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=11)])])
    end function method_table
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver.
@@ -126,32 +144,31 @@ contains
       if (any(paper_kinds == kind) .and. surface%is_paper_wave()) name = 'beale'
    end function default_solver
 
-   !> The solvers that can solve a surface, such as "'grid' or 'auto'".
-   function solvers_for(surface) result(words)
+   !> The solvers that can solve a surface, such as "'grid' or 'auto'"; of these only those whose solutions have
+   !> details, or the coefficients of a series: '' if there is none.
+   function solvers_for(surface, trait) result(words)
       type(surface_type), intent(in) :: surface
+      character(*), intent(in), optional :: trait   !! 'details' or 'coefficients'
       character(:), allocatable :: words
 
+      character(name_length), allocatable :: solvers(:)
       integer :: i
 
-      words = listed(in_quotes(pack(names, [(refusal(names(i), surface) == '', i=1, size(names))])), ' or ')
-   end function solvers_for
-
-   !> The solvers of a surface whose solutions have details, or the coefficients of a series; '' if there is none.
-   function solvers_with(trait, surface) result(words)
-      character(*), intent(in) :: trait   !! 'details' or 'coefficients'
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      type(solver_traits) :: traits(number_of_methods)
-      integer :: i
-      logical :: has_it(number_of_methods), solves(number_of_methods)
-
-      traits = [(traits_of(names(i)), i=1, size(names))]
-      has_it = merge(traits%has_details, traits%has_coefficients, trait == 'details')
-      solves = [(refusal(names(i), surface) == '', i=1, size(names))]
+      solvers = words_of(names)
+      solvers = pack(solvers, [(refusal(trim(solvers(i)), surface) == '', i=1, size(solvers))])
+      if (present(trait)) solvers = pack(solvers, [(has_trait(traits_of(solvers(i))), i=1, size(solvers))])
       words = ''
-      if (any(has_it .and. solves)) words = listed(in_quotes(pack(names, has_it .and. solves)), ' or ')
-   end function solvers_with
+      if (size(solvers) > 0) words = listed(in_quotes(solvers), ' or ')
+
+   contains
+
+      pure logical function has_trait(traits)
+         type(solver_traits), intent(in) :: traits
+
+         has_trait = merge(traits%has_details, traits%has_coefficients, trait == 'details')
+      end function has_trait
+
+   end function solvers_for
 
    !> The traits of a solver before it is started.
    type(solver_traits) function traits_of(name) result(traits)

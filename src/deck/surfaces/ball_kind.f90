@@ -2,33 +2,18 @@
 module wavycon_ball_kind
    use wavycon_group_values, only: group_values
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
-   use wavycon_key_relations, only: alternative_type
-   use wavycon_key_table, only: integer_key
    use wavycon_kinds, only: dp
-   use wavycon_measured_map, only: most_points
    use wavycon_surface, only: surface_of_ball, surface_type
-   use wavycon_surface_keys, only: length_x_key, length_y_key, radii_of, radius_keys
    implicit none (type, external)
    private
 
-   public :: ball_kind, ball_surface, set_ball_sides
+   public :: ball_surface, radii_of, set_ball_sides
 
    !> Sides of the rectangle that is computed, over the half axes of Hertz's contact under the largest load: twice the
    !> contact, so that a hardness or a rough estimate of the load does not bring its edge to the border.
    real(dp), parameter :: sides_over_half_axes = 4.0_dp
 
 contains
-
-   type(alternative_type) function ball_kind() result(kind)
-      kind%name = 'ball'
-      kind%meaning = 'a ball on a half-space, not repeated'
-      allocate (kind%keys, source=[ &
-         radius_keys('radius', 'the ball', 20, '', required=.true.), length_x_key(), length_y_key(), &
-         integer_key('points', 'as kind says', 'points of the rectangle length_x x length_y along x and y on which '// &
-                     'the ball is solved; one number for both. Without it grids are refined to the accuracy of '// &
-                     '&method.', &
-                     1, most_points, most_values=2)])
-   end function ball_kind
 
    !> Sets the default sides: some half axes of Hertz's contact at the largest load, or what carries it at the hardness.
    subroutine set_ball_sides(values, e_star, hardness, key, largest)
@@ -71,5 +56,17 @@ contains
       surface = surface_of_ball([values%real('length_x'), values%real('length_y')], radii_of(values, 'radius'), 2)
       if (values%has('points')) surface%points = surface%parts()*nint(values%pair('points'))
    end function ball_surface
+
+   !> The radii along x and y that the keys `name`, or `name_x` and `name_y`, give [length]; huge where they give none.
+   pure function radii_of(values, name) result(radii)
+      type(group_values), intent(in) :: values
+      character(*), intent(in) :: name
+      real(dp) :: radii(2)
+
+      radii = huge(radii)
+      if (values%has(name)) radii = values%real(name)
+      if (values%has(name//'_x')) radii(1) = values%real(name//'_x')
+      if (values%has(name//'_y')) radii(2) = values%real(name//'_y')
+   end function radii_of
 
 end module wavycon_ball_kind

@@ -1,73 +1,25 @@
 !> kind = 'file': a height map.
 module wavycon_height_map_kind
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_ball_kind, only: radii_of
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
-   use wavycon_key_relations, only: alternative_type
-   use wavycon_key_table, only: choice_key, logical_key, real_key, text_key
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics
-   use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: check_map_size, check_room, measured_map
    use wavycon_plain_text, only: clauses, escaped, integer_text, short_number
    use wavycon_prepare_map, only: map_preparation
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: form_radius_keys, length_x_key, length_y_key, radii_of
    use wavycon_system, only: full_path, path_absent, path_kind
    implicit none (type, external)
    private
 
-   public :: height_map_kind, surface_of_file, surface_of_heights
-
-   integer, parameter :: longest_path = 1000
+   public :: surface_of_file, surface_of_heights
 
 contains
-
-   type(alternative_type) function height_map_kind() result(kind)
-      kind%name = 'file'
-      kind%meaning = 'a height map'
-      allocate (kind%keys, source=[ &
-         length_x_key(), &
-         length_y_key('side of the periodic cell along y; without it points are equally far apart along x and y.'), &
-         text_key('file', '', &
-            'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
-            "program is started. The last row and column are the cell's last, not copies of the first.", &
-            longest_path, required=.true.), &
-         choice_key('file_format', "'auto'", &
-            "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
-            "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if all "// &
-            'lines have three numbers, xz if all have two. xyz and xz give the '// &
-            'sides of the cell, gsf and heads of texts also units: leave out length_x and length_y.', &
-            [character(6) :: 'auto', 'matrix', 'xyz', 'xz', 'npy', 'gsf']), &
-         real_key('missing_value', '', '-', 'heights of the file that have this value are missing, as are nan and '// &
-            'empty fields between commas, semicolons or tabs.'), &
-         real_key('height_scale', '1.0', 'length', "length of one unit of the file's heights; beside a file with "// &
-            'units a factor.', above=0.0_dp), &
-         logical_key('crop_missing', '.false.', 'whether rows and columns at the borders in which all heights are '// &
-            'missing are cut off. The sides of the cell are those of the whole file.'), &
-         logical_key('despike', '.false.', 'whether spikes, heights far from all around them, become the median of '// &
-            'their neighbours.'), &
-         choice_key('detrend', "'none'", &
-            "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' or "// &
-            "'quadratic', a polynomial of the second degree.", &
-            [character(9) :: 'none', 'mean', 'plane', 'quadratic']), &
-         choice_key('fill_missing', "'none'", &
-            "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
-            "smooth surface of Laplace's equation.", [character(8) :: 'none', 'harmonic']), &
-         choice_key('edges', "'periodic'", &
-            "how the map continues beyond its borders: 'periodic', its last points are neighbours of its first; "// &
-            "'mirror', by its mirror images; 'window', periodic after a taper to the mean at the borders; 'free', "// &
-            'not at all: it is pressed on a half-space.', [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
-         real_key('window_width', short_number(usual_window_width), '-', &
-            "with edges = 'window': width of the taper at each border, over the side.", above=0.0_dp, most=0.5_dp, &
-            needs="edges='window'"), &
-         real_key('short_wavelength', '', 'length', 'shortest wave that stays in the map; without it all stay.', &
-                  above=0.0_dp), &
-         form_radius_keys('the map')])
-   end function height_map_kind
 
    !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
    !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell
@@ -80,6 +32,7 @@ contains
 
       type(measured_map) :: heights
       character(:), allocatable :: file, path
+      real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
 
       file = values%text('file')
       ! Beside the deck or, if it is not there, where the program was started.
@@ -88,7 +41,12 @@ contains
       if (path_kind(path) == path_absent) then
          if (path_kind(file) /= path_absent) path = file
       end if
-      call read_map(values, path, heights, error)
+      if (values%has('missing_value')) missing_value = values%real('missing_value')
+      ! Holes, their frame and spikes are found in the whole map.
+      call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
+                           in_slabs=values%text('fill_missing') == 'none' .and. .not. &
+                                    (values%logical('crop_missing') .or. values%logical('despike')))
+      if (.not. allocated(error)) call convert_lengths(path, values%length_unit, heights, error)
       if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
          if (allocated(error)) error%message = escaped(file)// &
             ': there is no such file beside the deck, nor where the program was started'
@@ -156,7 +114,6 @@ contains
       type(map_preparation) :: preparation
       real(dp) :: length(2)
 
-      if (values%text('edges') /= 'window') call values%leave_out('window_width')
       call take_sides(values, source, heights, length, assumed_sides, error)
       if (allocated(error)) return
       preparation = map_preparation(values%text('detrend'), values%text('fill_missing'), values%text('edges'), &
@@ -167,23 +124,6 @@ contains
                           radii_of(values, 'form_radius'))
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
-
-   !> Reads the map and converts its lengths to the deck's unit. Errors: as of `surface_of_file`.
-   subroutine read_map(values, path, heights, error)
-      type(group_values), intent(in) :: values
-      character(*), intent(in) :: path
-      type(measured_map), intent(out) :: heights
-      type(error_type), allocatable, intent(out) :: error
-
-      real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
-
-      if (values%has('missing_value')) missing_value = values%real('missing_value')
-      ! Holes, their frame and spikes are found in the whole map.
-      call read_height_map(path, values%text('file_format'), heights, error, missing_value, &
-                           in_slabs=values%text('fill_missing') == 'none' .and. .not. &
-                                    (values%logical('crop_missing') .or. values%logical('despike')))
-      if (.not. allocated(error)) call convert_lengths(path, values%length_unit, heights, error)
-   end subroutine read_map
 
    !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
    !> deck give one.

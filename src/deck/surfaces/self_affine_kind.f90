@@ -1,63 +1,24 @@
 !> kind = 'self_affine': a random rough surface, made from its spectrum.
 module wavycon_self_affine_kind
+   use wavycon_ball_kind, only: radii_of
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_relations, only: alternative_type
-   use wavycon_key_table, only: choice_key, integer_key, real_key
    use wavycon_kinds, only: dp
-   use wavycon_measured_map, only: most_points
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_self_affine, only: has_waves, least_points_of, self_affine_spectrum, self_affine_surface
    use wavycon_surface, only: surface_type
-   use wavycon_surface_keys, only: form_radius_keys, length_x_key, length_y_key, radii_of
    implicit none (type, external)
    private
 
-   public :: self_affine_kind, check_self_affine, self_affine_of
+   public :: check_self_affine, self_affine_of
 
    !> Most points along a side that a deck without `points` gets.
    integer, parameter :: most_default_points = 8192
    integer, parameter :: least_points = 4
 
 contains
-
-   type(alternative_type) function self_affine_kind() result(kind)
-      kind%name = 'self_affine'
-      kind%meaning = 'a random rough surface, made from its spectrum'
-      allocate (kind%keys, source=[ &
-         length_x_key(), length_y_key(), &
-         real_key('hurst', '0.8', '-', 'Hurst exponent of the roughness.', least=0.0_dp, most=1.0_dp), &
-         real_key('rms_height', '', 'length', 'root mean square of the height; or give rms_slope.', &
-                  above=0.0_dp, way=10, required=.true.), &
-         real_key('rms_slope', '', '-', 'root mean square of the slope, the size of the gradient; or give '// &
-                  'rms_height.', above=0.0_dp, way=11), &
-         real_key('spectral_density', '', 'length^4', 'in place of rms_height or rms_slope: the spectral density '// &
-                  'of waves longer than rolloff_wavelength, as &output spectrum has it; of a profile in length^3.', &
-                  above=0.0_dp, way=12), &
-         real_key('long_wavelength', 'the longer side of the cell', 'length', 'longest wave, the long cut-off.', &
-                  above=0.0_dp), &
-         real_key('rolloff_wavelength', 'long_wavelength', 'length', &
-                  'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', &
-                  above=0.0_dp), &
-         real_key('short_wavelength', '', 'length', 'shortest wave, the short cut-off; without it '// &
-                  'rolloff_wavelength/64.', above=0.0_dp), &
-         choice_key('spectrum', "'ideal'", &
-            "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process with "// &
-            'this spectrum. Phases are random.', [character(6) :: 'ideal', 'random']), &
-         integer_key('seed', '1', 'of the random numbers. The surface depends on the seed and on the keys above, '// &
-                     'not on points.', 1, huge(1)), &
-         integer_key('points', 'as kind says', &
-                     'points of the cell along x and y on which the surface is made, and solved unless &method '// &
-                     'says otherwise; one number for both, and 1 along y for a profile. The default is the least '// &
-                     'power of two with at least four points to short_wavelength, if that is not more than 8192.', &
-                     1, most_points, most_values=2), &
-         choice_key('edges', "'periodic'", "how the surface continues beyond its borders: 'periodic'; 'free', not "// &
-                    'at all: it is pressed on a half-space.', &
-                    [character(8) :: 'periodic', 'mirror', 'window', 'free']), &
-         form_radius_keys('the surface')])
-   end function self_affine_kind
 
    !> Sets the defaults that depend on other keys.
    subroutine set_defaults(values)
