@@ -14,7 +14,7 @@ module wavycon_series_stress
    use wavycon_stress_tensor, only: combined, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
       plane_ratio, pressure_part, waves_in_depth
-   use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
+   use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
@@ -232,7 +232,8 @@ contains
                weights(2:6:2) = q*depth*weights(1:5:2)
                weights(7:8) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
                weights(9:) = 0.0_dp
-               if (q > self%waves%sampled_from) weights(9:) = octave_weights(n_x, n_y, q*depth)
+               if (q > self%waves%sampled_from) &
+                  weights(9:) = (1.0_dp + q*depth)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
                m = direction(1)*k + direction(2)*l
                along(:, m) = along(:, m) + weights*wave
             end do
@@ -357,14 +358,11 @@ contains
 
          !> Lengths of which are fast to transform.
          integer, parameter :: multiple = 8
-         real(dp) :: most
+         real(dp) :: most(2)
 
-         most = 2.0_dp*ubound(self%waves%wave, 1)
-         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth)
-         points(1) = max(plane_points, multiple*ceiling(most/multiple))
-         most = 2.0_dp*ubound(self%waves%wave, 2)
-         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*self%side_ratio)
-         points(2) = max(plane_points, multiple*ceiling(most/multiple))
+         most = 2.0_dp*ubound(self%waves%wave)
+         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, self%side_ratio])
+         points = max(plane_points, multiple*ceiling(most/multiple))
       end function plane_of
 
    end subroutine start_places

@@ -13,7 +13,7 @@ module wavycon_stress_waves
    implicit none (type, external)
    private
 
-   public :: stress_waves, octave_weights
+   public :: stress_waves
 
    !> Waves whose factor exp(-q Z) is smaller than exp(-37) are rounding.
    real(dp), parameter, public :: deepest = 37.0_dp
@@ -42,6 +42,7 @@ contains
       real(dp), intent(in) :: side_ratio              !! L_y/L_x, > 0
       logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
 
+      complex(dp) :: down, up
       integer :: k, l, m, n
 
       call assert(side_ratio > 0.0_dp, 'side_ratio > 0')
@@ -55,22 +56,18 @@ contains
       end if
       allocate (self%wave(0:m, -n:n), source=(0.0_dp, 0.0_dp))
       do l = 0, n
-         do k = 0, m
-            associate (up => self%wave(k, l), down => self%wave(k, -l))
-               if (k == 0 .and. l == 0) cycle
-               if (k > 0 .and. l > 0) then
-                  up = 0.5_dp*pressure%c(k, l)
-                  down = up
-                  if (pressure%is_even()) cycle
-                  up = up - 0.5_dp*cmplx(pressure%ss(k, l), pressure%sc(k, l) + pressure%cs(k, l), dp)
-                  down = down + 0.5_dp*cmplx(pressure%ss(k, l), pressure%cs(k, l) - pressure%sc(k, l), dp)
-               else
-                  up = pressure%c(k, l)
-                  if (pressure%is_even()) cycle
-                  if (l == 0) up = up - cmplx(0.0_dp, pressure%sc(k, l), dp)
-                  if (k == 0) up = up - cmplx(0.0_dp, pressure%cs(k, l), dp)
-               end if
-            end associate
+         do k = merge(1, 0, l == 0), m
+            up = 0.5_dp*pressure%c(k, l)
+            down = up
+            if (.not. self%is_even) then
+               up = up - 0.5_dp*cmplx(pressure%ss(k, l), pressure%sc(k, l) + pressure%cs(k, l), dp)
+               down = down + 0.5_dp*cmplx(pressure%ss(k, l), pressure%cs(k, l) - pressure%sc(k, l), dp)
+            end if
+            if (k > 0) self%wave(k, -l) = down
+            self%wave(k, l) = up
+            ! Both are the same wave on the axes.
+            if (k == 0) self%wave(0, l) = up + conjg(down)
+            if (l == 0) self%wave(k, 0) = up + down
          end do
       end do
    end subroutine start
@@ -161,15 +158,6 @@ contains
          end do
       end do
    end subroutine find_moments
-
-   !> The weights of a wave of the last octave in (S5), to its sign.
-   pure function octave_weights(n_x, n_y, q_z) result(weights)
-      real(dp), intent(in) :: n_x, n_y   !! its direction
-      real(dp), intent(in) :: q_z        !! q Z
-      complex(dp) :: weights(3)
-
-      weights = (1.0_dp + q_z)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
-   end function octave_weights
 
    !> The six components on a plane and, if asked for, the three sums of (S5).
    subroutine transform(self, points, offset, depth, body, pbar_over_pstar, number, fields)
