@@ -7,6 +7,7 @@ module wavycon_series_stress
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_image_stress, only: image_stress, images_of
    use wavycon_kinds, only: dp
    use wavycon_plane_scan, only: scan_plane
@@ -272,8 +273,11 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :)
       real(dp), allocatable, intent(out) :: error(:, :)
 
+      real(dp), parameter :: no_waves(6, 2) = 0.0_dp
+      complex(dp), allocatable :: waves(:, :, :)
       real(dp), allocatable :: fields(:, :, :)
-      real(dp) :: step(2)
+      real(dp) :: mean(6), step(2)
+      type(grid_transform) :: plane
       integer :: i, k, l, number
 
       if (.not. self%exist) then
@@ -283,9 +287,18 @@ contains
          return
       end if
       number = merge(9, 6, self%waves%octave_reaches(depth))
-      step = 2*pi/(self%parts*points)
-      call self%waves%transform(self%parts*points, offset - self%first(:2)/step, depth, body, self%pbar_over_pstar, &
-                                number, fields)
+      mean = body%stress(no_waves, self%pbar_over_pstar)
+      associate (whole => self%parts*points)
+         step = 2*pi/whole
+         allocate (fields(whole(1), whole(2), number), waves(whole(1)/2 + 1, whole(2), number))
+         call plane%start(whole, even=.false., whole=.true.)
+         call self%waves%find_spectra(whole, offset - self%first(:2)/step, depth, body%nu, waves)
+      end associate
+      do i = 1, number
+         call plane%sample_waves(waves(:, :, i), fields(:, :, i))
+         if (i <= zz) fields(:, :, i) = fields(:, :, i) + mean(i)
+      end do
+      deallocate (waves)
       if (any(self%parts > 1)) fields = fields(:points(1), :points(2), :)
       allocate (error(points(1), points(2)), source=0.0_dp)
       do i = 7, number

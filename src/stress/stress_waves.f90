@@ -3,9 +3,7 @@
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt3
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
@@ -30,7 +28,6 @@ module wavycon_stress_waves
       procedure :: last_waves
       procedure :: octave_reaches
       procedure :: find_moments
-      procedure :: transform
       procedure :: find_spectra
    end type stress_waves
 
@@ -158,33 +155,6 @@ contains
          end do
       end do
    end subroutine find_moments
-
-   !> The six components on a plane and, if asked for, the three sums of (S5).
-   subroutine transform(self, points, offset, depth, body, pbar_over_pstar, number, fields)
-      class(stress_waves), intent(in) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2), depth, pbar_over_pstar
-      type(elastic_body), intent(in) :: body
-      integer, intent(in) :: number                          !! of fields, 6 or 9
-      real(dp), allocatable, intent(out) :: fields(:, :, :)  !! shape (N_x, N_y, number)
-
-      complex(dp), allocatable :: waves(:, :, :)
-      type(grid_transform) :: plane
-      real(dp) :: mean(6)
-      integer :: i
-
-      allocate (fields(points(1), points(2), number))
-      allocate (waves(points(1)/2 + 1, points(2), number))
-      call plane%start(points, even=.false., whole=.true.)
-      call self%find_spectra(points, offset, depth, body%nu, waves)
-      do i = 1, number
-         call plane%sample_waves(waves(:, :, i), fields(:, :, i))
-      end do
-      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
-      do i = 1, 6
-         if (abs(mean(i)) > 0.0_dp) fields(:, :, i) = fields(:, :, i) + mean(i)
-      end do
-   end subroutine transform
 
    !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
    !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
