@@ -186,22 +186,27 @@ contains
          turn_y = exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp))
          wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%wave(:last(1), l)*turn_x*turn_y
          shear = -(1.0_dp - 2*nu - q_z)/q**2
-         here(:, xy) = k*q_y*shear*wave
-         here(:, xz) = cmplx(0.0_dp, k*depth, dp)*wave
-         here(:, yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
-         if (number <= 5) then
-            here(:, 3:5) = sqrt3*here(:, [xy, xz, yz])
+         select case (number)
+         case (2)
+            here(:, 1) = sqrt3*cmplx((0.5_dp*(k**2 - q_y**2) + k*q_y)*shear, (k + q_y)*depth, dp)*wave
+            here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
+         case (5)
             here(:, 1) = 0.5_dp*sqrt3*(k**2 - q_y**2)*shear*wave
             here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
-            if (number == 2) here(:, 1) = here(:, 1) + here(:, 3) + here(:, 4) + here(:, 5)
-         else
+            here(:, 3) = sqrt3*k*q_y*shear*wave
+            here(:, 4) = cmplx(0.0_dp, sqrt3*k*depth, dp)*wave
+            here(:, 5) = cmplx(0.0_dp, sqrt3*q_y*depth, dp)*wave
+         case default
+            here(:, xy) = k*q_y*shear*wave
+            here(:, xz) = cmplx(0.0_dp, k*depth, dp)*wave
+            here(:, yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
             here(:, xx) = (k**2*shear - 2*nu)*wave
             here(:, yy) = (q_y**2*shear - 2*nu)*wave
             here(:, zz) = -(1.0_dp + q_z)*wave
             here(:, 7) = merge(1.0_dp + q_z, 0.0_dp, q > self%sampled_from)*wave
             here(:, 8) = cmplx(0.0_dp, k/q, dp)*here(:, 7)
             here(:, 9) = cmplx(0.0_dp, q_y/q, dp)*here(:, 7)
-         end if
+         end select
          up = modulo(l, points(2))
          down = modulo(-l, points(2))
          do j = 1, number
