@@ -12,7 +12,7 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: combined, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
       plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, stress_waves
@@ -315,7 +315,7 @@ contains
       do l = 1, points(2)
          do k = 1, points(1)
             stress(k, l, :) = stress(k, l, :) &
-                              + combined(self%images%correction([([k, l] - 1 + offset)*step, depth]), body%nu)
+                              + matmul(self%images%correction([([k, l] - 1 + offset)*step, depth]), [1.0_dp, body%nu])
          end do
       end do
    end subroutine on_plane
@@ -358,8 +358,8 @@ contains
       end do
       do i = 1, size(widths)
          places(:, i) = places(:, i) + self%first
-         if (allocated(self%images)) stresses(:, i) = stresses(:, i) &
-                                                      + combined(self%images%correction(places(:, i)), body%nu)
+         if (allocated(self%images)) stresses(:, i) = stresses(:, i) + matmul(self%images%correction(places(:, i)), &
+                                                                              [1.0_dp, body%nu])
       end do
 
    contains
