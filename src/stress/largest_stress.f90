@@ -82,36 +82,31 @@ contains
       real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: error, gain, least, least_gain, least_gain_needed, parts(6, 2), values(size(widths))
+      real(dp) :: enough, error, gain, least, least_gain, parts(6, 2), values(size(widths))
       type(largest_stress) :: other
-      integer :: best, i, k
+      integer :: best, i
 
       do i = 1, size(widths)
          values(i) = size_of(quantity, stresses(:, i))
       end do
-      least = 0.0_dp
+      best = maxloc(values, dim=1)
+      least = close_to_largest*values(best)
+      enough = search_accuracy*values(best)
+      call fields%at(places(1, best), places(2, best), places(3, best), parts, error)
+      if (.not. ieee_is_nan(error)) enough = min(gain_part*error, enough)
+      answer%value = -1.0_dp
       least_gain = 0.0_dp
-      least_gain_needed = 0.0_dp
-      gain = 0.0_dp
-      do i = 1, min(refined_places, size(widths))
+      do i = 1, refined_places
          best = maxloc(values, dim=1)
-         if (i == 1) least = close_to_largest*values(best)
          if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
-         if (i == 1) then
-            call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
-            least_gain_needed = search_accuracy*other%value
-            if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
-         end if
-         call refine(fields, body, quantity, widths(best), least_gain_needed, answer%value, other, gain)
-         if (i == 1 .or. other%value > answer%value) then
+         call refine(fields, body, quantity, widths(best), enough, answer%value, other, gain)
+         if (other%value > answer%value) then
             answer = other
             least_gain = gain
          end if
-         do k = 1, size(widths)
-            if (norm2(places(:, k) - places(:, best)) <= 2*widths(best)) values(k) = -1.0_dp
-         end do
+         where (norm2(places - spread(places(:, best), 2, size(widths)), dim=1) <= 2*widths(best)) values = -1.0_dp
       end do
       if (fields%dimension == 1) answer%place(2) = 0.0_dp
       call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
