@@ -154,7 +154,8 @@ contains
                   do branch = 1, 3
                      do k = 1, n
                         point = [slip%tangential*(k - 1)/(n - 1), u(k)]
-                        if (branch > 1) point = (2*branch - 5)*(2*point - [slip%tangential, u(n)])
+                        if (branch == 2) point = [slip%tangential, u(n)] - 2*point
+                        if (branch == 3) point = 2*point - [slip%tangential, u(n)]
                         call file%add([load, i, branch])
                         call file%add(point*[p_star, setting%kappa(1)*setting%friction*amplitude])
                         call file%end_row()

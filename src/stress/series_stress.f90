@@ -3,7 +3,6 @@
 !> Equations (S1) to (S5) and (S9) of README.md in this directory.
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
@@ -17,7 +16,6 @@ module wavycon_series_stress
       plane_ratio, pressure_part, waves_in_depth
    use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
-   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
@@ -329,55 +327,33 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      !> Numbers that a plane needs for each point.
-      integer, parameter :: numbers_a_point = 6
-      complex(dp), allocatable :: spectra(:)
-      real(dp), allocatable :: depth(:)
-      real(dp) :: step, stress(6, 2)
-      integer :: i, number, place(2, 2), points(2)
+      !> Lengths of which are fast to transform.
+      integer, parameter :: multiple = 8
+      real(dp) :: depth, most(2), step, stress(6, 2)
+      integer :: i, k, last, place(2, 2), points(2)
 
       step = least_width(self)
-      allocate (depth(2 + ceiling(log(2*pi/step)/log(plane_ratio))), source=0.0_dp)
-      do i = 2, size(depth)
-         depth(i) = step*plane_ratio**(i - 2)
-      end do
-      allocate (places(3, 2*size(depth)), widths(2*size(depth)), stresses(6, 2*size(depth)))
-      number = merge(2, 5, self%waves%is_even)
-      do i = 1, size(depth)
-         points = plane_of(depth(i))
-         if (self%dimension == 1) points(2) = 1
-         do while (.not. has_memory_for(numbers_a_point*product(int(points, int64))))
-            points = (points + 1)/2
-         end do
-         if (i == 1) allocate (spectra((points(1)/2 + 1)*points(2)*number))
-         call scan_plane(self%waves, self%pbar_over_pstar, points, depth(i), body, number, spectra, place, stress)
-         places(:, 2*i - 1) = [2*pi*place(:, 1)/points, depth(i)]
-         places(:, 2*i) = [2*pi*place(:, 2)/points, depth(i)]
-         stresses(:, 2*i - 1:2*i) = stress
-         widths(2*i - 1:2*i) = max(depth(i), step)
-      end do
-      do i = 1, size(widths)
-         places(:, i) = places(:, i) + self%first
-         if (allocated(self%images)) stresses(:, i) = stresses(:, i) + matmul(self%images%correction(places(:, i)), &
-                                                                              [1.0_dp, body%nu])
-      end do
-
-   contains
-
-      !> Points along X and Y that resolve the waves that reach a depth.
-      function plane_of(depth) result(points)
-         real(dp), intent(in) :: depth
-         integer :: points(2)
-
-         !> Lengths of which are fast to transform.
-         integer, parameter :: multiple = 8
-         real(dp) :: most(2)
-
+      last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
+      allocate (places(3, 2*last + 2), widths(2*last + 2), stresses(6, 2*last + 2))
+      do i = 0, last
+         depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
+         ! Points that resolve the waves that reach the depth.
          most = 2.0_dp*ubound(self%waves%wave)
-         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, self%side_ratio])
+         if (i > 0) most = min(most, waves_in_depth/depth*[1.0_dp, self%side_ratio])
          points = max(plane_points, multiple*ceiling(most/multiple))
-      end function plane_of
-
+         if (self%dimension == 1) points(2) = 1
+         ! A plane takes less memory than there was when the series was made.
+         call scan_plane(self%waves, self%pbar_over_pstar, points, depth, body, place, stress)
+         do k = 1, 2
+            associate (n => 2*i + k)
+               widths(n) = max(depth, step)
+               places(:, n) = [2*pi*place(:, k)/points, depth] + self%first
+               stresses(:, n) = stress(:, k)
+               if (allocated(self%images)) stresses(:, n) = stresses(:, n) + matmul( &
+                                                            self%images%correction(places(:, n)), [1.0_dp, body%nu])
+            end associate
+         end do
+      end do
    end subroutine start_places
 
 end module wavycon_series_stress
