@@ -7,7 +7,7 @@ module wavycon_gsl
    private
 
    public :: gsl_sort_index
-   public :: gsl_sf_legendre_pl_array, gsl_sf_zeta, gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp, gsl_sf_hzeta
+   public :: gsl_sf_legendre_pl_array, gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
    public :: gsl_rng_mt19937, gsl_rng_alloc, gsl_rng_set, gsl_rng_uniform, gsl_rng_free
@@ -33,12 +33,6 @@ module wavycon_gsl
          real(c_double), intent(out) :: values(*)
       end function gsl_sf_legendre_pl_array
 
-      !> Riemann's zeta function, s /= 1.
-      pure real(c_double) function gsl_sf_zeta(s) bind(c, name='gsl_sf_zeta')
-         import :: c_double
-         real(c_double), value :: s
-      end function gsl_sf_zeta
-
       !> Complete elliptic integrals of modulus k: the first kind K, and D = (K - E)/k^2. mode 0: all digits.
       pure real(c_double) function gsl_sf_ellint_Kcomp(k, mode) bind(c, name='gsl_sf_ellint_Kcomp')
          import :: c_double, c_int
@@ -50,12 +44,6 @@ module wavycon_gsl
          real(c_double), intent(in), value :: k
          integer(c_int), intent(in), value :: mode
       end function gsl_sf_ellint_Dcomp
-
-      !> Hurwitz's zeta function, the sum of (k + q)^(-s) over k = 0, 1, ..; s > 1, q > 0.
-      pure real(c_double) function gsl_sf_hzeta(s, q) bind(c, name='gsl_sf_hzeta')
-         import :: c_double
-         real(c_double), value :: s, q
-      end function gsl_sf_hzeta
 
       !> A Gauss rule of n nodes on a..b for one of the library's weights; a null pointer if an argument is out of range
       !> or there is not enough memory.

@@ -74,11 +74,12 @@ contains
          call solve_point(solver, work, load_at(curve, solver, place(i)), curve%points(i))
       end do
       allocate (curve%critical(0), curve%at_loads(0))
-      do i = 2, curve_points - 1
-         associate (before => curve%points(i - 1), here => curve%points(i), after => curve%points(i + 1))
+      do i = 2, curve_points
+         associate (before => curve%points(i - 1), here => curve%points(i), &
+                    after => curve%points(min(i + 1, curve_points)))
             if (.not. (before%exists .and. here%exists .and. after%exists)) cycle
             if (after%load > before%load) curve%points(i)%kind = stable_point
-            if ((here%load - before%load)*(after%load - here%load) > 0.0_dp) cycle
+            if (i == curve_points .or. (here%load - before%load)*(after%load - here%load) > 0.0_dp) cycle
             point = here
             point%kind = not_reliable
             if (all(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) <= most_release)) &
@@ -86,10 +87,6 @@ contains
             curve%critical = [curve%critical, point]
          end associate
       end do
-      associate (points => curve%points)
-         points(curve_points)%kind = merge(stable_point, unstable_point, &
-                                           points(curve_points)%load > points(curve_points - 1)%load)
-      end associate
    end subroutine follow_curve
 
    !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off

@@ -17,21 +17,9 @@ module wavycon_interface_setting
       real(dp) :: kappa(3) = 1.0_dp
       real(dp) :: beta = 0.0_dp          !! Dundurs' second parameter, which partial slip neglects
       real(dp) :: work = 0.0_dp          !! of adhesion, w' = w/(p* Delta); 0: not given
-   contains
-      procedure :: tangential_load
    end type interface_setting
 
 contains
-
-   !> Q [p*].
-   elemental real(dp) function tangential_load(self, number, pbar_over_pstar)
-      class(interface_setting), intent(in) :: self
-      integer, intent(in) :: number                !! of the tangential load
-      real(dp), intent(in) :: pbar_over_pstar      !! P
-
-      tangential_load = self%tangential(number)
-      if (self%over_mean_pressure) tangential_load = tangential_load*pbar_over_pstar
-   end function tangential_load
 
    !> kappa for shear across and along the ridges of a wave (I12), and their mean (I13).
    pure function shear_factors(e, nu) result(kappa)

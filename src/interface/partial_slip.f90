@@ -10,7 +10,7 @@ module wavycon_partial_slip
    implicit none (type, external)
    private
 
-   public :: partial_slip, solve_partial_slip, cycle_energy, relative_displacement, slip_loop
+   public :: partial_slip, solve_partial_slip, cycle_energy, relative_displacement
 
    !> Loads of the loading curve, from no tangential load to the whole.
    integer, parameter :: curve_points = 33
@@ -19,7 +19,7 @@ module wavycon_partial_slip
       real(dp) :: tangential = 0.0_dp   !! Q [p*]
       !> The contact at P* = P - Q/f (I9), whose area sticks. Without a solution where Q > f P.
       type(contact_solution) :: stick
-      !> The approach less that at P* [Delta] at equal steps of the tangential load; empty unless asked for.
+      !> The approach less that at P* [Delta] at equal steps of the tangential load; not allocated unless asked for.
       real(dp), allocatable :: approach_change(:)
    end type partial_slip
 
@@ -87,24 +87,5 @@ contains
          answer(2) = 4*(answer(2) + 2*(u%elastic_energy_error + u_stick%elastic_energy_error))
       end associate
    end function cycle_energy
-
-   !> The curve of tangential load [p*] and displacement over kappa f [Delta]: branch 1, loading; 2, from Q to -Q; 3,
-   !> back to Q, both by Masing's rule. Empty without a solution.
-   pure subroutine slip_loop(slip, branch, tangential, displacement)
-      type(partial_slip), intent(in) :: slip
-      integer, allocatable, intent(out) :: branch(:)
-      real(dp), allocatable, intent(out) :: tangential(:), displacement(:)
-
-      integer :: i, n
-
-      allocate (branch(0), tangential(0), displacement(0))
-      if (.not. allocated(slip%approach_change)) return
-      associate (u => slip%approach_change, q => [(slip%tangential*i/(curve_points - 1), i=0, curve_points - 1)])
-         n = size(u)
-         branch = [spread(1, 1, n), spread(2, 1, n), spread(3, 1, n)]
-         tangential = [q, q(n) - 2*q, 2*q - q(n)]
-         displacement = [u, u(n) - 2*u, 2*u - u(n)]
-      end associate
-   end subroutine slip_loop
 
 end module wavycon_partial_slip

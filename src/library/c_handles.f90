@@ -158,7 +158,7 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(inout) :: error   !! there is no text if it is allocated
 
-      integer :: i, length
+      integer :: length
 
       call check_arguments([present(bytes)], error)
       if (allocated(error)) return
@@ -166,9 +166,7 @@ contains
          if (bytes(length + 1) == c_null_char) exit
       end do
       allocate (character(length) :: text)
-      do i = 1, length
-         text(i:i) = bytes(i)
-      end do
+      text = transfer(bytes(:length), text)
    end subroutine text_at
 
    !> Copies a text to a buffer of C, cut to its size, with a null character at its end. Returns the bytes of the whole.
@@ -177,16 +175,14 @@ contains
       character(kind=c_char), intent(inout), optional :: buffer(*)   !! absent: nothing is copied
       integer(c_size_t), intent(in) :: bytes                         !! size of the buffer
 
-      integer :: i, length
+      integer :: length
 
       length = len(text)
       needed = length + 1_c_size_t
       if (.not. present(buffer) .or. bytes == 0_c_size_t) return
       ! A size_t above the largest integer appears here as a negative number.
       if (bytes > 0_c_size_t) length = int(min(int(length, c_size_t), bytes - 1_c_size_t))
-      do i = 1, length
-         buffer(i) = text(i:i)
-      end do
+      buffer(:length) = transfer(text, buffer(1), length)
       buffer(length + 1) = c_null_char
    end function put_text
 

@@ -5,6 +5,7 @@ module wavycon_c_scenes
    use wavycon_c_handles, only: begin_call, check_arguments, close_call, close_new, handle_type, lock, new_handle, &
       not_a_handle, object_at, put_text, text_at
    use wavycon_deck_run, only: run_deck
+   use wavycon_deck_session, only: pick_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_json, only: key_json
    use wavycon_kinds, only: dp
@@ -137,8 +138,8 @@ contains
          case ('solution')
             call get_of_solution(contents, its_name, value, trouble)
          case ('table')
-            call pick([character(12) :: 'rows', 'columns'], &
-                      real([contents%table%rows, size(contents%table%names)], dp), its_name, value, trouble)
+            call pick_number([character(7) :: 'rows', 'columns'], &
+                             real([contents%table%rows, size(contents%table%names)], dp), its_name, value, trouble)
          case default
             call fatal_error(trouble, exit_bad_input, not_a_handle//'scene')
          end select
@@ -166,24 +167,10 @@ contains
             return
          end if
       end associate
-      call pick([character(8) :: 'points_x', 'points_y', 'offset_x', 'offset_y'], [real(points, dp), offset], &
-                name(len('own_') + 1:), number, error)
+      if (.not. allocated(error)) &
+         call pick_number([character(8) :: 'points_x', 'points_y', 'offset_x', 'offset_y'], &
+                          [real(points, dp), offset], name(len('own_') + 1:), number, error)
    end subroutine get_of_solution
-
-   !> The number of a name. Errors: exit_bad_input if there is none.
-   subroutine pick(names, numbers, name, number, error)
-      character(*), intent(in) :: names(:), name
-      real(dp), intent(in) :: numbers(:)
-      real(c_double), intent(inout) :: number
-      type(error_type), allocatable, intent(inout) :: error   !! nothing is done if it is allocated
-
-      integer :: i
-
-      if (allocated(error)) return
-      i = findloc(names == name, .true., dim=1)
-      if (i > 0) number = numbers(i)
-      if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
-   end subroutine pick
 
    integer(c_size_t) function get_text(error, object, name, buffer, bytes) result(needed) &
       bind(c, name='wavycon_get_text')

@@ -31,7 +31,7 @@ module wavycon_deck_session
    implicit none (type, external)
    private
 
-   public :: check_ready, deck_session, solved_load
+   public :: check_ready, deck_session, pick_number, solved_load
 
    !> In C a thread that solves a load lets others into the library meanwhile, but not into this session: c_lock.c.
    interface
@@ -63,14 +63,13 @@ module wavycon_deck_session
       procedure :: number
       procedure :: text
       procedure, private :: solve_one
-      procedure, private :: find_in_summary
    end type deck_session
 
    !> A load that a session has solved. What is asked for again is kept.
    type :: solved_load
       type(contact_solution), allocatable :: solution
       real(dp) :: mean_pressure = 0.0_dp              !! [pressure]
-      type(memory_table) :: summary                   !! of one row, made at its first use
+      type(memory_table) :: summary                   !! of one row
       class(contact_fields), allocatable :: fields    !! made at their first use
       class(stress_fields), allocatable :: stresses   !! made at their first use
    end type solved_load
@@ -197,12 +196,10 @@ contains
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
-      logical :: has_yield_stress
+      type(memory_table) :: summary
 
       if (loads_by == by_yield) then
-         has_yield_stress = allocated(self%results%scene%stress_setting)
-         if (has_yield_stress) has_yield_stress = allocated(self%results%scene%stress_setting%yield_stress)
-         if (.not. has_yield_stress) then
+         if (.not. self%results%scene%stress%has('yield_stress')) then
             call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
          else if (.not. self%keeps_fields) then
             call fatal_error(error, exit_bad_input, 'yield needs fields: the session was opened without them')
@@ -218,6 +215,8 @@ contains
       else
          answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar
       end if
+      call self%make_table('summary', answer, summary, error)
+      answer%summary = summary
    end subroutine solve_one
 
    !> Makes a table of a solved load, by its name: that of its key in &output or, behind 'stress_', in &stress; also
@@ -238,15 +237,13 @@ contains
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
          results%scene%mean_pressure = solved%mean_pressure
+         call no_log%start(quiet=.true.)
          if (name == 'stress_largest') then
             if (allocated(results%von_mises)) deallocate (results%von_mises, results%shear)
-            call no_log%start(quiet=.true.)
             call find_stresses(results, no_log)
-         end if
-         if (writer%group == 'interface') then
+         else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
             if (allocated(results%adhesion)) deallocate (results%adhesion)
-            call no_log%start(quiet=.true.)
             call begin_solve(self%is_solving)
             call find_interface(results, no_log, name)
             call end_solve(self%is_solving)
@@ -296,102 +293,94 @@ contains
    !> A number by its name: a column of the summary table, of a solved load, or what is known before. Errors:
    !> exit_bad_input for a name that is none.
    subroutine number(self, name, value, error, solved)
-      class(deck_session), intent(inout) :: self
+      class(deck_session), intent(in) :: self
       character(*), intent(in) :: name
       real(dp), intent(out) :: value   !! in units of the deck
       type(error_type), allocatable, intent(out) :: error
-      type(solved_load), intent(inout), optional :: solved
+      type(solved_load), intent(in), optional :: solved
 
-      character(9), parameter :: names(*) = [character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', &
-         'points_x', 'points_y', 'dimension', 'loads']
-      integer :: i
-      real(dp) :: values(size(names))
+      integer :: column
 
       value = 0.0_dp
-      if (present(solved)) then
-         call self%find_in_summary(solved, name, 'number', i, error)
-         if (.not. allocated(error)) value = solved%summary%values(i, 1)
-         return
-      end if
-      call check_ready(self, error)
+      call check_ready(self, error, solved)
       if (allocated(error)) return
-      associate (surface => self%results%solver%surface)
-         values = [self%scale%e_star, self%scale%p_star, self%scale%amplitude, self%scale%sides, &
-                   real([surface%points/surface%parts(), surface%dimension, size(self%results%order)], dp)]
-      end associate
-      i = findloc(names == name, .true., dim=1)
-      if (i > 0) value = values(i)
-      if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
+      if (present(solved)) then
+         column = column_of(solved%summary, name, of_word=.false.)
+         if (column > 0) value = solved%summary%values(column, 1)
+         if (column == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
+      else
+         associate (surface => self%results%solver%surface, scale => self%scale)
+            call pick_number([character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', 'points_x', &
+                              'points_y', 'dimension', 'loads'], [scale%e_star, scale%p_star, scale%amplitude, &
+                             scale%sides, real([surface%points/surface%parts(), surface%dimension, &
+                                                size(self%results%order)], dp)], name, value, error)
+         end associate
+      end if
    end subroutine number
+
+   !> The number of a name. Errors: exit_bad_input if there is none.
+   subroutine pick_number(names, numbers, name, number, error)
+      character(*), intent(in) :: names(:), name
+      real(dp), intent(in) :: numbers(:)
+      real(dp), intent(inout) :: number
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      i = findloc(names == name, .true., dim=1)
+      if (i > 0) number = numbers(i)
+      if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
+   end subroutine pick_number
 
    !> A text by its name: a column of words of the summary table, of a solved load, or what is known before. Errors:
    !> exit_bad_input for a name that is none.
    subroutine text(self, name, words, error, solved)
-      class(deck_session), intent(inout) :: self
+      class(deck_session), intent(in) :: self
       character(*), intent(in) :: name
       character(:), allocatable, intent(out) :: words
       type(error_type), allocatable, intent(out) :: error
-      type(solved_load), intent(inout), optional :: solved
+      type(solved_load), intent(in), optional :: solved
 
       integer :: i
 
-      if (present(solved)) then
-         call self%find_in_summary(solved, name, 'text', i, error)
-         if (.not. allocated(error)) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
-         return
-      end if
-      call check_ready(self, error)
-      if (allocated(error)) return
-      select case (name)
-      case ('solver')
-         words = self%results%scene%method%text('solver')
-      case ('method')
-         words = self%results%method
-      case ('why_chosen')
-         words = why_chosen(self%results%traits)
-      case ('pressure_unit')
-         words = self%results%scene%pressure_unit
-      case ('length_unit')
-         words = self%results%scene%length_unit
-      case ('resolved_deck')
-         words = self%results%scene%resolved_deck
-      case ('order')
-         words = ''
-         do i = 1, size(self%results%order)
-            words = words//integer_text(self%results%order(i))//' '
-         end do
-         words = trim(words)
-      case default
-         call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
-      end select
-   end subroutine text
-
-   !> The column of a name in the row of the summary table, which is made once. Errors: exit_bad_input without a
-   !> solution, and if there is no such column of numbers or of words.
-   subroutine find_in_summary(self, solved, name, what, column, error)
-      class(deck_session), intent(inout) :: self
-      type(solved_load), intent(inout) :: solved
-      character(*), intent(in) :: name
-      character(*), intent(in) :: what         !! 'number' or 'text'
-      integer, intent(out) :: column
-      type(error_type), allocatable, intent(out) :: error
-
-      type(memory_table) :: summary
-
-      column = 0
       call check_ready(self, error, solved)
       if (allocated(error)) return
-      if (solved%summary%rows == 0) then
-         call self%make_table('summary', solved, summary, error)
-         if (allocated(error)) return
-         solved%summary = summary
-      end if
-      column = solved%summary%find_column(name)
-      if (column > 0) then
-         if ((solved%summary%kinds(column) == of_words) .neqv. what == 'text') column = 0
-      end if
-      if (column == 0) call fatal_error(error, exit_bad_input, 'there is no '//what//" '"//name//"'")
-   end subroutine find_in_summary
+      associate (scene => self%results%scene)
+         if (present(solved)) then
+            i = column_of(solved%summary, name, of_word=.true.)
+            if (i > 0) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
+         else if (name == 'solver') then
+            words = scene%method%text('solver')
+         else if (name == 'method') then
+            words = self%results%method
+         else if (name == 'why_chosen') then
+            words = why_chosen(self%results%traits)
+         else if (name == 'pressure_unit') then
+            words = scene%pressure_unit
+         else if (name == 'length_unit') then
+            words = scene%length_unit
+         else if (name == 'resolved_deck') then
+            words = scene%resolved_deck
+         else if (name == 'order') then
+            words = ''
+            do i = 1, size(self%results%order)
+               words = words//integer_text(self%results%order(i))//' '
+            end do
+            words = trim(words)
+         end if
+      end associate
+      if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
+   end subroutine text
+
+   !> The column of numbers or of words of this name; 0 if there is none.
+   pure integer function column_of(summary, name, of_word) result(column)
+      type(memory_table), intent(in) :: summary
+      character(*), intent(in) :: name
+      logical, intent(in) :: of_word
+
+      column = summary%find_column(name)
+      if (column > 0) column = merge(column, 0, (summary%kinds(column) == of_words) .eqv. of_word)
+   end function column_of
 
    !> Errors: exit_bad_input if a session has not been opened or no load has been solved.
    subroutine check_ready(self, error, solved)

@@ -4,7 +4,7 @@
 !> Errors of all procedures: exit_bad_input before a load is solved, for a session that does not keep fields, and for
 !> points and places out of range or not finite; exit_file_trouble without memory.
 module wavycon_session_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_groups, only: read_group_text
@@ -32,6 +32,9 @@ module wavycon_session_fields
 
    !> Numbers of double precision that a point takes: fields or stresses and the work space of transforms.
    integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28
+
+   !> Below a flat surface there is the stress of the mean pressure alone.
+   real(dp), parameter :: no_waves(6, 2) = 0.0_dp
 
 contains
 
@@ -116,10 +119,9 @@ contains
       real(dp), intent(out) :: offset(2)
       type(error_type), allocatable, intent(out) :: error
 
-      call prepare_fields(session, solved, error)
+      call own_points(session, solved, points, offset, error)
+      if (allocated(error)) return
       points = map_points(session%results)
-      offset = 0.0_dp
-      if (allocated(error) .or. .not. session%scale%p_star > 0.0_dp) return
       call solved%solution%move_to(session%results%loads(1))
       offset = map_offset(session%results, points)
       call session%results%loads(1)%move_to(solved%solution)
@@ -148,13 +150,14 @@ contains
       if (.not. allocated(error)) call check_places(session, x, y, depth, error)
       if (allocated(error)) return
       do i = 1, n
-         if (exist(solved)) then
+         if (allocated(solved%stresses)) then
             angles = session%scale%angles([x(i), y(i)])
             call solved%stresses%at(angles(1), angles(2), session%scale%depth_angle(depth(i)), parts, part_error)
             stress(:, i) = session%scale%p_star*body%stress(parts, solved%stresses%pbar_over_pstar)
             part_error = session%scale%p_star*part_error
          else
-            call uniform(solved, body, stress(:, i), part_error)
+            stress(:, i) = body%stress(no_waves, solved%mean_pressure)
+            part_error = 0.0_dp
          end if
          if (present(stress_error)) stress_error(i) = part_error
       end do
@@ -175,13 +178,12 @@ contains
 
       type(elastic_body) :: body
       real(dp), allocatable :: errors(:, :), over_p_star(:, :, :)
-      real(dp) :: everywhere(6), part_error
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
       if (.not. allocated(error)) call check_points(session, points, offset, depth, numbers_of_stresses, error)
       if (allocated(error)) return
-      if (exist(solved)) then
+      if (allocated(solved%stresses)) then
          call solved%stresses%on_plane(points, offset_on(session, offset), session%scale%depth_angle(depth), body, &
                                        over_p_star, errors)
          do i = 1, 6
@@ -189,9 +191,8 @@ contains
          end do
          if (present(stress_error)) stress_error = session%scale%p_star*errors
       else
-         call uniform(solved, body, everywhere, part_error)
-         stress = spread(spread(everywhere, 2, points(1)), 3, points(2))
-         if (present(stress_error)) stress_error = part_error
+         stress = spread(spread(body%stress(no_waves, solved%mean_pressure), 2, points(1)), 3, points(2))
+         if (present(stress_error)) stress_error = 0.0_dp
       end if
    end subroutine stresses_on_plane
 
@@ -305,26 +306,5 @@ contains
          call check_places(session, offset(1:1), offset(2:2), [depth], error)
       end if
    end subroutine check_points
-
-   !> Whether there are fields of stresses: not for a flat surface, and not for a load without a solution.
-   pure logical function exist(solved)
-      type(solved_load), intent(in) :: solved
-
-      exist = allocated(solved%stresses)
-      if (exist) exist = solved%stresses%exist
-   end function exist
-
-   !> The stress where there are no fields: that of the mean pressure for a flat surface, otherwise NaN.
-   subroutine uniform(solved, body, stress, error)
-      type(solved_load), intent(in) :: solved
-      type(elastic_body), intent(in) :: body
-      real(dp), intent(out) :: stress(6), error   !! [pressure]
-
-      real(dp), parameter :: no_waves(6, 2) = 0.0_dp
-
-      error = 0.0_dp
-      if (allocated(solved%stresses)) error = ieee_value(1.0_dp, ieee_quiet_nan)
-      stress = body%stress(no_waves, solved%mean_pressure) + error
-   end subroutine uniform
 
 end module wavycon_session_fields

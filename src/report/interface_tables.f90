@@ -13,7 +13,7 @@ module wavycon_interface_tables
    use wavycon_kinds, only: dp
    use wavycon_load_derivatives, only: load_derivatives
    use wavycon_output_file, only: output_file
-   use wavycon_partial_slip, only: cycle_energy, relative_displacement, slip_loop
+   use wavycon_partial_slip, only: cycle_energy, relative_displacement
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: add_table, table_type
@@ -134,28 +134,34 @@ contains
       end associate
    end subroutine put_slip
 
+   !> Branch 1 is loading; 2, from Q to -Q, and 3, back to Q, follow by Masing's rule.
    subroutine put_loop(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      integer :: i, k
-      integer, allocatable :: branch(:)
-      real(dp), allocatable :: displacement(:), tangential(:)
+      real(dp) :: point(2)   !! tangential load [p*], displacement over kappa f [Delta]
+      integer :: branch, i, k
 
       associate (setting => results%scene%interface_setting, p_star => results%scene%p_star, &
                  amplitude => results%solver%surface%amplitude)
          do i = 1, size(results%slip, 1)
             associate (slip => results%slip(i, load))
-               call slip_loop(slip, branch, tangential, displacement)
                call file%begin_block('load '//integer_text(load)//', tangential load '//integer_text(i)//': '// &
                                      exact_number(p_star*slip%tangential))
-               do k = 1, size(branch)
-                  call file%add([load, i, branch(k)])
-                  call file%add([p_star*tangential(k), &
-                                 setting%kappa(1)*setting%friction*amplitude*displacement(k)])
-                  call file%end_row()
-               end do
+               if (.not. allocated(slip%approach_change)) cycle
+               associate (n => size(slip%approach_change), u => slip%approach_change)
+                  do branch = 1, 3
+                     do k = 1, n
+                        point = [slip%tangential*(k - 1)/(n - 1), u(k)]
+                        if (branch == 2) point = [slip%tangential, u(n)] - 2*point
+                        if (branch == 3) point = 2*point - [slip%tangential, u(n)]
+                        call file%add([load, i, branch])
+                        call file%add(point*[p_star, setting%kappa(1)*setting%friction*amplitude])
+                        call file%end_row()
+                     end do
+                  end do
+               end associate
             end associate
          end do
       end associate

@@ -22,7 +22,7 @@ module wavycon_stress_tables
    implicit none (type, external)
    private
 
-   public :: add_stress_tables, angle_of_depth, stress_depths, stress_numbers
+   public :: add_stress_tables, stress_depths, stress_numbers
 
    !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
    character(*), parameter :: stress_columns = &
@@ -116,7 +116,7 @@ contains
          allocate (parts(6, 2, size(depths), 1), errors(size(depths), 1), places(2, size(depths), 1))
          call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)
-            call fields%at(surface%crest(1), surface%crest(2), angle_of_depth(surface, depths(i)), parts(:, :, i, 1), &
+            call fields%at(surface%crest(1), surface%crest(2), 2*pi*depths(i)/surface%length(1), parts(:, :, i, 1), &
                            errors(i, 1))
             places(:, i, 1) = [depths(i), depths(i)/side(1)]
          end do
@@ -144,7 +144,7 @@ contains
          allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)), places(4, size(t), size(depths)))
          call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)
-            call fields%on_line(line%angle(:, 0), line%direction, t, angle_of_depth(surface, depths(i)), &
+            call fields%on_line(line%angle(:, 0), line%direction, t, 2*pi*depths(i)/surface%length(1), &
                                 parts(:, :, :, i), errors(:, i))
             places(1, :, i) = line%distance
             places(2:3, :, i) = line%place
@@ -177,7 +177,7 @@ contains
             do body = 1, bodies
                do i = 1, size(depths)
                   if (planes%as_text) call results%begin_block(planes%file, load)
-                  call fields%on_plane(planes%points, planes%offset, angle_of_depth(surface, depths(i)), &
+                  call fields%on_plane(planes%points, planes%offset, 2*pi*depths(i)/surface%length(1), &
                                        scene%stress_setting%body(body), stress, errors)
                   do l = 1, planes%points(2)
                      do k = 1, planes%points(1)
@@ -260,13 +260,5 @@ contains
                     i=0, steps - 1)]
       end if
    end subroutine stress_depths
-
-   !> Z of a depth [rad].
-   elemental real(dp) function angle_of_depth(surface, depth)
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: depth   !! [length]
-
-      angle_of_depth = 2*pi*depth/surface%length(1)
-   end function angle_of_depth
 
 end module wavycon_stress_tables

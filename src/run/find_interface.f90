@@ -54,8 +54,8 @@ contains
                do i = 1, size(setting%tangential)
                   call log%say_progress('partial slip of '//integer_text(load)//' of '// &
                                         integer_text(size(results%loads))//' loads')
-                  call solve_partial_slip(results%solver, setting, solution, &
-                                          setting%tangential_load(i, solution%pbar_over_pstar), &
+                  call solve_partial_slip(results%solver, setting, solution, setting%tangential(i)* &
+                                          merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
                                           results%scene%interface%logical('slip_loop'), results%slip(i, load))
                   if (results%slip(i, load)%stick%pbar_over_pstar < 0.0_dp) call log%say( &
                      'note: under load '//integer_text(load)//' tangential load '//integer_text(i)// &

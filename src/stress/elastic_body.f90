@@ -1,7 +1,7 @@
 !> One of the two bodies: how its stresses follow from those of the waves of pressure and from the mean pressure.
 module wavycon_elastic_body
    use wavycon_kinds, only: dp
-   use wavycon_stress_tensor, only: combined, xx, yy, zz
+   use wavycon_stress_tensor, only: xx, yy, zz
    implicit none (type, external)
    private
 
@@ -36,7 +36,7 @@ contains
       case default
          lateral = -self%nu/(1.0_dp - self%nu)*pbar
       end select
-      stress = combined(parts, self%nu)
+      stress = parts(:, 1) + self%nu*parts(:, 2)
       stress(xx) = stress(xx) + lateral
       stress(yy) = stress(yy) + lateral
       stress(zz) = stress(zz) - pbar

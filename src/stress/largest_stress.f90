@@ -82,36 +82,31 @@ contains
       real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: error, gain, least, least_gain, least_gain_needed, parts(6, 2), values(size(widths))
+      real(dp) :: enough, error, gain, least, least_gain, parts(6, 2), values(size(widths))
       type(largest_stress) :: other
-      integer :: best, i, k
+      integer :: best, i
 
       do i = 1, size(widths)
          values(i) = size_of(quantity, stresses(:, i))
       end do
-      least = 0.0_dp
+      best = maxloc(values, dim=1)
+      least = close_to_largest*values(best)
+      enough = search_accuracy*values(best)
+      call fields%at(places(1, best), places(2, best), places(3, best), parts, error)
+      if (.not. ieee_is_nan(error)) enough = min(gain_part*error, enough)
+      answer%value = -1.0_dp
       least_gain = 0.0_dp
-      least_gain_needed = 0.0_dp
-      gain = 0.0_dp
-      do i = 1, min(refined_places, size(widths))
+      do i = 1, refined_places
          best = maxloc(values, dim=1)
-         if (i == 1) least = close_to_largest*values(best)
          if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
-         if (i == 1) then
-            call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
-            least_gain_needed = search_accuracy*other%value
-            if (.not. ieee_is_nan(error)) least_gain_needed = min(gain_part*error, least_gain_needed)
-         end if
-         call refine(fields, body, quantity, widths(best), least_gain_needed, answer%value, other, gain)
-         if (i == 1 .or. other%value > answer%value) then
+         call refine(fields, body, quantity, widths(best), enough, answer%value, other, gain)
+         if (other%value > answer%value) then
             answer = other
             least_gain = gain
          end if
-         do k = 1, size(widths)
-            if (norm2(places(:, k) - places(:, best)) <= 2*widths(best)) values(k) = -1.0_dp
-         end do
+         where (norm2(places - spread(places(:, best), 2, size(widths)), dim=1) <= 2*widths(best)) values = -1.0_dp
       end do
       if (fields%dimension == 1) answer%place(2) = 0.0_dp
       call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
@@ -142,7 +137,7 @@ contains
       do i = 1, most_models
          before = best%value
          call fields%expand(best%place, width, reach, noise)
-         if (noise > 0.0_dp) best%value = size_of(quantity, stress_at(fields, body, best%place))
+         if (noise > 0.0_dp) best%value = size_near(fields, body, quantity, best%place)
          call improve(fields, body, quantity, axes, reach, max(noise, rounding), best, step, promise)
          ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
          gain = max(best%value - before, promise)
@@ -205,19 +200,21 @@ contains
       move = 0.0_dp
       move(axes) = reach*to_maximum/max(1.0_dp, maxval(abs(to_maximum)))
       call try(move, value)
-      step = maxval(abs(best%place - abs_depth(start)))
+      step = maxval(abs(best%place - start))
 
    contains
 
-      !> The value at a place; a place that is better by more than noise is kept.
+      !> The value at a place, mirrored at the surface if it is outside the body; one that is better by more than noise
+      !> is kept.
       subroutine try(move, value)
          real(dp), intent(in) :: move(3)
          real(dp), intent(out) :: value
 
          real(dp) :: place(3)
 
-         place = abs_depth(start + move)
-         value = size_of(quantity, stress_at(fields, body, place))
+         place = start + move
+         place(3) = abs(place(3))
+         value = size_near(fields, body, quantity, place)
          if (value > best%value + noise*value_here) then
             best%value = value
             best%place = place
@@ -225,27 +222,6 @@ contains
       end subroutine try
 
    end subroutine improve
-
-   !> A place, mirrored at the surface if it is outside the body.
-   pure function abs_depth(place)
-      real(dp), intent(in) :: place(3)
-      real(dp) :: abs_depth(3)
-
-      abs_depth = [place(1), place(2), abs(place(3))]
-   end function abs_depth
-
-   !> The stress at a place near that of the last `expand`.
-   function stress_at(fields, body, place) result(stress)
-      class(stress_fields), intent(inout) :: fields
-      type(elastic_body), intent(in) :: body
-      real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
-      real(dp) :: stress(6)
-
-      real(dp) :: parts(6, 2)
-
-      call fields%near(place, parts)
-      stress = body%stress(parts, fields%pbar_over_pstar)
-   end function stress_at
 
    !> The von Mises stress or the largest shear stress.
    pure real(dp) function size_of(quantity, stress)
@@ -258,5 +234,18 @@ contains
          size_of = von_mises(stress)
       end if
    end function size_of
+
+   !> That at a place near that of the last `expand`.
+   real(dp) function size_near(fields, body, quantity, place)
+      class(stress_fields), intent(inout) :: fields
+      type(elastic_body), intent(in) :: body
+      integer, intent(in) :: quantity
+      real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
+
+      real(dp) :: parts(6, 2)
+
+      call fields%near(place, parts)
+      size_near = size_of(quantity, body%stress(parts, fields%pbar_over_pstar))
+   end function size_near
 
 end module wavycon_largest_stress

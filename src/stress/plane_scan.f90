@@ -15,22 +15,23 @@ module wavycon_plane_scan
 contains
 
    !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10).
-   subroutine scan_plane(waves, pbar_over_pstar, points, depth, body, number, spectra, place, stress)
+   subroutine scan_plane(waves, pbar_over_pstar, points, depth, body, place, stress)
       type(stress_waves), intent(in) :: waves
       real(dp), intent(in) :: pbar_over_pstar   !! P
       integer, intent(in) :: points(2)   !! of the plane along X and Y
       real(dp), intent(in) :: depth      !! Z [rad]
       type(elastic_body), intent(in) :: body
-      integer, intent(in) :: number     !! of spectra: 2 if the pressure is even, otherwise 5
-      complex(dp), intent(out) :: spectra(0:points(1)/2, 0:points(2) - 1, number)   !! work
       integer, intent(out) :: place(2, 2)   !! of both points, from 0
       real(dp), intent(out) :: stress(6, 2) !! the deviators there
 
+      complex(dp), allocatable :: spectra(:, :, :)
       real(dp) :: here(6), largest(2), mean(6), shear
       real(dp), allocatable :: above(:), below(:), squares(:), values(:, :)
       type(grid_transform) :: plane
-      integer :: i, j, last(2)
+      integer :: i, j, last(2), number
 
+      number = merge(2, 5, waves%is_even)
+      allocate (spectra(0:points(1)/2, 0:points(2) - 1, number))
       call waves%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
       spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)

@@ -3,20 +3,19 @@
 !> Equations (S1) to (S5) and (S9) of README.md in this directory.
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_image_stress, only: image_stress, images_of
    use wavycon_kinds, only: dp
    use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: combined, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
       plane_ratio, pressure_part, waves_in_depth
-   use wavycon_stress_waves, only: deepest, octave_weights, stress_waves
+   use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
-   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
@@ -232,7 +231,8 @@ contains
                weights(2:6:2) = q*depth*weights(1:5:2)
                weights(7:8) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
                weights(9:) = 0.0_dp
-               if (q > self%waves%sampled_from) weights(9:) = octave_weights(n_x, n_y, q*depth)
+               if (q > self%waves%sampled_from) &
+                  weights(9:) = (1.0_dp + q*depth)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
                m = direction(1)*k + direction(2)*l
                along(:, m) = along(:, m) + weights*wave
             end do
@@ -271,8 +271,11 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :)
       real(dp), allocatable, intent(out) :: error(:, :)
 
+      real(dp), parameter :: no_waves(6, 2) = 0.0_dp
+      complex(dp), allocatable :: waves(:, :, :)
       real(dp), allocatable :: fields(:, :, :)
-      real(dp) :: step(2)
+      real(dp) :: mean(6), step(2)
+      type(grid_transform) :: plane
       integer :: i, k, l, number
 
       if (.not. self%exist) then
@@ -282,9 +285,18 @@ contains
          return
       end if
       number = merge(9, 6, self%waves%octave_reaches(depth))
-      step = 2*pi/(self%parts*points)
-      call self%waves%transform(self%parts*points, offset - self%first(:2)/step, depth, body, self%pbar_over_pstar, &
-                                number, fields)
+      mean = body%stress(no_waves, self%pbar_over_pstar)
+      associate (whole => self%parts*points)
+         step = 2*pi/whole
+         allocate (fields(whole(1), whole(2), number), waves(whole(1)/2 + 1, whole(2), number))
+         call plane%start(whole, even=.false., whole=.true.)
+         call self%waves%find_spectra(whole, offset - self%first(:2)/step, depth, body%nu, waves)
+      end associate
+      do i = 1, number
+         call plane%sample_waves(waves(:, :, i), fields(:, :, i))
+         if (i <= zz) fields(:, :, i) = fields(:, :, i) + mean(i)
+      end do
+      deallocate (waves)
       if (any(self%parts > 1)) fields = fields(:points(1), :points(2), :)
       allocate (error(points(1), points(2)), source=0.0_dp)
       do i = 7, number
@@ -301,7 +313,7 @@ contains
       do l = 1, points(2)
          do k = 1, points(1)
             stress(k, l, :) = stress(k, l, :) &
-                              + combined(self%images%correction([([k, l] - 1 + offset)*step, depth]), body%nu)
+                              + matmul(self%images%correction([([k, l] - 1 + offset)*step, depth]), [1.0_dp, body%nu])
          end do
       end do
    end subroutine on_plane
@@ -315,58 +327,33 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      !> Numbers that a plane needs for each point.
-      integer, parameter :: numbers_a_point = 6
-      complex(dp), allocatable :: spectra(:)
-      real(dp), allocatable :: depth(:)
-      real(dp) :: step, stress(6, 2)
-      integer :: i, number, place(2, 2), points(2)
+      !> Lengths of which are fast to transform.
+      integer, parameter :: multiple = 8
+      real(dp) :: depth, most(2), step, stress(6, 2)
+      integer :: i, k, last, place(2, 2), points(2)
 
       step = least_width(self)
-      allocate (depth(2 + ceiling(log(2*pi/step)/log(plane_ratio))), source=0.0_dp)
-      do i = 2, size(depth)
-         depth(i) = step*plane_ratio**(i - 2)
-      end do
-      allocate (places(3, 2*size(depth)), widths(2*size(depth)), stresses(6, 2*size(depth)))
-      number = merge(2, 5, self%waves%is_even)
-      do i = 1, size(depth)
-         points = plane_of(depth(i))
+      last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
+      allocate (places(3, 2*last + 2), widths(2*last + 2), stresses(6, 2*last + 2))
+      do i = 0, last
+         depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
+         ! Points that resolve the waves that reach the depth.
+         most = 2.0_dp*ubound(self%waves%wave)
+         if (i > 0) most = min(most, waves_in_depth/depth*[1.0_dp, self%side_ratio])
+         points = max(plane_points, multiple*ceiling(most/multiple))
          if (self%dimension == 1) points(2) = 1
-         do while (.not. has_memory_for(numbers_a_point*product(int(points, int64))))
-            points = (points + 1)/2
+         ! A plane takes less memory than there was when the series was made.
+         call scan_plane(self%waves, self%pbar_over_pstar, points, depth, body, place, stress)
+         do k = 1, 2
+            associate (n => 2*i + k)
+               widths(n) = max(depth, step)
+               places(:, n) = [2*pi*place(:, k)/points, depth] + self%first
+               stresses(:, n) = stress(:, k)
+               if (allocated(self%images)) stresses(:, n) = stresses(:, n) + matmul( &
+                                                            self%images%correction(places(:, n)), [1.0_dp, body%nu])
+            end associate
          end do
-         if (i == 1) allocate (spectra((points(1)/2 + 1)*points(2)*number))
-         call scan_plane(self%waves, self%pbar_over_pstar, points, depth(i), body, number, spectra, place, stress)
-         places(:, 2*i - 1) = [2*pi*place(:, 1)/points, depth(i)]
-         places(:, 2*i) = [2*pi*place(:, 2)/points, depth(i)]
-         stresses(:, 2*i - 1:2*i) = stress
-         widths(2*i - 1:2*i) = max(depth(i), step)
       end do
-      do i = 1, size(widths)
-         places(:, i) = places(:, i) + self%first
-         if (allocated(self%images)) stresses(:, i) = stresses(:, i) &
-                                                      + combined(self%images%correction(places(:, i)), body%nu)
-      end do
-
-   contains
-
-      !> Points along X and Y that resolve the waves that reach a depth.
-      function plane_of(depth) result(points)
-         real(dp), intent(in) :: depth
-         integer :: points(2)
-
-         !> Lengths of which are fast to transform.
-         integer, parameter :: multiple = 8
-         real(dp) :: most
-
-         most = 2.0_dp*ubound(self%waves%wave, 1)
-         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth)
-         points(1) = max(plane_points, multiple*ceiling(most/multiple))
-         most = 2.0_dp*ubound(self%waves%wave, 2)
-         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*self%side_ratio)
-         points(2) = max(plane_points, multiple*ceiling(most/multiple))
-      end function plane_of
-
    end subroutine start_places
 
 end module wavycon_series_stress

@@ -10,21 +10,12 @@ module wavycon_stress_tensor
    implicit none (type, external)
    private
 
-   public :: combined, largest_shear, principal_stresses, stress_pressure, von_mises
+   public :: largest_shear, principal_stresses, stress_pressure, von_mises
 
    !> Places of the components.
    integer, parameter, public :: xx = 1, yy = 2, zz = 3, xy = 4, xz = 5, yz = 6
 
 contains
-
-   !> Stress for Poisson's ratio nu, in which the stresses below a given pressure are linear.
-   pure function combined(parts, nu) result(s)
-      real(dp), intent(in) :: parts(6, 2)  !! for nu = 0, and their derivative with respect to nu
-      real(dp), intent(in) :: nu           !! Poisson's ratio [-]
-      real(dp) :: s(6)
-
-      s = parts(:, 1) + nu*parts(:, 2)
-   end function combined
 
    !> Von Mises stress [(d1^2 + d2^2 + d3^2)/2 + 3 (xy^2 + xz^2 + yz^2)]^(1/2) with the differences d1 = xx - yy,
    !> d2 = yy - zz, d3 = zz - xx: the yield stress in uniaxial tension.

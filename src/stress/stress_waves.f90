@@ -3,9 +3,7 @@
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt3
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
@@ -13,7 +11,7 @@ module wavycon_stress_waves
    implicit none (type, external)
    private
 
-   public :: stress_waves, octave_weights
+   public :: stress_waves
 
    !> Waves whose factor exp(-q Z) is smaller than exp(-37) are rounding.
    real(dp), parameter, public :: deepest = 37.0_dp
@@ -30,7 +28,6 @@ module wavycon_stress_waves
       procedure :: last_waves
       procedure :: octave_reaches
       procedure :: find_moments
-      procedure :: transform
       procedure :: find_spectra
    end type stress_waves
 
@@ -42,6 +39,7 @@ contains
       real(dp), intent(in) :: side_ratio              !! L_y/L_x, > 0
       logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
 
+      complex(dp) :: down, up
       integer :: k, l, m, n
 
       call assert(side_ratio > 0.0_dp, 'side_ratio > 0')
@@ -55,22 +53,18 @@ contains
       end if
       allocate (self%wave(0:m, -n:n), source=(0.0_dp, 0.0_dp))
       do l = 0, n
-         do k = 0, m
-            associate (up => self%wave(k, l), down => self%wave(k, -l))
-               if (k == 0 .and. l == 0) cycle
-               if (k > 0 .and. l > 0) then
-                  up = 0.5_dp*pressure%c(k, l)
-                  down = up
-                  if (pressure%is_even()) cycle
-                  up = up - 0.5_dp*cmplx(pressure%ss(k, l), pressure%sc(k, l) + pressure%cs(k, l), dp)
-                  down = down + 0.5_dp*cmplx(pressure%ss(k, l), pressure%cs(k, l) - pressure%sc(k, l), dp)
-               else
-                  up = pressure%c(k, l)
-                  if (pressure%is_even()) cycle
-                  if (l == 0) up = up - cmplx(0.0_dp, pressure%sc(k, l), dp)
-                  if (k == 0) up = up - cmplx(0.0_dp, pressure%cs(k, l), dp)
-               end if
-            end associate
+         do k = merge(1, 0, l == 0), m
+            up = 0.5_dp*pressure%c(k, l)
+            down = up
+            if (.not. self%is_even) then
+               up = up - 0.5_dp*cmplx(pressure%ss(k, l), pressure%sc(k, l) + pressure%cs(k, l), dp)
+               down = down + 0.5_dp*cmplx(pressure%ss(k, l), pressure%cs(k, l) - pressure%sc(k, l), dp)
+            end if
+            if (k > 0) self%wave(k, -l) = down
+            self%wave(k, l) = up
+            ! Both are the same wave on the axes.
+            if (k == 0) self%wave(0, l) = up + conjg(down)
+            if (l == 0) self%wave(k, 0) = up + down
          end do
       end do
    end subroutine start
@@ -162,42 +156,6 @@ contains
       end do
    end subroutine find_moments
 
-   !> The weights of a wave of the last octave in (S5), to its sign.
-   pure function octave_weights(n_x, n_y, q_z) result(weights)
-      real(dp), intent(in) :: n_x, n_y   !! its direction
-      real(dp), intent(in) :: q_z        !! q Z
-      complex(dp) :: weights(3)
-
-      weights = (1.0_dp + q_z)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
-   end function octave_weights
-
-   !> The six components on a plane and, if asked for, the three sums of (S5).
-   subroutine transform(self, points, offset, depth, body, pbar_over_pstar, number, fields)
-      class(stress_waves), intent(in) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2), depth, pbar_over_pstar
-      type(elastic_body), intent(in) :: body
-      integer, intent(in) :: number                          !! of fields, 6 or 9
-      real(dp), allocatable, intent(out) :: fields(:, :, :)  !! shape (N_x, N_y, number)
-
-      complex(dp), allocatable :: waves(:, :, :)
-      type(grid_transform) :: plane
-      real(dp) :: mean(6)
-      integer :: i
-
-      allocate (fields(points(1), points(2), number))
-      allocate (waves(points(1)/2 + 1, points(2), number))
-      call plane%start(points, even=.false., whole=.true.)
-      call self%find_spectra(points, offset, depth, body%nu, waves)
-      do i = 1, number
-         call plane%sample_waves(waves(:, :, i), fields(:, :, i))
-      end do
-      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
-      do i = 1, 6
-         if (abs(mean(i)) > 0.0_dp) fields(:, :, i) = fields(:, :, i) + mean(i)
-      end do
-   end subroutine transform
-
    !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
    !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
    !> sum of the other four; waves that hardly reach the plane are left out of these.
@@ -228,22 +186,27 @@ contains
          turn_y = exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp))
          wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%wave(:last(1), l)*turn_x*turn_y
          shear = -(1.0_dp - 2*nu - q_z)/q**2
-         here(:, xy) = k*q_y*shear*wave
-         here(:, xz) = cmplx(0.0_dp, k*depth, dp)*wave
-         here(:, yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
-         if (number <= 5) then
-            here(:, 3:5) = sqrt3*here(:, [xy, xz, yz])
+         select case (number)
+         case (2)
+            here(:, 1) = sqrt3*cmplx((0.5_dp*(k**2 - q_y**2) + k*q_y)*shear, (k + q_y)*depth, dp)*wave
+            here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
+         case (5)
             here(:, 1) = 0.5_dp*sqrt3*(k**2 - q_y**2)*shear*wave
             here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
-            if (number == 2) here(:, 1) = here(:, 1) + here(:, 3) + here(:, 4) + here(:, 5)
-         else
+            here(:, 3) = sqrt3*k*q_y*shear*wave
+            here(:, 4) = cmplx(0.0_dp, sqrt3*k*depth, dp)*wave
+            here(:, 5) = cmplx(0.0_dp, sqrt3*q_y*depth, dp)*wave
+         case default
+            here(:, xy) = k*q_y*shear*wave
+            here(:, xz) = cmplx(0.0_dp, k*depth, dp)*wave
+            here(:, yz) = cmplx(0.0_dp, q_y*depth, dp)*wave
             here(:, xx) = (k**2*shear - 2*nu)*wave
             here(:, yy) = (q_y**2*shear - 2*nu)*wave
             here(:, zz) = -(1.0_dp + q_z)*wave
             here(:, 7) = merge(1.0_dp + q_z, 0.0_dp, q > self%sampled_from)*wave
             here(:, 8) = cmplx(0.0_dp, k/q, dp)*here(:, 7)
             here(:, 9) = cmplx(0.0_dp, q_y/q, dp)*here(:, 7)
-         end if
+         end select
          up = modulo(l, points(2))
          down = modulo(-l, points(2))
          do j = 1, number

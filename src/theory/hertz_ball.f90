@@ -70,16 +70,15 @@ contains
       real(dp), intent(in) :: radii(2), e_star
 
       integer(c_int), parameter :: all_digits = 0
-      integer, parameter :: most_steps = 200
+      integer, parameter :: steps = 64
       real(dp) :: a, b, d, high, k, k1, low, middle
       integer :: step
 
       ! ln(b/a), by bisection: the ratio of the radii falls with it.
       low = -1.5_dp*log(maxval(radii)/minval(radii)) - 1e-3_dp
       high = 0.0_dp
-      do step = 1, most_steps
+      do step = 1, steps
          middle = 0.5_dp*(low + high)
-         if (middle <= low .or. middle >= high) exit
          call integrals(exp(middle), k1, d)
          if ((k1 - d)/(d*exp(2*middle)) > maxval(radii)/minval(radii)) then
             low = middle

@@ -93,7 +93,7 @@ contains
 
       p = max(0.0_dp, pbar_over_pstar)
       gap = light_load_mean_gap_lattice(p) + (3*pi**2*p)**(4.0_dp/3)/120 &
-         - 4*inverse_cube_sum()/15*(3/(8*pi))**(2.0_dp/3)*p**(5.0_dp/3)
+         - 4*inverse_cube_sum/15*(3/(8*pi))**(2.0_dp/3)*p**(5.0_dp/3)
    end function light_load_mean_gap_longer
 
    !> Fraction of the nominal area in contact: (23) times
@@ -106,7 +106,7 @@ contains
 
       p = max(0.0_dp, pbar_over_pstar)
       fraction = hertz_point_contact_area_fraction(p) &
-         *(1 + (3*pi**2*p)**(2.0_dp/3)/15 - inverse_cube_sum()*p/(6*pi**2))
+         *(1 + (3*pi**2*p)**(2.0_dp/3)/15 - inverse_cube_sum*p/(6*pi**2))
    end function light_load_contact_area_longer
 
    !> Mean gap without interaction of the crests, 1 - a^2/(R Delta).

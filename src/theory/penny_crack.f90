@@ -24,6 +24,9 @@ module wavycon_penny_crack
    public :: penny_crack_mean_gap_over_amplitude
    public :: near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude
 
+   !> Tension at one trough for unit mean gap at all the others, k [p*/Delta].
+   real(dp), parameter :: interaction = inverse_cube_sum/(4*pi**2)
+
 contains
 
    !> Pressure that opens the crack, (A4): (1 - pbar/p*) - 2 pi^2 (r/lambda)^2.
@@ -96,7 +99,7 @@ contains
 
       e = max(0.0_dp, 1 - pbar_over_pstar)
       fraction = 1 - 3/(2*pi) &
-         *(e + 0.3_dp*e**2 + interaction()*penny_crack_mean_gap_over_amplitude(pbar_over_pstar))
+         *(e + 0.3_dp*e**2 + interaction*penny_crack_mean_gap_over_amplitude(pbar_over_pstar))
    end function near_closure_contact_area_fraction
 
    !> Mean gap, (30) times 1 + (9/28) e + (5/2) k G_30/e; the error is O(e^2) of it.
@@ -108,12 +111,7 @@ contains
       e = max(0.0_dp, 1 - pbar_over_pstar)
       g_30 = penny_crack_mean_gap_over_amplitude(pbar_over_pstar)
       gap = 0
-      if (e > 0) gap = g_30*(1 + 9*e/28 + 2.5_dp*interaction()*g_30/e)
+      if (e > 0) gap = g_30*(1 + 9*e/28 + 2.5_dp*interaction*g_30/e)
    end function near_closure_mean_gap_over_amplitude
-
-   !> Tension at one trough for unit mean gap at all the others, k [p*/Delta].
-   pure real(dp) function interaction()
-      interaction = inverse_cube_sum()/(4*pi**2)
-   end function interaction
 
 end module wavycon_penny_crack

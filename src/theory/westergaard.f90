@@ -15,10 +15,8 @@ module wavycon_westergaard
 
    public :: westergaard_pressure_over_pstar, westergaard_peak_pressure_over_pstar
    public :: westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude
-   public :: westergaard_half_width_over_wavelength, westergaard_contact_area_fraction
-   public :: kuznetsov_mean_gap_over_amplitude
-   public :: hertz_line_half_width_over_wavelength, hertz_line_contact_area_fraction
-   public :: hertz_line_peak_pressure_over_pstar, line_crack_contact_area_fraction
+   public :: westergaard_contact_area_fraction, kuznetsov_mean_gap_over_amplitude
+   public :: hertz_line_contact_area_fraction, line_crack_contact_area_fraction
 
 contains
 
@@ -76,18 +74,12 @@ contains
       end if
    end function westergaard_gap_over_amplitude
 
-   !> Half width of a contact strip, equation (7): a/lambda = asin((pbar/p*)^(1/2))/pi, at most 1/2.
-   elemental real(dp) function westergaard_half_width_over_wavelength(pbar_over_pstar) result(a)
-      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
-
-      a = asin(sqrt(min(1.0_dp, max(0.0_dp, pbar_over_pstar))))/pi
-   end function westergaard_half_width_over_wavelength
-
-   !> Fraction of the nominal area in contact, 2 a/lambda: from 0 to 1.
+   !> Fraction of the nominal area in contact, from 0 to 1: 2 a/lambda with the half width a of a strip, equation (7),
+   !> a/lambda = asin((pbar/p*)^(1/2))/pi.
    elemental real(dp) function westergaard_contact_area_fraction(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
-      fraction = 2*westergaard_half_width_over_wavelength(pbar_over_pstar)
+      fraction = 2*(asin(sqrt(min(1.0_dp, max(0.0_dp, pbar_over_pstar))))/pi)
    end function westergaard_contact_area_fraction
 
    !> Mean gap G = 1 - P (1 - ln P), P = pbar/p*: equation (20).
@@ -106,29 +98,16 @@ contains
       end if
    end function kuznetsov_mean_gap_over_amplitude
 
-   !> Half width of a contact strip where each crest is a separate Hertzian line contact, the limit pbar -> 0, equation
-   !> (8): a/lambda = (pbar/p*)^(1/2)/pi. A crest has the curvature 1/R = 4 pi^2 Delta/lambda^2 and bears the load pbar
-   !> lambda per unit length. As the next two this returns the formula's value for any pbar >= 0, also where it does not
-   !> apply.
-   elemental real(dp) function hertz_line_half_width_over_wavelength(pbar_over_pstar) result(a)
-      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
-
-      a = sqrt(max(0.0_dp, pbar_over_pstar))/pi
-   end function hertz_line_half_width_over_wavelength
-
-   !> Fraction of the nominal area in contact, 2 a/lambda: only 0.64 at pbar = p*, and 1 at 2.5 p*.
+   !> Fraction of the nominal area in contact where each crest is a separate Hertzian line contact, the limit pbar -> 0:
+   !> 2 a/lambda with the half width of equation (8), a/lambda = (pbar/p*)^(1/2)/pi. A crest has the curvature 1/R = 4
+   !> pi^2 Delta/lambda^2 and bears the load pbar lambda per unit length; its peak pressure 2 pbar lambda/(pi a) is
+   !> Westergaard's at any load. The formula's value is returned for any pbar >= 0, also where it does not apply: only
+   !> 0.64 at pbar = p*, and 1 at 2.5 p*.
    elemental real(dp) function hertz_line_contact_area_fraction(pbar_over_pstar) result(fraction)
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
 
-      fraction = 2*hertz_line_half_width_over_wavelength(pbar_over_pstar)
+      fraction = 2*(sqrt(max(0.0_dp, pbar_over_pstar))/pi)
    end function hertz_line_contact_area_fraction
-
-   !> Pressure at the crest, p0 = 2 pbar lambda/(pi a) = 2 (pbar p*)^(1/2), which is Westergaard's at any load.
-   elemental real(dp) function hertz_line_peak_pressure_over_pstar(pbar_over_pstar) result(p0)
-      real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
-
-      p0 = 2*sqrt(max(0.0_dp, pbar_over_pstar))
-   end function hertz_line_peak_pressure_over_pstar
 
    !> Fraction of the nominal area in contact where each open strip is a separate pressurised crack, the limit pbar ->
    !> p*. The crack opens until its stress intensity factor is zero: 1 - 2 b/lambda with its half width, equation (11),

@@ -243,10 +243,6 @@ class Consumers(unittest.TestCase):
         self.assertEqual(["wave_1d", "wave_2d", "hexagonal"], keys["surface"]["amplitude"]["read_by"])
         self.assertNotIn("read_by", keys["material"]["e_star"])
 
-    @loads_the_library
-    def test_a_load_is_stopped(self):
-        self.assertEqual("stopped\n", run(sys.executable, HERE / "interrupt.py", self.library))
-
     def test_misuse(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse", cwd=self.folder))
 

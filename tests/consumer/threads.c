@@ -89,11 +89,19 @@ static int solve_another(void *data, int iterations, double residual)
     return !is_solved;
 }
 
-/* The digits do not depend on what the callback does, nor the lock: others come in afterwards. */
+/* Ends the load in the tenth call or a later one. */
+static int stop(void *calls, int iterations, double residual)
+{
+    return ++*(int *)calls >= 10 && iterations > 0 && residual <= 1;
+}
+
+/* The digits do not depend on what the callback does, also if it stopped the load before, nor does the lock: others come
+   in afterwards. */
 static int calls_in_a_callback(void)
 {
     const char deck[] = "&surface kind = 'wave_2d' / &method solver = 'grid', accuracy = 1e-2 /";
-    double one = 0, other = 1;
+    double one = 0, other = 1, status = 0, after_stop = 1;
+    int calls = 0;
     wavycon_error error = wavycon_new_error(), inner = wavycon_new_error();
     wavycon_scene scene = wavycon_new_scene(error, deck, "d", 0, 0, 0, NULL);
     wavycon_scene second = wavycon_new_scene(error, deck, "d", 0, 0, 0, NULL);
@@ -101,8 +109,16 @@ static int calls_in_a_callback(void)
     wavycon_solution plain = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
     wavycon_set_progress(error, scene, solve_another, data);
     wavycon_solution disturbed = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
+    wavycon_set_progress(error, scene, stop, &calls);
+    wavycon_solution stopped = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
+    wavycon_set_progress(error, scene, NULL, NULL);
+    wavycon_solution next = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
     wavycon_get(error, plain, "pbar_over_pstar", &one);
     wavycon_get(error, disturbed, "pbar_over_pstar", &other);
+    wavycon_get(error, stopped, "status_code", &status);
+    wavycon_get(error, next, "pbar_over_pstar", &after_stop);
+    wavycon_delete(&next);
+    wavycon_delete(&stopped);
     wavycon_delete(&disturbed);
     wavycon_delete(&plain);
     wavycon_delete(&second);
@@ -110,7 +126,7 @@ static int calls_in_a_callback(void)
     wavycon_delete(&inner);
     wavycon_delete(&error);
     calls_go_on_while_a_load_is_solved();
-    return one != other;
+    return one != other || status != WAVYCON_INTERRUPTED || one != after_stop;
 }
 
 int main(void)

@@ -1,5 +1,4 @@
-!> Stresses below a Hertzian contact: on the axis of a circular point contact, everywhere below a line contact,
-!> and the largest shear of both.
+!> Stresses on the axis of a Hertzian contact, circular or along a line, and the largest shear of a circular one.
 !>
 !> K. L. Johnson, Contact Mechanics, Cambridge University Press (1985), sections 3.4 and 4.2. The pressure is
 !> p0 (1 - r^2/a^2)^(1/2), in a line contact p0 (1 - x^2/a^2)^(1/2). Lengths are in a, stresses in p0, positive in
@@ -10,11 +9,10 @@ module wavycon_hertz_stress
    implicit none (type, external)
    private
 
-   public :: hertz_point_axis_stress, hertz_point_largest_shear
-   public :: hertz_line_stress, hertz_line_largest_shear
+   public :: hertz_line_axis_stress, hertz_point_axis_stress, hertz_point_largest_shear
 
    !> Places of the components that are not zero.
-   integer, parameter :: xx = 1, yy = 2, zz = 3, xz = 5
+   integer, parameter :: xx = 1, yy = 2, zz = 3
 
 contains
 
@@ -59,49 +57,15 @@ contains
       shear = (parts(xx, 1) - parts(zz, 1) + nu*parts(xx, 2))/2
    end subroutine hertz_point_largest_shear
 
-   !> Everywhere below a line contact along y in plane strain, Johnson (4.49).
-   !>
-   !> With (1 - (x + i z)^2)^(1/2) = m - i n, where m >= 0 and n has the sign of x,
-   !>
-   !>     s_zz = -m d,   s_xz = -n d,   d = (m^2 - z^2)/(m^2 + n^2),
-   !>     s_xx = -2 h - s_zz,   s_yy = -2 nu h,   h = m - z.
-   !>
-   !> N.B. m - z is a small difference at depth. It equals (m + z)/[(m + z)^2 + (n + x)^2].
-   pure subroutine hertz_line_stress(x, z, parts)
-      real(dp), intent(in) :: x             !! distance from the plane of symmetry [a]
-      real(dp), intent(in) :: z             !! depth, >= 0 [a]
+   !> On the axis of a line contact along y in plane strain, Johnson (4.46).
+   pure subroutine hertz_line_axis_stress(z, parts)
+      real(dp), intent(in) :: z             !! depth, >= 0 [a]; far down digits are lost
       real(dp), intent(out) :: parts(6, 2)  !! stress in two parts [p0]
 
-      real(dp) :: d, m, n
-      real(dp) :: h  !! m - z, the harmonic continuation of the pressure
-      complex(dp) :: root
-
-      root = sqrt(cmplx((1 - x)*(1 + x) + z**2, -2*x*z, dp))
-      m = root%re
-      n = sign(root%im, x)
-      h = (m + z)/((m + z)**2 + (n + x)**2)
-      ! At the edge of contact m and n are 0, and so are the stresses.
-      d = 0
-      if (abs(root) > 0) d = h*(m + z)/(m**2 + n**2)
       parts = 0
-      parts(xx, 1) = -2*h + m*d
-      parts(zz, 1) = -m*d
-      parts(xz, 1) = -n*d
-      parts(yy, 2) = -2*h
-   end subroutine hertz_line_stress
-
-   !> Largest shear below a line contact, on the axis at x = 0: 0.30 p0 at 0.78 a.
-   !>
-   !> On the axis (s_xx - s_zz)/2 = z (1 - c) with c = z/(1 + z^2)^(1/2), Johnson (4.46). Its slope is
-   !> 1 - 2 c + c^3 = (c - 1) (c^2 + c - 1): it is zero at the golden ratio, c = (sqrt(5) - 1)/2, where z^2 = c.
-   pure subroutine hertz_line_largest_shear(shear, depth)
-      real(dp), intent(out) :: shear  !! [p0]
-      real(dp), intent(out) :: depth  !! [a]
-
-      real(dp), parameter :: golden_ratio = (sqrt(5.0_dp) - 1)/2
-
-      depth = sqrt(golden_ratio)
-      shear = depth*(1 - golden_ratio)
-   end subroutine hertz_line_largest_shear
+      parts(xx, 1) = 2*z - (1 + 2*z**2)/sqrt(1 + z**2)
+      parts(zz, 1) = -1/sqrt(1 + z**2)
+      parts(yy, 2) = parts(xx, 1) + parts(zz, 1)
+   end subroutine hertz_line_axis_stress
 
 end module wavycon_hertz_stress
