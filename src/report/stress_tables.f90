@@ -22,7 +22,7 @@ module wavycon_stress_tables
    implicit none (type, external)
    private
 
-   public :: add_stress_tables, angle_of_depth, stress_depths, stress_numbers
+   public :: add_stress_tables, stress_depths, stress_numbers
 
    !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
    character(*), parameter :: stress_columns = &
@@ -31,7 +31,6 @@ module wavycon_stress_tables
       'largest_shear[pressure] stress_pressure[pressure] stress_error[pressure]'
    integer, parameter :: numbers_of_stress = 13
 
-   character(*), parameter :: planes_columns = 'load[-] body[-] x[length] y[length] depth[length] '//stress_columns
    !> Numbers in memory for each point of a plane: stresses, error, their spectra, and those of the solution.
    integer, parameter :: numbers_a_point = 20
 
@@ -57,7 +56,8 @@ contains
          columns='load[-] body[-] distance[length] x[length] y[length] depth[length] '// &
          stress_columns))
       call add_table(tables, table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
-         write_all=write_stress_planes_table, columns=planes_columns))
+         write_all=write_stress_planes_table, &
+         columns='load[-] body[-] x[length] y[length] depth[length] '//stress_columns))
    end subroutine add_stress_tables
 
    !> The largest stresses are found before the tables are written.
@@ -116,7 +116,7 @@ contains
          allocate (parts(6, 2, size(depths), 1), errors(size(depths), 1), places(2, size(depths), 1))
          call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)
-            call fields%at(surface%crest(1), surface%crest(2), angle_of_depth(surface, depths(i)), parts(:, :, i, 1), &
+            call fields%at(surface%crest(1), surface%crest(2), 2*pi*depths(i)/surface%length(1), parts(:, :, i, 1), &
                            errors(i, 1))
             places(:, i, 1) = [depths(i), depths(i)/side(1)]
          end do
@@ -144,7 +144,7 @@ contains
          allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)), places(4, size(t), size(depths)))
          call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)
-            call fields%on_line(line%angle(:, 0), line%direction, t, angle_of_depth(surface, depths(i)), &
+            call fields%on_line(line%angle(:, 0), line%direction, t, 2*pi*depths(i)/surface%length(1), &
                                 parts(:, :, :, i), errors(:, i))
             places(1, :, i) = line%distance
             places(2:3, :, i) = line%place
@@ -155,7 +155,8 @@ contains
    end subroutine put_section
 
    !> Errors: exit_file_trouble.
-   subroutine write_stress_planes_table(results, error)
+   subroutine write_stress_planes_table(table, results, error)
+      class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
@@ -168,8 +169,7 @@ contains
       associate (scene => results%scene, surface => results%solver%surface, &
                  bodies => size(results%scene%stress_setting%body))
          call stress_depths(scene%stress, surface, .true., depths)
-         call planes%open(results, 'stress_planes', planes_columns, 2, [size(results%loads), bodies, size(depths)], &
-                          numbers_a_point, 'planes of ')
+         call planes%open(results, table, 2, [size(results%loads), bodies, size(depths)], numbers_a_point, 'planes of ')
          allocate (values(1 + numbers_of_stress, planes%points(1)))
          do load = 1, size(results%loads)
             if (.not. planes%file%is_open()) exit
@@ -177,7 +177,7 @@ contains
             do body = 1, bodies
                do i = 1, size(depths)
                   if (planes%as_text) call results%begin_block(planes%file, load)
-                  call fields%on_plane(planes%points, planes%offset, angle_of_depth(surface, depths(i)), &
+                  call fields%on_plane(planes%points, planes%offset, 2*pi*depths(i)/surface%length(1), &
                                        scene%stress_setting%body(body), stress, errors)
                   do l = 1, planes%points(2)
                      do k = 1, planes%points(1)
@@ -260,13 +260,5 @@ contains
                     i=0, steps - 1)]
       end if
    end subroutine stress_depths
-
-   !> Z of a depth [rad].
-   elemental real(dp) function angle_of_depth(surface, depth)
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: depth   !! [length]
-
-      angle_of_depth = 2*pi*depth/surface%length(1)
-   end function angle_of_depth
 
 end module wavycon_stress_tables
