@@ -1,5 +1,5 @@
 !> Result files. A file is written under a temporary name and renamed when it is complete. A table may be written to
-!> memory in place of a file: `open_in_memory`.
+!> memory in place of a file: it gets columns and rows, and lines by `put` are left out.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
@@ -23,6 +23,7 @@ module wavycon_output_file
 
    type :: output_file
       private
+      type(memory_table), pointer, public :: memory => null()   !! in place of the file; exists until `finish`
       integer :: unit = -1
       logical :: opened = .false.
       character(:), allocatable :: name           !! final name
@@ -34,7 +35,6 @@ module wavycon_output_file
       logical :: has_names = .false.              !! whether the line of the names was written
       integer :: blocks = 0                       !! data sets begun by begin_block
       integer, allocatable :: column_end(:)       !! position in a row at which each column ends
-      type(memory_table), pointer :: memory => null()   !! in place of the file
       !> The row being filled: of each column what it is, the number, the word.
       integer :: columns_filled = 0
       integer, allocatable :: kinds(:)
@@ -42,7 +42,6 @@ module wavycon_output_file
       character(longest_word), allocatable :: words(:)
    contains
       procedure :: open => open_file
-      procedure :: open_in_memory
       procedure :: is_open
       procedure :: put
       procedure :: put_numbers
@@ -78,14 +77,6 @@ contains
       if (self%opened .and. present(head)) write (self%unit, iostat=self%status, iomsg=self%message) head
       call check(self)
    end subroutine open_file
-
-   !> Opens a table in memory in place of a file. It gets columns and rows; lines by `put` are left out.
-   subroutine open_in_memory(self, memory)
-      class(output_file), intent(out) :: self
-      type(memory_table), intent(inout), target :: memory   !! exists until `finish`
-
-      self%memory => memory
-   end subroutine open_in_memory
 
    !> Whether the file is open and no error has occurred.
    pure logical function is_open(self)
@@ -126,10 +117,7 @@ contains
       integer :: i, last, width
 
       allocate (self%kinds(size(names)), self%numbers(size(names)), self%words(size(names)))
-      if (associated(self%memory)) then
-         call self%memory%start(names, units)
-         return
-      end if
+      if (associated(self%memory)) call self%memory%start(names, units)
       self%names = names
       allocate (self%column_end(size(names)))
       last = 0
@@ -163,7 +151,7 @@ contains
       type(output_file), intent(inout) :: self
 
       self%has_names = .true.
-      if (.not. associated(self%memory)) call self%put(aligned(self, self%names))
+      call self%put(aligned(self, self%names))
    end subroutine put_names
 
    !> Begins a data set of gnuplot's `index`: two blank lines, unless it is the first, a comment, and the names of the
