@@ -6,7 +6,7 @@ module wavycon_closed_form_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: closed_form
-   use wavycon_contact_contours, only: contact_contour, strip_ends
+   use wavycon_contact_contours, only: contact_contour, make_strips
    use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
@@ -151,7 +151,7 @@ contains
       real(dp), allocatable, intent(out) :: loads(:)
 
       associate (unused => self, unused_too => surface); end associate
-      call strip_ends([pi*record%measures%contact_area_fraction], .true., curves)
+      call make_strips([pi*record%measures%contact_area_fraction], .true., .true., curves)
       loads = [1.0_dp]
    end subroutine contact_contours
 

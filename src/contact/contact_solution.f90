@@ -6,7 +6,7 @@ module wavycon_contact_solution
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_spots, only: contact_spots, find_spots, no_spots, one_region
+   use wavycon_contact_spots, only: contact_spots, find_spots, one_region
    use wavycon_contact_status, only: full_contact, is_good_status, no_load
    use wavycon_contact_contours, only: contact_contour
    use wavycon_field_source, only: field_source
@@ -129,8 +129,8 @@ contains
       end if
    end subroutine stresses
 
-   !> The spots of contact and the pools of gap; for a mirrored height map those of the map. Not known for a partial
-   !> contact without a source.
+   !> The spots of contact and the pools of gap; for a mirrored height map those of the map. Not allocated for a
+   !> partial contact without a source.
    subroutine spots(self, surface, answer)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface      !! that was solved
@@ -147,8 +147,6 @@ contains
                          answer, surface%mirrored)
       else if (self%is_good() .or. is_full) then
          call one_region(is_full, surface%dimension, answer)
-      else
-         call no_spots(answer)
       end if
    end subroutine spots
 

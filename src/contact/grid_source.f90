@@ -4,8 +4,7 @@ module wavycon_grid_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_contours, only: contact_contour, rotate_contours, shift_contour, strip_ends, trace_edges, &
-      whole_strips
+   use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
    use wavycon_contact_measures, only: or_nan
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
@@ -120,11 +119,7 @@ contains
          call spot_loads(self%edge, numbers, loads)
       else
          call grid_strip_edges(self%edge, edges)
-         if (self%edge%even) then
-            call strip_ends(edges, self%edge%in_contact(1, 1), curves)
-         else
-            call whole_strips(edges, self%edge%in_contact(1, 1), curves)
-         end if
+         call make_strips(edges, self%edge%in_contact(1, 1), self%edge%even, curves)
          call strip_loads(self%edge, size(curves), loads)
       end if
    end subroutine contact_contours

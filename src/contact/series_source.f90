@@ -4,7 +4,7 @@ module wavycon_series_source
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: measuring_intervals
-   use wavycon_contact_contours, only: contact_contour, strip_ends, trace_edges, rotate_contours
+   use wavycon_contact_contours, only: contact_contour, make_strips, trace_edges, rotate_contours
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: fourier_terms
@@ -130,7 +130,7 @@ contains
          else
             series%c(0, 0) = series%c(0, 0) - level
             call line_zeros(series%c(:, 0), measuring_intervals(harmonics), zeros)
-            call strip_ends(zeros, sum(series%c) >= 0.0_dp, curves)
+            call make_strips(zeros, sum(series%c) >= 0.0_dp, .true., curves)
          end if
          ! The part outside the isobar is not known.
          allocate (loads(0))

@@ -2,14 +2,13 @@
 module wavycon_contact_contours
    use, intrinsic :: iso_fortran_env, only: int8
    use wavycon_constants, only: pi
-   use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
+   use wavycon_contact_edge, only: contact_edge, corner, cross, edge_point
    use wavycon_kinds, only: dp
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    implicit none (type, external)
    private
 
-   public :: contact_contour, keep_curves_of_quarter, rotate_contours, shift_contour, strip_ends, trace_edges, &
-      whole_strips
+   public :: contact_contour, keep_curves_of_quarter, make_strips, rotate_contours, shift_contour, trace_edges
 
    !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
    !> is one period on. In 1-D it is the two ends of a strip.
@@ -77,19 +76,6 @@ contains
       call move_alloc(other, curves)
    end subroutine resize
 
-   !> The strips of a 1-D contact that is even, over a whole period, as curves of two points each.
-   pure subroutine strip_ends(edges, crest_in_contact, curves)
-      real(dp), intent(in) :: edges(:)             !! between 0 and pi, ascending [rad]
-      logical, intent(in) :: crest_in_contact      !! whether 0 is
-      type(contact_contour), allocatable, intent(out) :: curves(:)
-
-      associate (mirrored => 2*pi - edges(size(edges):1:-1))
-         call whole_strips([edges, mirrored], crest_in_contact, curves)
-      end associate
-      ! The difference of two periods is not exact.
-      if (crest_in_contact .and. size(edges) > 0) curves(1)%phi(1) = -edges(1)
-   end subroutine strip_ends
-
    !> Keeps the curves of an even contact that have a point in the quarter 0 <= phi, theta <= pi of the cell. Each is
    !> moved by whole periods to where it has the most points there. A curve across the border of the quarter is its own
    !> mirror image and extends beyond it.
@@ -148,17 +134,23 @@ contains
    end subroutine rotate_contours
 
    !> The strips of a 1-D contact over a whole period, as curves of two points each.
-   pure subroutine whole_strips(edges, starts_in_contact, curves)
-      real(dp), intent(in) :: edges(:)   !! an even number, ascending, within a period [rad]
-      logical, intent(in) :: starts_in_contact
+   pure subroutine make_strips(edges, starts_in_contact, even, curves)
+      real(dp), intent(in) :: edges(:)            !! ascending, within a period or, of an even contact, its half [rad]
+      logical, intent(in) :: starts_in_contact    !! whether 0 is
+      logical, intent(in) :: even
       type(contact_contour), allocatable, intent(out) :: curves(:)
 
-      real(dp) :: ends(size(edges))
+      real(dp) :: ends(merge(2, 1, even)*size(edges))
       integer :: i
 
-      ends = edges
-      if (starts_in_contact .and. size(edges) > 0) ends = [edges(size(edges)) - 2*pi, edges(:size(edges) - 1)]
-      allocate (curves(size(edges)/2))
+      ends(:size(edges)) = edges
+      if (even) ends(size(edges) + 1:) = 2*pi - edges(size(edges):1:-1)
+      if (starts_in_contact .and. size(ends) > 0) then
+         ends = [ends(size(ends)) - 2*pi, ends(:size(ends) - 1)]
+         ! The difference of two periods is not exact.
+         if (even) ends(1) = -edges(1)
+      end if
+      allocate (curves(size(ends)/2))
       do i = 1, size(curves)
          allocate (curves(i)%phi, source=ends(2*i - 1:2*i))
          allocate (curves(i)%theta(2), source=0.0_dp)
@@ -166,7 +158,7 @@ contains
          curves(i)%pool = i
          curves(i)%area = 2*pi*(ends(2*i) - ends(2*i - 1))
       end do
-   end subroutine whole_strips
+   end subroutine make_strips
 
    !> Moves a curve into the contact, at right angles to it where the steps of the grid are 1: by the given number of
    !> steps, but at most by half of its mean radius, so that the curve of the smallest contact stays about it.
@@ -211,8 +203,8 @@ contains
       type(edge_point) :: first, last, next
       integer :: k, l, number, count, entered, place(2), quarters
 
-      curve%spot = numbers%of_point(first_k + corner_k(first_number), first_l + corner_l(first_number))
-      curve%pool = -numbers%of_point(first_k + corner_k(first_number + 1), first_l + corner_l(first_number + 1))
+      curve%spot = region_at_corner(numbers, first_k, first_l, first_number)
+      curve%pool = -region_at_corner(numbers, first_k, first_l, first_number + 1)
       allocate (points(2, 64))
       k = first_k
       l = first_l
@@ -224,7 +216,7 @@ contains
       do
          count = count + 1
          if (count > size(points, 2)) points = reshape(points, [2, 2*size(points, 2)], pad=[0.0_dp])
-         points(:, count) = [last%phi, last%theta]
+         points(:, count) = last%angle
          place = numbers%wrap(k, l)
          if (btest(seen(place(1), place(2)), number)) exit
          seen(place(1), place(2)) = ibset(seen(place(1), place(2)), number)
@@ -239,8 +231,7 @@ contains
          associate (rotated => modulo(number - entered, 4) - 2)
             quarters = quarters + rotated
             curve%area = curve%area - edge%beside_chord(last, next) + edge%area_correction(k, l, 0.25_dp*rotated) &
-               + 0.5_dp*((last%phi - first%phi)*(next%theta - first%theta) &
-                         - (next%phi - first%phi)*(last%theta - first%theta))
+               + 0.5_dp*cross(last%angle - first%angle, next%angle - first%angle)
          end associate
          last = next
          k = k + step_k(number)
@@ -249,7 +240,7 @@ contains
       end do
       curve%turns = quarters/4
       ! (A1): the curve may go around the cell.
-      curve%area = curve%area - ((last%phi - first%phi)*first%theta - (last%theta - first%theta)*first%phi)
+      curve%area = curve%area - cross(last%angle - first%angle, first%angle)
       allocate (curve%phi, source=points(1, :count))
       allocate (curve%theta, source=points(2, :count))
    end subroutine trace
@@ -271,8 +262,16 @@ contains
       type(region_numbers), intent(in) :: numbers
       integer, intent(in) :: k, l, number
 
-      leaves_contact = numbers%of_point(k + corner_k(number), l + corner_l(number)) > 0 .and. &
-                       numbers%of_point(k + corner_k(number + 1), l + corner_l(number + 1)) < 0
+      leaves_contact = region_at_corner(numbers, k, l, number) > 0 .and. &
+                       region_at_corner(numbers, k, l, number + 1) < 0
    end function leaves_contact
+
+   !> The region of a corner of a cell.
+   pure integer function region_at_corner(numbers, k, l, number) result(region)
+      type(region_numbers), intent(in) :: numbers
+      integer, intent(in) :: k, l, number
+
+      region = numbers%of_point(k + corner(1, number), l + corner(2, number))
+   end function region_at_corner
 
 end module wavycon_contact_contours

@@ -3,27 +3,31 @@
 !> The extensions compute where the edge crosses the line between two neighbouring points, and its direction there:
 !> as an isobar of a series, or from a solution on the grid itself.
 module wavycon_contact_edge
+   use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: contact_edge, edge_point
+   public :: contact_edge, cross, edge_point
 
    !> A point of the edge of contact on the side of a cell.
    type :: edge_point
       logical :: exists = .false.
-      real(dp) :: phi = 0.0_dp, theta = 0.0_dp       !! [rad], in the plane
-      real(dp) :: p_phi = 0.0_dp, p_theta = 0.0_dp   !! gradient, into the contact; zero if not known
+      real(dp) :: angle(2) = 0.0_dp   !! phi, theta [rad], in the plane
+      real(dp) :: slope(2) = 0.0_dp   !! gradient of the pressure, into the contact; zero if not known
    end type edge_point
 
    !> Points (k, l) of the whole plane; a cell has the numbers of its lower left point. Its sides are numbered
    !> counter-clockwise: 1 from (k, l) to (k+1, l), 2 up, 3 back, 4 down.
    type, abstract :: contact_edge
-      integer :: period(2) = 1   !! points to a period of phi and theta
+      integer :: period(2) = 1         !! points to a period of phi and theta
+      real(dp) :: step(2) = 2*pi       !! of the grid along phi and theta, 2 pi/period [rad]
+      real(dp) :: origin(2) = 0.0_dp   !! the place of phi = theta = 0 among the points, in steps
    contains
       procedure(point_in_contact), deferred :: in_contact
-      procedure(angles_of_point), deferred :: angles
-      procedure(edge_on_side), deferred :: side
+      procedure(edge_between_points), deferred :: place_edge
+      procedure :: angles
+      procedure :: side
       procedure :: cell_area
       procedure :: beside_chord
       procedure :: area_correction
@@ -37,27 +41,49 @@ module wavycon_contact_edge
          integer, intent(in) :: k, l
       end function point_in_contact
 
-      !> The angles of a point.
-      pure subroutine angles_of_point(self, k, l, phi, theta)
-         import :: contact_edge, dp
-         class(contact_edge), intent(in) :: self
-         integer, intent(in) :: k, l
-         real(dp), intent(out) :: phi, theta   !! [rad]
-      end subroutine angles_of_point
-
-      !> The point of the edge on a side of a cell, if there is one.
-      pure type(edge_point) function edge_on_side(self, k, l, number)
+      !> Sets the place of the edge between two neighbours, and the gradient there if it is known.
+      pure subroutine edge_between_points(self, inner, outer, point)
          import :: contact_edge, edge_point
          class(contact_edge), intent(in) :: self
-         integer, intent(in) :: k, l      !! the cell
-         integer, intent(in) :: number    !! of the side, 1 .. 4
-      end function edge_on_side
+         integer, intent(in) :: inner(2), outer(2)   !! (k, l) of the point in contact and of that outside
+         type(edge_point), intent(inout) :: point
+      end subroutine edge_between_points
    end interface
 
    !> Steps from the lower left point of a cell to the first point of each side; the fifth side is the first again.
-   integer, parameter, public :: corner_k(5) = [0, 1, 1, 0, 0], corner_l(5) = [0, 0, 1, 1, 0]
+   integer, parameter, public :: corner(2, 5) = reshape([0, 0, 1, 0, 1, 1, 0, 1, 0, 0], [2, 5])
 
 contains
+
+   !> phi, theta of a place [rad].
+   pure function angles(self, place)
+      class(contact_edge), intent(in) :: self
+      real(dp), intent(in) :: place(2)   !! among the points, in steps: (k, l) of a point
+      real(dp) :: angles(2)
+
+      angles = (place - self%origin)*self%step
+   end function angles
+
+   !> The point of the edge on a side of a cell, if there is one.
+   pure type(edge_point) function side(self, k, l, number) result(point)
+      class(contact_edge), intent(in) :: self
+      integer, intent(in) :: k, l      !! the cell
+      integer, intent(in) :: number    !! of the side, 1 .. 4
+
+      integer :: first(2), last(2)
+      logical :: inside
+
+      first = [k, l] + corner(:, number)
+      last = [k, l] + corner(:, number + 1)
+      inside = self%in_contact(first(1), first(2))
+      point%exists = inside .neqv. self%in_contact(last(1), last(2))
+      if (.not. point%exists) return
+      if (inside) then
+         call self%place_edge(first, last, point)
+      else
+         call self%place_edge(last, first, point)
+      end if
+   end function side
 
    !> The area in contact of one cell that the edge crosses [rad^2]: that of the polygon of its corners in contact and
    !> the edge's points on its sides, less what `beside_chord` gives, with `area_correction`. In a cell that the edge
@@ -70,14 +96,13 @@ contains
       logical :: corners(4), leaves(9)
       integer :: number, count, i, next
 
-      corners = [(self%in_contact(k + corner_k(number), l + corner_l(number)), number=1, 4)]
+      corners = [(self%in_contact(k + corner(1, number), l + corner(2, number)), number=1, 4)]
       area = 0.0_dp
       count = 0
       do number = 1, 4
          if (corners(number)) then
             count = count + 1
-            points(count) = edge_point()
-            call self%angles(k + corner_k(number), l + corner_l(number), points(count)%phi, points(count)%theta)
+            points(count) = edge_point(angle=self%angles(real([k, l] + corner(:, number), dp)))
             leaves(count) = .false.
          end if
          points(count + 1) = self%side(k, l, number)
@@ -90,7 +115,7 @@ contains
 
       do i = 1, count
          next = mod(i, count) + 1
-         area = area + 0.5_dp*(points(i)%phi*points(next)%theta - points(next)%phi*points(i)%theta)
+         area = area + 0.5_dp*cross(points(i)%angle, points(next)%angle)
          if (leaves(i)) area = area - self%beside_chord(points(i), points(next))
       end do
       area = area + self%area_correction(k, l, turns(corners))
@@ -118,28 +143,22 @@ contains
       type(edge_point), intent(in) :: from, to
 
       real(dp), parameter :: steepest = 3.0_dp   ! a curve steeper than this against its chord is not resolved: straight
-      real(dp) :: c_phi, c_theta, slopes(2)
+      real(dp) :: chord(2), slopes(2)
 
       associate (unused => self); end associate
-      c_phi = to%phi - from%phi
-      c_theta = to%theta - from%theta
-      slopes(1) = slope(from)
-      slopes(2) = slope(to)
+      chord = to%angle - from%angle
+      slopes = [slope(from%slope), slope(to%slope)]
       lens = 0.0_dp
-      if (maxval(abs(slopes)) < steepest) lens = (c_phi**2 + c_theta**2)*(slopes(1) - slopes(2))/12
+      if (maxval(abs(slopes)) < steepest) lens = dot_product(chord, chord)*(slopes(1) - slopes(2))/12
 
    contains
 
-      pure real(dp) function slope(point)
-         type(edge_point), intent(in) :: point
+      !> The slope of the curve against the chord. The tangent has the gradient on its left.
+      pure real(dp) function slope(gradient)
+         real(dp), intent(in) :: gradient(2)
 
-         real(dp) :: along, sideways
-
-         ! The tangent has the gradient on its left: (p_theta, -p_phi).
-         along = point%p_theta*c_phi - point%p_phi*c_theta
-         sideways = -point%p_theta*c_theta - point%p_phi*c_phi
          slope = huge(slope)
-         if (along > 0.0_dp) slope = sideways/along
+         if (cross(chord, gradient) > 0.0_dp) slope = -dot_product(gradient, chord)/cross(chord, gradient)
       end function slope
 
    end function beside_chord
@@ -153,5 +172,12 @@ contains
       associate (unused => self, unused_too => [k, l], also_unused => turns); end associate
       area = 0.0_dp
    end function area_correction
+
+   !> The component of a cross product out of the plane.
+   pure real(dp) function cross(a, b)
+      real(dp), intent(in) :: a(2), b(2)
+
+      cross = a(1)*b(2) - a(2)*b(1)
+   end function cross
 
 end module wavycon_contact_edge

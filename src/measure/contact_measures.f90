@@ -5,12 +5,13 @@ module wavycon_contact_measures
    use wavycon_fourier_series, only: fourier_series
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
-   use wavycon_line_zeros, only: length_inside, line_zeros
+   use wavycon_line_zeros, only: part_inside, line_zeros
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: contact_measures, full_contact_measures, is_known, known_errors, measure_series, measuring_intervals, &
-      or_nan, unmeasured
+   public :: contact_measures, full_contact_measures, is_known, known_errors, linear_area_fraction, measure_series, &
+      measuring_intervals, or_nan, unmeasured
 
    !> Stands for a number that is not known, and exceeds every accuracy. Not NaN, whose comparisons Debug builds trap:
    !> `or_nan` makes it NaN for the user. Its powers in estimates of errors are finite.
@@ -50,6 +51,12 @@ module wavycon_contact_measures
 
    !> Grid intervals on half a wavelength for areas and extremes: so many a harmonic, and at least so many.
    integer, parameter :: intervals_per_harmonic = 8, least_intervals = 64
+
+   !> kappa. Theories give (8/pi)^(1/2) = 1.60, B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840-3861, and (2 pi)^(1/2)
+   !> = 2.51, A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87-111. Computed contacts of self-affine surfaces
+   !> lie between them, S. Hyun, L. Pei, J.-F. Molinari, M. O. Robbins, Phys. Rev. E 70 (2004) 026117; 2 is the value
+   !> that results are compared with.
+   real(dp), parameter :: area_coefficient = 2.0_dp
 
 contains
 
@@ -117,6 +124,20 @@ contains
       are_resolved = errors < values .or. errors <= 0.0_dp
    end function are_resolved
 
+   !> The fraction of the nominal area in contact by the linear law of light loads on rough surfaces, A/A0 = kappa
+   !> pbar/(E* h'), for comparison with those that are computed. It is a straight line at all loads, and exceeds 1 at
+   !> heavy ones. Unknown for surfaces that are no height maps: the law is one of random surfaces.
+   pure real(dp) function linear_area_fraction(surface, rms_slope, pbar_over_pstar) result(fraction)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: rms_slope         !! h' of the surface; an argument because it takes a sum over all waves
+      real(dp), intent(in) :: pbar_over_pstar   !! P >= 0
+
+      fraction = unknown
+      if (surface%dimension == 1 .or. .not. surface%is_height_map() .or. .not. surface%amplitude > 0.0_dp) return
+      if (surface%has_free_edges) return
+      fraction = area_coefficient*pbar_over_pstar*surface%full_contact_pressure(e_star=1.0_dp)/rms_slope
+   end function linear_area_fraction
+
    !> The measures where there is no solution: zeros with unknown errors.
    pure type(contact_measures) function unmeasured() result(measures)
       measures = contact_measures(mean_gap_error=unknown, contact_area_error=unknown, peak_pressure_error=unknown, &
@@ -174,7 +195,7 @@ contains
       line = pressure%c(:, 0)
       line(0) = line(0) - level
       call line_zeros(line, intervals, edges)
-      area = length_inside(edges, sum(line) >= 0.0_dp, 0.0_dp, pi)/pi
+      area = part_inside(edges, sum(line) >= 0.0_dp, pi)
    end subroutine measure_isobar
 
 end module wavycon_contact_measures

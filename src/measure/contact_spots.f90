@@ -1,16 +1,16 @@
 !> The spots of contact and the pools of gap of one cell, and whether contact and gap percolate: (A1) to (A5) of
 !> README.md. Of a mirrored height map they are those of the map, a quarter of the cell.
 module wavycon_contact_spots
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour
+   use wavycon_contact_measures, only: or_nan, unknown
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: contact_region, contact_spots, find_spots, no_spots, one_region
+   public :: contact_region, contact_spots, find_spots, one_region
 
    !> A connected part of the contact or of the gap.
    type :: contact_region
@@ -26,8 +26,8 @@ module wavycon_contact_spots
       procedure :: is_closed
    end type contact_region
 
+   !> Without a solution they are not allocated.
    type :: contact_spots
-      logical :: known = .true.                              !! .false. if there is no solution
       type(contact_region), allocatable :: spots(:)          !! of contact, the largest first
       type(contact_region), allocatable :: pools(:)          !! of gap, the largest first
    contains
@@ -82,9 +82,9 @@ contains
       end if
       call add_up_to(area, spots)
       call add_up_to(1.0_dp - area, pools)
-      spots%load_fraction = nan()
+      spots%load_fraction = or_nan(unknown)
       if (size(loads) == size(spots)) spots%load_fraction = loads
-      pools%load_fraction = nan()
+      pools%load_fraction = or_nan(unknown)
       if (dimension == 1 .and. is_map) then
          call keep_strips_of_map(spots)
          call keep_strips_of_map(pools)
@@ -102,21 +102,13 @@ contains
       type(contact_region) :: region
 
       region%area_fraction = 1.0_dp
-      region%perimeter = merge(0.0_dp, nan(), dimension == 2)
-      region%load_fraction = merge(1.0_dp, nan(), is_contact)
-      region%centre = nan()
+      region%perimeter = merge(0.0_dp, or_nan(unknown), dimension == 2)
+      region%load_fraction = merge(1.0_dp, or_nan(unknown), is_contact)
+      region%centre = or_nan(unknown)
       region%percolates = .true.
       allocate (answer%spots(merge(1, 0, is_contact)), source=region)
       allocate (answer%pools(merge(0, 1, is_contact)), source=region)
    end subroutine one_region
-
-   !> The answer where there is no solution.
-   subroutine no_spots(answer)
-      type(contact_spots), intent(out) :: answer
-
-      answer%known = .false.
-      allocate (answer%spots(0), answer%pools(0))
-   end subroutine no_spots
 
    !> The regions of one kind on a surface: (A2), (A3), (A5).
    subroutine find_regions(number, other, outwards, curves, total, length, is_map, regions)
@@ -156,7 +148,7 @@ contains
       if (is_map) regions%perimeter = regions%perimeter/4
       do i = 1, size(regions)
          if (has_outer(i)) cycle
-         regions(i)%centre = nan()
+         regions(i)%centre = or_nan(unknown)
          if (goes_around(i)) then
             regions(i)%area_fraction = modulo(regions(i)%area_fraction, 1.0_dp)
          else
@@ -203,8 +195,8 @@ contains
          spots(i)%percolates = [.false., .true.]
          pools(i)%percolates = [.false., .true.]
       end do
-      spots%perimeter = nan()
-      pools%perimeter = nan()
+      spots%perimeter = or_nan(unknown)
+      pools%perimeter = or_nan(unknown)
    end subroutine find_strips
 
    !> The strips of a mirrored map, from those of the cell: two that are mirror images are one of twice the part of the
@@ -334,9 +326,5 @@ contains
       call gsl_sort_index(places, -areas, 1_c_size_t, size(regions, kind=c_size_t))
       sorted = regions(int(places) + 1)
    end subroutine sort_by_area
-
-   pure real(dp) function nan()
-      nan = ieee_value(1.0_dp, ieee_quiet_nan)
-   end function nan
 
 end module wavycon_contact_spots

@@ -5,10 +5,9 @@ module wavycon_grid_area
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
-   use wavycon_grid_edge, only: angle_steps, balance, grid_edge
-   use wavycon_grid_points, only: point_angle
+   use wavycon_grid_edge, only: balance, grid_edge
    use wavycon_kinds, only: dp
-   use wavycon_line_zeros, only: length_inside
+   use wavycon_line_zeros, only: part_inside
    implicit none (type, external)
    private
 
@@ -29,11 +28,7 @@ contains
 
       if (edge%slab%points(2) == 1) then
          call grid_strip_edges(edge, edges)
-         if (edge%even) then
-            fraction = length_inside(edges, edge%in_contact(1, 1), 0.0_dp, pi)/pi
-         else
-            fraction = length_inside(edges, edge%in_contact(1, 1), 0.0_dp, 2*pi)/(2*pi)
-         end if
+         fraction = part_inside(edges, edge%in_contact(1, 1), merge(pi, 2*pi, edge%even))
          return
       end if
 
@@ -71,7 +66,7 @@ contains
          if (all([low(i:i + 1), high(i:i + 1)])) then
             area = area + share
          else if (any([low(i:i + 1), high(i:i + 1)])) then
-            area = area + share*edge%cell_area(i, l)/product(angle_steps(edge))
+            area = area + share*edge%cell_area(i, l)/product(edge%step)
          end if
       end do
    end function area_of_cells
@@ -82,31 +77,20 @@ contains
       type(grid_edge), intent(in) :: edge
       real(dp), allocatable, intent(out) :: edges(:)
 
-      real(dp) :: found(edge%slab%points(1)), step
-      integer :: i, count
+      real(dp) :: found(edge%slab%points(1)), place(2)
+      integer :: count, i, inner, way
 
       call assert(edge%slab%points(2) == 1, 'the grid is one of 1-D')
       count = 0
-      step = angle(2) - angle(1)
       do i = 1, size(found) - merge(1, 0, edge%even)
          if (edge%in_contact(i, 1) .eqv. edge%in_contact(i + 1, 1)) cycle
          count = count + 1
-         if (edge%in_contact(i, 1)) then
-            found(count) = angle(i) + step*distance_to_edge(edge, i, 1)
-         else
-            found(count) = angle(i + 1) - step*distance_to_edge(edge, i + 1, -1)
-         end if
+         inner = merge(i, i + 1, edge%in_contact(i, 1))
+         way = merge(1, -1, inner == i)
+         place = edge%angles([inner + way*distance_to_edge(edge, inner, way), 1.0_dp])
+         found(count) = place(1)
       end do
       allocate (edges, source=found(:count))
-
-   contains
-
-      pure real(dp) function angle(k)
-         integer, intent(in) :: k
-
-         angle = point_angle(k, edge%slab%points(1), edge%even)
-      end function angle
-
    end subroutine grid_strip_edges
 
    !> The distance of the edge from a point in contact towards its neighbour outside in 1-D, in steps (C11).
@@ -115,7 +99,7 @@ contains
       integer, intent(in) :: k    !! the point in contact
       integer, intent(in) :: dk   !! the step to its neighbour, 1 or -1
 
-      distance = balance(edge, k, 1, k + dk, 1, edge%rule%aligned_weight) - edge%rule%aligned_offset
+      distance = balance(edge, [k, 1], [k + dk, 1], edge%rule%aligned_weight) - edge%rule%aligned_offset
       ! A contact of one point has no negative width.
       if (.not. edge%in_contact(k - dk, 1)) distance = max(distance, 0.0_dp)
    end function distance_to_edge
@@ -165,7 +149,7 @@ contains
    real(dp) function load_concentration(edge) result(least)
       type(grid_edge), intent(in) :: edge   !! on the whole cell or, of an even surface, its quarter
 
-      real(dp) :: p, phi, sums(5), theta
+      real(dp) :: angle(2), p, sums(5)
       integer :: j, k
 
       sums = 0.0_dp
@@ -173,8 +157,8 @@ contains
          do k = 1, edge%slab%points(1)
             p = edge%pressure_or_gap(k, j - edge%slab%first + 1)
             if (p <= 0.0_dp) cycle
-            call edge%angles(k, j, phi, theta)
-            sums = sums + p*[1.0_dp, cos(phi), sin(phi), cos(theta), sin(theta)]
+            angle = edge%angles(real([k, j], dp))
+            sums = sums + p*[1.0_dp, cos(angle(1)), sin(angle(1)), cos(angle(2)), sin(angle(2))]
          end do
       end do
       call edge%slab%add(sums)

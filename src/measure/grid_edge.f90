@@ -8,8 +8,8 @@
 module wavycon_grid_edge
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
-   use wavycon_contact_edge, only: contact_edge, corner_k, corner_l, edge_point
-   use wavycon_grid_points, only: image_of_point, point_angle
+   use wavycon_contact_edge, only: contact_edge, edge_point
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_measure_tuning, only: aligned_slope, cell_edge_offset, cell_gap_weight, cell_turn_area, edge_offset, &
@@ -18,8 +18,7 @@ module wavycon_grid_edge
    implicit none (type, external)
    private
 
-   public :: edge_rule, grid_edge, angle_steps, balance, joined, make_grid_edge, pressure_per_gap, &
-      start_grid_edge
+   public :: edge_rule, grid_edge, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
 
    !> Constants of (C11), (C12), which depend on the kernel of the half-space. The defaults are those of waves.
    type :: edge_rule
@@ -47,8 +46,7 @@ module wavycon_grid_edge
       type(edge_rule) :: rule
    contains
       procedure :: in_contact
-      procedure :: angles
-      procedure :: side
+      procedure :: place_edge
       procedure :: beside_chord
       procedure :: area_correction
       procedure :: place
@@ -98,6 +96,8 @@ contains
       call move_alloc(field, edge%pressure_or_gap)
       edge%even = even
       edge%period = merge(2, 1, even)*edge%slab%points
+      edge%step = 2*pi/edge%period
+      edge%origin = merge(0.5_dp, 1.0_dp, even)
       if (present(stiffness)) edge%stiffness = stiffness
    end subroutine make_grid_edge
 
@@ -186,23 +186,6 @@ contains
       number = product(int(self%slab%points, int64))
    end function number_of_points
 
-   pure subroutine angles(self, k, l, phi, theta)
-      class(grid_edge), intent(in) :: self
-      integer, intent(in) :: k, l
-      real(dp), intent(out) :: phi, theta
-
-      phi = point_angle(k, self%slab%points(1), self%even)
-      theta = point_angle(l, self%slab%points(2), self%even)
-   end subroutine angles
-
-   !> The step of the grid along phi and theta [rad].
-   pure function angle_steps(edge) result(steps)
-      class(grid_edge), intent(in) :: edge
-      real(dp) :: steps(2)
-
-      steps = 2*pi/edge%period
-   end function angle_steps
-
    !> The index of the grid's point of which a point of the plane is the image.
    elemental integer function place(self, k, direction)
       class(grid_edge), intent(in) :: self
@@ -212,62 +195,43 @@ contains
       place = image_of_point(k, self%slab%points(direction), self%even)
    end function place
 
-   !> Where pressure and weighted gap balance between two points: the edge is `edge_offset` steps further inside.
-   pure type(edge_point) function side(self, k, l, number) result(point)
+   !> Where pressure and weighted gap balance: the edge is `edge_offset` steps further inside.
+   pure subroutine place_edge(self, inner, outer, point)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: k, l, number
+      integer, intent(in) :: inner(2), outer(2)
+      type(edge_point), intent(inout) :: point
 
-      integer :: inner, k_in, l_in, k_out, l_out, outer
-      real(dp) :: phi_in, theta_in, phi_out, theta_out, t
-      logical :: first
-
-      first = self%in_contact(k + corner_k(number), l + corner_l(number))
-      point%exists = first .neqv. self%in_contact(k + corner_k(number + 1), l + corner_l(number + 1))
-      if (.not. point%exists) return
-      inner = merge(number, number + 1, first)
-      outer = merge(number + 1, number, first)
-      k_in = k + corner_k(inner)
-      l_in = l + corner_l(inner)
-      k_out = k + corner_k(outer)
-      l_out = l + corner_l(outer)
-      t = balance(self, k_in, l_in, k_out, l_out, self%rule%gap_weight)
-      call self%angles(k_in, l_in, phi_in, theta_in)
-      call self%angles(k_out, l_out, phi_out, theta_out)
-      point%phi = phi_in + t*(phi_out - phi_in)
-      point%theta = theta_in + t*(theta_out - theta_in)
-   end function side
+      point%angle = self%angles(inner + balance(self, inner, outer, self%rule%gap_weight)*(outer - inner))
+   end subroutine place_edge
 
    !> The distance of the place where pressure and weighted gap balance from a point in contact, in steps, 0 .. 1.
-   pure real(dp) function balance(edge, k_in, l_in, k_out, l_out, weight)
+   pure real(dp) function balance(edge, inner, outer, weight)
       type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: k_in, l_in     !! the point in contact
-      integer, intent(in) :: k_out, l_out   !! its neighbour outside
-      real(dp), intent(in) :: weight        !! of the gap
+      integer, intent(in) :: inner(2), outer(2)   !! (k, l) of the point in contact and of its neighbour outside
+      real(dp), intent(in) :: weight              !! of the gap
 
+      integer :: across(2)
       real(dp) :: slope(2), stiffness
-      integer :: k, l
 
       stiffness = edge%stiffness(1)
       if (abs(edge%stiffness(2) - stiffness) > epsilon(stiffness)*stiffness) then
          ! That of the step along the normal, whose direction follows from the differences along and across the step.
-         k = abs(l_out - l_in)
-         l = abs(k_out - k_in)
-         slope(1) = 4*(height(k_in, l_in) - height(k_out, l_out))
-         slope(2) = height(k_in + k, l_in + l) - height(k_in - k, l_in - l) &
-                    + height(k_out + k, l_out + l) - height(k_out - k, l_out - l)
-         stiffness = norm2(slope*edge%stiffness([1 + k, 1 + l]))/norm2(slope)
+         across = abs([outer(2) - inner(2), outer(1) - inner(1)])
+         slope(1) = 4*(height(inner) - height(outer))
+         slope(2) = height(inner + across) - height(inner - across) + height(outer + across) - height(outer - across)
+         stiffness = norm2(slope*edge%stiffness(1 + across))/norm2(slope)
       end if
-      associate (pressure => edge%at(k_in, l_in), gap => -edge%at(k_out, l_out))
+      associate (pressure => edge%at(inner(1), inner(2)), gap => -edge%at(outer(1), outer(2)))
          balance = pressure/(pressure + weight*stiffness*gap)
       end associate
 
    contains
 
       !> Pressure, or minus the weighted gap.
-      pure real(dp) function height(k, l)
-         integer, intent(in) :: k, l
+      pure real(dp) function height(point)
+         integer, intent(in) :: point(2)
 
-         height = edge%at(k, l)
+         height = edge%at(point(1), point(2))
          if (height <= 0.0_dp) height = height*weight*edge%stiffness(1)
       end function height
 
@@ -278,9 +242,7 @@ contains
       class(grid_edge), intent(in) :: self
       type(edge_point), intent(in) :: from, to
 
-      associate (steps => angle_steps(self))
-         beside_chord = self%rule%offset*product(steps)*norm2([to%phi - from%phi, to%theta - from%theta]/steps)
-      end associate
+      beside_chord = self%rule%offset*product(self%step)*norm2((to%angle - from%angle)/self%step)
    end function beside_chord
 
    !> The terms of (C12) besides the polygon and the strip along it, for one passage of the edge [rad^2].
@@ -289,42 +251,36 @@ contains
       integer, intent(in) :: k, l
       real(dp), intent(in) :: turns
 
-      logical :: low(2), high(2)
-      integer :: i
-
-      low = [(self%in_contact(k + i, l), i=0, 1)]
-      high = [(self%in_contact(k + i, l + 1), i=0, 1)]
-      area = product(angle_steps(self))*(self%rule%turn_area*turns + aligned_part(self, k, l, low, high))
+      area = product(self%step)*(self%rule%turn_area*turns + aligned_part(self, k, l))
    end function area_correction
 
    !> What (C11) adds to the area of a cell, in cells, where the edge runs along a line of the grid.
-   pure real(dp) function aligned_part(edge, k, l, low, high) result(change)
+   pure real(dp) function aligned_part(edge, k, l) result(change)
       type(grid_edge), intent(in) :: edge
       integer, intent(in) :: k, l              !! the cell
-      logical, intent(in) :: low(2), high(2)   !! whether its corners are in contact
 
+      integer :: across(2), i, inner(2, 2), j, outer(2, 2)
+      logical :: along_k, along_l, inside(2, 2)
       real(dp) :: aligned(2), any_direction(2), slope
-      integer :: i, k_in(2), k_out(2), l_in(2), l_out(2)
 
       change = 0.0_dp
-      if ((low(1) .eqv. low(2)) .and. (high(1) .eqv. high(2))) then
-         k_in = [k, k + 1]
-         k_out = k_in
-         l_in = merge(l, l + 1, low(1))
-         l_out = merge(l + 1, l, low(1))
-      else if ((low(1) .eqv. high(1)) .and. (low(2) .eqv. high(2))) then
-         k_in = merge(k, k + 1, low(1))
-         k_out = merge(k + 1, k, low(1))
-         l_in = [l, l + 1]
-         l_out = l_in
-      else
-         return
-      end if
-      any_direction = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), edge%rule%gap_weight), i=1, 2)]
+      inside = reshape([((edge%in_contact(k + i, l + j), i=0, 1), j=0, 1)], [2, 2])
+      along_k = all(inside(1, :) .eqv. inside(2, :))
+      along_l = all(inside(:, 1) .eqv. inside(:, 2))
+      if (.not. (along_k .or. along_l)) return
+      across = merge([0, 1], [1, 0], along_k)
+      do i = 1, 2
+         inner(:, i) = [k, l] + (i - 1)*across([2, 1])
+         outer(:, i) = inner(:, i) + across
+         if (edge%in_contact(outer(1, i), outer(2, i))) then
+            outer(:, i) = inner(:, i)
+            inner(:, i) = inner(:, i) + across
+         end if
+      end do
+      any_direction = [(balance(edge, inner(:, i), outer(:, i), edge%rule%gap_weight), i=1, 2)]
       slope = abs(any_direction(2) - any_direction(1))
       if (slope >= aligned_slope) return
-      aligned = [(balance(edge, k_in(i), l_in(i), k_out(i), l_out(i), edge%rule%aligned_weight), &
-                 i=1, 2)]
+      aligned = [(balance(edge, inner(:, i), outer(:, i), edge%rule%aligned_weight), i=1, 2)]
       change = (1.0_dp - slope/aligned_slope)*(0.5_dp*sum(aligned - any_direction) - edge%rule%aligned_offset &
                                                   + edge%rule%offset)
    end function aligned_part

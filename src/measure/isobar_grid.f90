@@ -19,14 +19,11 @@ module wavycon_isobar_grid
    type, extends(contact_edge) :: isobar_grid
       integer :: intervals = 0                           !! N
       real(dp), allocatable :: pressure(:, :)            !! p - level at the nodes, shape (0:N, 0:N)
-      real(dp), allocatable :: along_phi(:, :)           !! series in phi on the line theta_l, shape (0:n, 0:N)
-      real(dp), allocatable :: along_phi_slope(:, :)     !! its derivative across the line
-      real(dp), allocatable :: along_theta(:, :)         !! series in theta on the line phi_k, shape (0:n, 0:N)
-      real(dp), allocatable :: along_theta_slope(:, :)   !! its derivative across the line
+      !> The series along the lines theta_l and phi_k of the grid, and its derivative across them, shape (0:n, 0:N, 2).
+      real(dp), allocatable :: along(:, :, :), across(:, :, :)
    contains
       procedure :: in_contact
-      procedure :: angles
-      procedure :: side
+      procedure :: place_edge
       procedure :: area_fraction
       procedure, private :: node
    end type isobar_grid
@@ -47,6 +44,7 @@ contains
       n = ubound(pressure%c, 1)
       grid%intervals = intervals
       grid%period = 2*intervals
+      grid%step = pi/intervals
       call pressure%evaluate_on_grid(intervals, grid%pressure)
       grid%pressure = grid%pressure - level
       cosines = cosine_table(intervals, n)
@@ -54,14 +52,12 @@ contains
       do i = 0, n
          sines(:, i) = [(-i*sine(modulo(i*k, 2*intervals)), k=0, intervals)]
       end do
-      allocate (grid%along_phi(0:n, 0:intervals), grid%along_phi_slope(0:n, 0:intervals), &
-                grid%along_theta(0:n, 0:intervals), grid%along_theta_slope(0:n, 0:intervals))
-      call line_series('N', cosines, grid%along_phi)
-      call line_series('N', sines, grid%along_phi_slope)
-      call line_series('T', cosines, grid%along_theta)
-      call line_series('T', sines, grid%along_theta_slope)
-      grid%along_phi(0, :) = grid%along_phi(0, :) - level
-      grid%along_theta(0, :) = grid%along_theta(0, :) - level
+      allocate (grid%along(0:n, 0:intervals, 2), grid%across(0:n, 0:intervals, 2))
+      call line_series('N', cosines, grid%along(:, :, 1))
+      call line_series('N', sines, grid%across(:, :, 1))
+      call line_series('T', cosines, grid%along(:, :, 2))
+      call line_series('T', sines, grid%across(:, :, 2))
+      grid%along(0, :, :) = grid%along(0, :, :) - level
 
    contains
 
@@ -83,15 +79,6 @@ contains
       in_contact = self%node(k, l) >= 0.0_dp
    end function in_contact
 
-   pure subroutine angles(self, k, l, phi, theta)
-      class(isobar_grid), intent(in) :: self
-      integer, intent(in) :: k, l
-      real(dp), intent(out) :: phi, theta   !! [rad]
-
-      phi = k*(pi/self%intervals)
-      theta = l*(pi/self%intervals)
-   end subroutine angles
-
    !> p - level at any node of the plane.
    pure real(dp) function node(self, k, l)
       class(isobar_grid), intent(in) :: self
@@ -100,77 +87,46 @@ contains
       node = self%pressure(folded(k, self%intervals), folded(l, self%intervals))
    end function node
 
-   !> The point of the isobar on a side of a cell.
-   pure type(edge_point) function side(self, k, l, number) result(point)
+   !> The zero of p - level between two nodes, and the gradient there.
+   pure subroutine place_edge(self, inner, outer, point)
       class(isobar_grid), intent(in) :: self
-      integer, intent(in) :: k, l      !! any
-      integer, intent(in) :: number    !! 1 .. 4
+      integer, intent(in) :: inner(2), outer(2)
+      type(edge_point), intent(inout) :: point
 
-      real(dp) :: step, low, high
-      integer :: line, first
+      integer :: along, across, low(2), high(2), line
+      real(dp) :: unused
 
-      step = pi/self%intervals
-      select case (number)
-      case (1, 3)
-         first = k
-         line = merge(l, l + 1, number == 1)
-         low = self%node(k, line)
-         high = self%node(k + 1, line)
-      case default
-         first = l
-         line = merge(k + 1, k, number == 2)
-         low = self%node(line, l)
-         high = self%node(line, l + 1)
-      end select
-      point%exists = (low >= 0.0_dp) .neqv. (high >= 0.0_dp)
-      if (.not. point%exists) return
-
-      associate (i => folded(line, self%intervals), away => mirrored(line, self%intervals))
-         if (number == 1 .or. number == 3) then
-            call zero_between(self%along_phi(:, i), first*step, step, low, high, point%phi, point%p_phi)
-            point%theta = line*step
-            point%p_theta = away*across(self%along_phi_slope(:, i), point%phi)
-         else
-            call zero_between(self%along_theta(:, i), first*step, step, low, high, point%theta, point%p_theta)
-            point%phi = line*step
-            point%p_phi = away*across(self%along_theta_slope(:, i), point%theta)
-         end if
-      end associate
-   end function side
-
-   pure real(dp) function across(c, x)
-      real(dp), intent(in) :: c(0:), x
-
-      real(dp) :: slope
-
-      call evaluate_line(c, x, across, slope)
-   end function across
+      along = merge(1, 2, inner(2) == outer(2))
+      across = 3 - along
+      low = min(inner, outer)
+      high = max(inner, outer)
+      line = folded(low(across), self%intervals)
+      call zero_between(self%along(:, line, along), low(along)*self%step(along), self%step(along), &
+                        self%node(low(1), low(2)), self%node(high(1), high(2)), point%angle(along), point%slope(along))
+      point%angle(across) = low(across)*self%step(across)
+      call evaluate_line(self%across(:, line, along), point%angle(along), point%slope(across), unused)
+      ! `folded` mirrors the line.
+      if (modulo(low(across), self%period(1)) > self%intervals) point%slope(across) = -point%slope(across)
+   end subroutine place_edge
 
    !> The part of the surface with p >= level.
    pure real(dp) function area_fraction(self)
       class(isobar_grid), intent(in) :: self
 
-      real(dp) :: area, widths(0:self%intervals - 1)
-      integer :: inside, k, l
+      integer :: inside, k, l, whole
+      real(dp) :: area
 
-      widths = [((k + 1)*(pi/self%intervals) - k*(pi/self%intervals), k=0, self%intervals - 1)]
       area = 0.0_dp
+      whole = 0
       do l = 0, self%intervals - 1
          do k = 0, self%intervals - 1
             ! Most cells are whole or empty: the general formula is for those of the edge.
             inside = count(self%pressure(k:k + 1, l:l + 1) >= 0.0_dp)
-            if (inside == 4) area = area + widths(k)*widths(l)
+            if (inside == 4) whole = whole + 1
             if (mod(inside, 4) > 0) area = area + self%cell_area(k, l)
          end do
       end do
-      area_fraction = area/pi**2
+      area_fraction = area/pi**2 + whole/real(self%intervals, dp)**2
    end function area_fraction
-
-   !> The sign of a derivative after `folded`: -1 on the mirror image.
-   elemental real(dp) function mirrored(k, intervals)
-      integer, intent(in) :: k, intervals
-
-      mirrored = merge(-1.0_dp, 1.0_dp, modulo(k, 2*intervals) > intervals)
-   end function mirrored
 
 end module wavycon_isobar_grid

@@ -6,7 +6,7 @@ module wavycon_line_zeros
    implicit none (type, external)
    private
 
-   public :: length_inside, line_zeros, zero_between
+   public :: part_inside, line_zeros, zero_between
 
 contains
 
@@ -32,26 +32,20 @@ contains
       allocate (zeros, source=found(:count))
    end subroutine line_zeros
 
-   !> The total length of the parts of a range that are inside, given the places where inside and outside change.
-   pure real(dp) function length_inside(edges, starts_inside, first, last) result(length)
+   !> The part of a range from 0 on that is inside, given the places where inside and outside change.
+   pure real(dp) function part_inside(edges, starts_inside, last) result(part)
       real(dp), intent(in) :: edges(:)          !! ascending [rad]
       logical, intent(in) :: starts_inside
-      real(dp), intent(in) :: first, last       !! ends of the range [rad]
+      real(dp), intent(in) :: last              !! end of the range [rad]
 
-      real(dp) :: from
-      logical :: inside
       integer :: i
 
-      length = 0.0_dp
-      from = first
-      inside = starts_inside
+      part = merge(last, 0.0_dp, starts_inside .neqv. mod(size(edges), 2) == 1)
       do i = 1, size(edges)
-         if (inside) length = length + edges(i) - from
-         from = edges(i)
-         inside = .not. inside
+         part = part + merge(edges(i), -edges(i), starts_inside .eqv. mod(i, 2) == 1)
       end do
-      if (inside) length = length + last - from
-   end function length_inside
+      part = part/last
+   end function part_inside
 
    !> Where sum_i c_i cos(i x) changes sign between two points: Newton's method, kept inside the bracket by
    !> bisection.

@@ -9,6 +9,7 @@ module wavycon_cell_file
    use wavycon_plain_text, only: integer_text, newline
    use wavycon_results, only: results_type
    use wavycon_system, only: has_memory_for
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
@@ -38,11 +39,10 @@ contains
 
    !> Opens <case>.<kind>.dat or <case>.<kind>.npy, on the first rank. `file%is_open` says whether there is the memory
    !> too.
-   subroutine open_cell_file(self, results, kind, columns, numbers, planes, numbers_a_point, what)
+   subroutine open_cell_file(self, results, table, numbers, planes, numbers_a_point, what)
       class(cell_file), intent(out) :: self
       type(results_type), intent(in) :: results
-      character(*), intent(in) :: kind          !! name of the table
-      character(*), intent(in) :: columns       !! name[unit] of each: integers, x, y and others
+      class(table_type), intent(in) :: table    !! with columns of integers, x, y and others
       integer, intent(in) :: numbers            !! of columns of integers, which the file of numpy does not have
       integer, intent(in) :: planes(:)          !! their number along each of the first indices of the file of numpy
       integer, intent(in) :: numbers_a_point    !! that are in memory at a time
@@ -59,10 +59,10 @@ contains
       self%is_here = results%sharing%is_first()
       if (.not. self%is_here) return
       if (self%as_text) then
-         call results%open_table(kind, columns, self%file)
+         call results%open_table(trim(table%file), table%columns, self%file)
       else
-         names = column_name(column_list(columns))
-         call self%file%open(results%scene%directory, results%scene%case//'.'//kind//'.npy', &
+         names = column_name(column_list(table%columns))
+         call self%file%open(results%scene%directory, results%scene%case//'.'//trim(table%file)//'.npy', &
                              npy_header([planes, self%points([2, 1])], names(numbers + 1:)))
       end if
       call check_memory(self%file, self%points, numbers_a_point, what)

@@ -36,15 +36,13 @@ module wavycon_checkpoint
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
 
    type :: checkpoint_file
-      private
-      integer :: unit = -1
-      logical :: opened = .false.
-      integer :: kept = 0, loads = 0                  !! solutions added; all loads of the run
-      integer(int64) :: bytes = 0                     !! written
-      character(:), allocatable :: name, name_now     !! final name; present name, temporary at first
+      logical :: is_complete = .false.                         !! whether all solutions added so far were written
+      integer, private :: unit = -1
+      integer, private :: kept = 0, loads = 0                  !! solutions added; all loads of the run
+      integer(int64), private :: bytes = 0                     !! written
+      character(:), allocatable, private :: name, name_now     !! final name; present name, temporary at first
    contains
       procedure :: create
-      procedure :: is_complete
       procedure :: add
       procedure :: remove
    end type checkpoint_file
@@ -91,7 +89,7 @@ contains
       type(results_type), intent(in) :: results   !! its directory exists
       logical, intent(in) :: known(:)             !! of each load: whether its solution is known
 
-      character(:), allocatable :: failure
+      character(:), allocatable :: failure, text
       integer :: load, status
 
       self%name = checkpoint_name(results)
@@ -101,28 +99,22 @@ contains
       call remove_when_interrupted(self%name_now//c_null_char)
       open (newunit=self%unit, file=self%name_now, access='stream', form='unformatted', status='replace', &
             action='write', iostat=status)
-      self%opened = status == 0
-      if (self%opened) write (self%unit, iostat=status) mark
-      call put(self, words_of(description(results)))
+      self%is_complete = status == 0
+      if (self%is_complete) write (self%unit, iostat=status) mark
+      text = description(results)
+      call put(self, transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64]))
       self%loads = size(results%loads)
       call note_kept(kept_words(self)//c_null_char)
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
-      if (self%opened) then
+      if (self%is_complete) then
          call rename_file(self%name_now, self%name, failure)
          if (allocated(failure)) call close_file(self)
       end if
-      if (.not. self%opened) call remove_file(self%name_now)
+      if (.not. self%is_complete) call remove_file(self%name_now)
       self%name_now = self%name
    end subroutine create
-
-   !> Whether all solutions added so far were written.
-   pure logical function is_complete(self)
-      class(checkpoint_file), intent(in) :: self
-
-      is_complete = self%opened
-   end function is_complete
 
    !> Adds a solution, if it is worth keeping.
    subroutine add(self, load, solution)
@@ -132,7 +124,7 @@ contains
 
       integer(int64), allocatable :: words(:)
 
-      if (.not. self%opened .or. .not. is_kept(solution)) return
+      if (.not. self%is_complete .or. .not. is_kept(solution)) return
       call pack_solution(solution, words)
       if (allocated(words)) then
          call put(self, [int(load, int64), words])
@@ -167,8 +159,8 @@ contains
 
       integer :: ignored
 
-      if (self%opened) close (self%unit, iostat=ignored)
-      self%opened = .false.
+      if (self%is_complete) close (self%unit, iostat=ignored)
+      self%is_complete = .false.
    end subroutine close_file
 
    !> Writes a record and compares the file's size: gfortran 12 does not report a full disk. Nothing is written any
@@ -179,7 +171,7 @@ contains
 
       integer :: status
 
-      if (.not. self%opened) return
+      if (.not. self%is_complete) return
       write (self%unit, iostat=status) size(words, kind=int64), words, checksum(words)
       if (status == 0) flush (self%unit, iostat=status)
       if (status == 0) then
@@ -307,11 +299,8 @@ contains
       type(results_type), intent(in) :: results
       character(:), allocatable :: text
 
-      character(20) :: number
-
-      write (number, '(i0)') surface_checksum(results)
-      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//trim(number)//newline// &
-            results%scene%fingerprint
+      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//integer_text(surface_checksum(results))// &
+             newline//results%scene%fingerprint
    end function description
 
    !> Compares the descriptions of two runs. Errors: exit_bad_input if they differ.
@@ -354,14 +343,6 @@ contains
 
    end subroutine compare
 
-   !> A text as 8-byte words, padded with blanks.
-   pure function words_of(text) result(words)
-      character(*), intent(in) :: text
-      integer(int64), allocatable :: words(:)
-
-      words = transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64])
-   end function words_of
-
    !> Checksum: a polynomial whose coefficients are the half words, modulo a prime. A change of one word changes it.
    pure integer(int64) function checksum(words) result(total)
       integer(int64), intent(in) :: words(:)
@@ -393,25 +374,23 @@ contains
       integer(int64) :: sums(4)
 
       associate (surface => results%solver%surface, shape => results%solver%surface%shape)
-         sums = 0
-         sums(1) = sum_over_waves(shape%c, lbound(shape%c, 1))
-         if (.not. shape%is_even()) sums(2:) = [sum_over_waves(shape%cs, lbound(shape%c, 1)), &
-            sum_over_waves(shape%sc, lbound(shape%c, 1)), sum_over_waves(shape%ss, lbound(shape%c, 1))]
+         sums = [sum_over_waves(shape%c), 0_int64, 0_int64, 0_int64]
+         if (.not. shape%is_even()) sums(2:) = [sum_over_waves(shape%cs), sum_over_waves(shape%sc), &
+                                                sum_over_waves(shape%ss)]
          if (results%sharing%kind == distributed_grids .and. surface%is_distributed()) call results%sharing%add(sums)
          total = checksum([transfer([surface%amplitude, surface%length], sums(:0)), sums])
       end associate
    end function surface_checksum
 
    !> The sum of the checksums of the coefficients of each wave number in X.
-   pure integer(int64) function sum_over_waves(values, first) result(total)
-      real(dp), intent(in) :: values(:, :)   !! shape (own wave numbers in X, wave numbers in Y)
-      integer, intent(in) :: first           !! the first of the own wave numbers in X
+   pure integer(int64) function sum_over_waves(values) result(total)
+      real(dp), allocatable, intent(in) :: values(:, :)   !! shape (own wave numbers in X, wave numbers in Y)
 
       integer(int64) :: of_wave(size(values, 1))
       integer :: i, j
 
-      of_wave = [(first + i, i=1, size(values, 1))]
-      do j = 1, size(values, 2)
+      of_wave = [(lbound(values, 1) + i, i=1, size(values, 1))]
+      do j = lbound(values, 2), ubound(values, 2)
          of_wave = with_word(of_wave, transfer(values(:, j), of_wave))
       end do
       total = sum(of_wave)

@@ -9,7 +9,6 @@ module wavycon_interface_tables
    use wavycon_adhesive_curve, only: adhesive_point, point_names
    use wavycon_contact_measures, only: is_known, or_nan
    use wavycon_contact_status, only: no_load, status_code, status_name
-   use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
    use wavycon_load_derivatives, only: load_derivatives
    use wavycon_output_file, only: output_file
@@ -21,12 +20,6 @@ module wavycon_interface_tables
    private
 
    public :: add_interface_tables
-
-   character(*), parameter :: adhesion_columns = &
-      'load[-] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
-      'force[force] mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
-      'contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] least_release_over_w[-] '// &
-      'most_release_over_w[-] point[-]'
 
 contains
 
@@ -51,8 +44,11 @@ contains
       call add_table(tables, table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
          columns='load[-] tangential[-] branch[-] tangential_load[pressure] displacement[length]'))
       call add_table(tables, table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
-         ''], &
-         needs_fields=.true., write_all=write_adhesion, columns=adhesion_columns))
+         ''], needs_fields=.true., put_all=put_adhesion, &
+         columns='load[-] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
+         'force[force] mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
+         'contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] least_release_over_w[-] '// &
+         'most_release_over_w[-] point[-]'))
    end subroutine add_interface_tables
 
    !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
@@ -167,20 +163,15 @@ contains
       end associate
    end subroutine put_loop
 
-   !> Errors: exit_file_trouble.
-   subroutine write_adhesion(results, error)
+   subroutine put_adhesion(results, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
-
-      call results%open_table('adhesion', adhesion_columns, file)
       associate (curve => results%adhesion)
          call put_block('the curve, by the pressure P1 of the contact without adhesion', curve%points)
          call put_block('pull-off and jump into full contact', curve%critical)
          call put_block('the loads: stable and unstable points', curve%at_loads)
       end associate
-      call file%finish(error)
 
    contains
 
@@ -196,7 +187,7 @@ contains
          end do
       end subroutine put_block
 
-   end subroutine write_adhesion
+   end subroutine put_adhesion
 
    subroutine put_point(results, file, point)
       type(results_type), intent(in) :: results

@@ -24,13 +24,8 @@ module wavycon_map_tables
    !> solution; of a slip map: three fields of two contacts.
    integer, parameter :: numbers_a_point = 7, numbers_a_slip_point = 6
 
-   character(*), parameter :: map_columns = &
-      'load[-] x[length] y[length] pressure[pressure] gap[length] displacement[length] undeformed_gap[length]'
-   !> Of a map, without load and place.
+   !> Columns of a map, without load and place.
    integer, parameter :: numbers_of_map = 4
-
-   character(*), parameter :: slip_columns = &
-      'load[-] tangential[-] x[length] y[length] traction[pressure] pressure[pressure] slip_state[-]'
 
 contains
 
@@ -39,11 +34,12 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('map', 'map', needs_fields=.true., written_by_all=is_written_by_all, &
-         write_all=write_map_table, columns=map_columns, &
+         write_all=write_map_table, columns='load[-] x[length] y[length] pressure[pressure] gap[length] '// &
+         'displacement[length] undeformed_gap[length]', &
          meaning='Pressures and gaps over the whole cell.'))
       call add_table(tables, table_type('slip_map', 'slip_map', 'interface', needs_fields=.true., &
-         write_all=write_slip_map, &
-         columns=slip_columns))
+         write_all=write_slip_map, columns='load[-] tangential[-] x[length] y[length] traction[pressure] '// &
+         'pressure[pressure] slip_state[-]'))
    end subroutine add_map_tables
 
    !> All ranks write a map in numpy's format at the points of the grid that all loads are solved on.
@@ -71,7 +67,8 @@ contains
    end function is_written_by_all
 
    !> Errors: exit_file_trouble.
-   subroutine write_map_table(results, error)
+   subroutine write_map_table(table, results, error)
+      class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
@@ -82,7 +79,7 @@ contains
       logical :: by_all
 
       by_all = results%loads(1)%distributed_points() > 0
-      call map%open(results, 'map', map_columns, 1, [size(results%loads)], merge(0, numbers_a_point, by_all), '')
+      call map%open(results, table, 1, [size(results%loads)], merge(0, numbers_a_point, by_all), '')
       associate (surface => results%solver%surface)
          do load = 1, size(results%loads)
             if (.not. (map%file%is_open() .or. by_all)) exit
@@ -152,7 +149,8 @@ contains
    end function row_of
 
    !> Errors: exit_file_trouble.
-   subroutine write_slip_map(results, error)
+   subroutine write_slip_map(table, results, error)
+      class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
@@ -161,8 +159,7 @@ contains
       real(dp), allocatable :: gap(:, :), p(:, :), p_of_stick(:, :), u(:, :), values(:, :)
       integer :: i, l, load
 
-      call map%open(results, 'slip_map', slip_columns, 2, [size(results%loads), size(results%slip, 1)], &
-                    numbers_a_slip_point, '')
+      call map%open(results, table, 2, [size(results%loads), size(results%slip, 1)], numbers_a_slip_point, '')
       associate (surface => results%solver%surface, p_star => results%scene%p_star, &
                  friction => results%scene%interface_setting%friction)
          do load = 1, size(results%loads)

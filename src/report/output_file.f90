@@ -1,5 +1,5 @@
 !> Result files. A file is written under a temporary name and renamed when it is complete. A table may be written to
-!> memory in place of a file: `open_in_memory`.
+!> memory in place of a file: it gets columns and rows, and lines by `put` are left out.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
@@ -23,16 +23,18 @@ module wavycon_output_file
 
    type :: output_file
       private
+      type(memory_table), pointer, public :: memory => null()   !! in place of the file; exists until `finish`
       integer :: unit = -1
       logical :: opened = .false.
       character(:), allocatable :: name           !! final name
       character(:), allocatable :: working_name   !! temporary name
+      integer :: status = 0                       !! of the last statement, from iostat
+      character(200) :: message = ''              !! from iomsg
       character(:), allocatable :: trouble        !! first error; not allocated if there was none
       character(:), allocatable :: names(:)       !! of the columns; not allocated if the file is no table
       logical :: has_names = .false.              !! whether the line of the names was written
       integer :: blocks = 0                       !! data sets begun by begin_block
       integer, allocatable :: column_end(:)       !! position in a row at which each column ends
-      type(memory_table), pointer :: memory => null()   !! in place of the file
       !> The row being filled: of each column what it is, the number, the word.
       integer :: columns_filled = 0
       integer, allocatable :: kinds(:)
@@ -40,7 +42,6 @@ module wavycon_output_file
       character(longest_word), allocatable :: words(:)
    contains
       procedure :: open => open_file
-      procedure :: open_in_memory
       procedure :: is_open
       procedure :: put
       procedure :: put_numbers
@@ -64,9 +65,6 @@ contains
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
 
       character(:), allocatable :: form
-      character(200) :: message
-      integer :: status
-
       form = 'formatted'
       if (present(head)) form = 'unformatted'
       self%name = directory//'/'//name
@@ -74,19 +72,11 @@ contains
       call remove_when_interrupted(self%working_name//c_null_char)
       ! As a stream, because close_file needs the number of bytes written.
       open (newunit=self%unit, file=self%working_name, access='stream', form=form, status='replace', &
-            action='write', iostat=status, iomsg=message)
-      self%opened = status == 0
-      if (self%opened .and. present(head)) write (self%unit, iostat=status, iomsg=message) head
-      call check(self, status, message)
+            action='write', iostat=self%status, iomsg=self%message)
+      self%opened = self%status == 0
+      if (self%opened .and. present(head)) write (self%unit, iostat=self%status, iomsg=self%message) head
+      call check(self)
    end subroutine open_file
-
-   !> Opens a table in memory in place of a file. It gets columns and rows; lines by `put` are left out.
-   subroutine open_in_memory(self, memory)
-      class(output_file), intent(out) :: self
-      type(memory_table), intent(inout), target :: memory   !! exists until `finish`
-
-      self%memory => memory
-   end subroutine open_in_memory
 
    !> Whether the file is open and no error has occurred.
    pure logical function is_open(self)
@@ -100,12 +90,9 @@ contains
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: line
 
-      character(200) :: message
-      integer :: status
-
       if (allocated(self%trouble) .or. associated(self%memory)) return
-      write (self%unit, '(a)', iostat=status, iomsg=message) line
-      call check(self, status, message)
+      write (self%unit, '(a)', iostat=self%status, iomsg=self%message) line
+      call check(self)
    end subroutine put
 
    !> Writes numbers to a binary file, in the order of the array.
@@ -113,12 +100,9 @@ contains
       class(output_file), intent(inout) :: self
       real(dp), intent(in), contiguous :: numbers(:, :)
 
-      character(200) :: message
-      integer :: status
-
       if (allocated(self%trouble)) return
-      write (self%unit, iostat=status, iomsg=message) numbers
-      call check(self, status, message)
+      write (self%unit, iostat=self%status, iomsg=self%message) numbers
+      call check(self)
    end subroutine put_numbers
 
    !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
@@ -133,10 +117,7 @@ contains
       integer :: i, last, width
 
       allocate (self%kinds(size(names)), self%numbers(size(names)), self%words(size(names)))
-      if (associated(self%memory)) then
-         call self%memory%start(names, units)
-         return
-      end if
+      if (associated(self%memory)) call self%memory%start(names, units)
       self%names = names
       allocate (self%column_end(size(names)))
       last = 0
@@ -170,7 +151,7 @@ contains
       type(output_file), intent(inout) :: self
 
       self%has_names = .true.
-      if (.not. associated(self%memory)) call self%put(aligned(self, self%names))
+      call self%put(aligned(self, self%names))
    end subroutine put_names
 
    !> Begins a data set of gnuplot's `index`: two blank lines, unless it is the first, a comment, and the names of the
@@ -256,9 +237,8 @@ contains
       integer, intent(in) :: integers(:)     !! of the first columns, the same in each row
       real(dp), intent(in) :: values(:, :)   !! of the others, shape (other columns, rows)
 
-      character(200) :: message
       character(:), allocatable :: row_format, width
-      integer :: i, status
+      integer :: i
 
       if (allocated(self%trouble)) return
       if (associated(self%memory)) then
@@ -275,17 +255,16 @@ contains
             row_format = row_format//', es'//width//real_digits
          end if
       end do
-      write (self%unit, row_format//')', iostat=status, iomsg=message) (integers, values(:, i), i=1, size(values, 2))
-      call check(self, status, message)
+      write (self%unit, row_format//')', iostat=self%status, iomsg=self%message) &
+         (integers, values(:, i), i=1, size(values, 2))
+      call check(self)
    end subroutine put_rows
 
-   !> Records an error of a statement.
-   subroutine check(self, status, message)
+   !> Records an error of the last statement.
+   subroutine check(self)
       type(output_file), intent(inout) :: self
-      integer, intent(in) :: status         !! from iostat, 0 without an error
-      character(*), intent(in) :: message   !! from iomsg
 
-      if (status /= 0) call self%note_trouble(message)
+      if (self%status /= 0) call self%note_trouble(self%message)
    end subroutine check
 
    !> Records an error: `finish` will report it and remove the file.
@@ -327,15 +306,13 @@ contains
    subroutine close_file(self)
       type(output_file), intent(inout) :: self
 
-      character(200) :: message
       integer(int64) :: bytes_there, next_byte
-      integer :: status
 
-      flush (self%unit, iostat=status, iomsg=message)
-      call check(self, status, message)
+      flush (self%unit, iostat=self%status, iomsg=self%message)
+      call check(self)
       inquire (unit=self%unit, pos=next_byte)
-      close (self%unit, iostat=status, iomsg=message)
-      call check(self, status, message)
+      close (self%unit, iostat=self%status, iomsg=self%message)
+      call check(self)
       inquire (file=self%working_name, size=bytes_there)
       if (bytes_there /= next_byte - 1) &
          call self%note_trouble('it is cut short: the disk is full, or over a quota or a limit on file sizes')

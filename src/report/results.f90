@@ -9,7 +9,7 @@ module wavycon_results
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_list, column_name, column_unit, longest_column, memory_table
+   use wavycon_memory_table, only: column_list, column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
@@ -58,24 +58,22 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
 
-      character(longest_column), allocatable :: names(:)
       character(longest_unit), allocatable :: units(:)
       integer :: i
 
-      names = column_list(columns)
-      allocate (units(size(names)))
-      do i = 1, size(names)
-         units(i) = self%unit_in_words(trim(column_unit(names(i))))
-      end do
-      names = column_name(names)
       if (associated(self%memory)) then
-         call file%open_in_memory(self%memory)
-         call file%put_columns(names, units)
-         return
+         file%memory => self%memory
+      else
+         call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
+         call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
       end if
-      call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
-      call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
-      call file%put_columns(names, units)
+      associate (names => column_list(columns))
+         allocate (units(size(names)))
+         do i = 1, size(names)
+            units(i) = self%unit_in_words(trim(column_unit(names(i))))
+         end do
+         call file%put_columns(column_name(names), units)
+      end associate
    end subroutine open_table
 
    !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names

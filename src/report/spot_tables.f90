@@ -91,7 +91,7 @@ contains
          call file%add([load])
          call file%add([results%in_p_star(solution%pbar_over_pstar), solution%measures%contact_area_fraction])
       end associate
-      if (regions%known) then
+      if (allocated(regions%spots)) then
          spots = regions%spots%area_fraction
          pools = regions%pools%area_fraction
          pools = pack(pools, regions%pools%is_closed())
@@ -115,7 +115,7 @@ contains
       type(contact_spots) :: regions
 
       call results%loads(load)%spots(results%solver%surface, regions)
-      if (.not. regions%known) return
+      if (.not. allocated(regions%spots)) return
       call results%begin_block(file, load)
       call put_regions(results, file, load, regions%spots, 'spot')
       if (size(regions%spots) > 0 .and. size(regions%pools) > 0) call file%put('')

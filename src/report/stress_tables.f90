@@ -31,7 +31,6 @@ module wavycon_stress_tables
       'largest_shear[pressure] stress_pressure[pressure] stress_error[pressure]'
    integer, parameter :: numbers_of_stress = 13
 
-   character(*), parameter :: planes_columns = 'load[-] body[-] x[length] y[length] depth[length] '//stress_columns
    !> Numbers in memory for each point of a plane: stresses, error, their spectra, and those of the solution.
    integer, parameter :: numbers_a_point = 20
 
@@ -57,7 +56,8 @@ contains
          columns='load[-] body[-] distance[length] x[length] y[length] depth[length] '// &
          stress_columns))
       call add_table(tables, table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
-         write_all=write_stress_planes_table, columns=planes_columns))
+         write_all=write_stress_planes_table, &
+         columns='load[-] body[-] x[length] y[length] depth[length] '//stress_columns))
    end subroutine add_stress_tables
 
    !> The largest stresses are found before the tables are written.
@@ -155,7 +155,8 @@ contains
    end subroutine put_section
 
    !> Errors: exit_file_trouble.
-   subroutine write_stress_planes_table(results, error)
+   subroutine write_stress_planes_table(table, results, error)
+      class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
@@ -168,8 +169,7 @@ contains
       associate (scene => results%scene, surface => results%solver%surface, &
                  bodies => size(results%scene%stress_setting%body))
          call stress_depths(scene%stress, surface, .true., depths)
-         call planes%open(results, 'stress_planes', planes_columns, 2, [size(results%loads), bodies, size(depths)], &
-                          numbers_a_point, 'planes of ')
+         call planes%open(results, table, 2, [size(results%loads), bodies, size(depths)], numbers_a_point, 'planes of ')
          allocate (values(1 + numbers_of_stress, planes%points(1)))
          do load = 1, size(results%loads)
             if (.not. planes%file%is_open()) exit

@@ -8,10 +8,9 @@
 !> each load; in 1-D j = 0.
 module wavycon_summary_tables
    use wavycon_contact_details, only: contact_details
-   use wavycon_contact_measures, only: or_nan
+   use wavycon_contact_measures, only: linear_area_fraction, or_nan
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
-   use wavycon_linear_area, only: linear_area_fraction
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_solution_record, only: solver_names

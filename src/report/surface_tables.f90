@@ -20,35 +20,27 @@ module wavycon_surface_tables
    !> Numbers in memory for each point: the height and its spectrum.
    integer, parameter :: numbers_a_point = 2
 
-   !> Those of the heights are for the table in memory.
-   character(*), parameter :: height_columns = 'x[length] y[length] height[length]'
-   character(*), parameter :: spectrum_columns = &
-      'direction[-] wave_number[rad/length] waves[-] spectrum_2d[length^4] spectrum_1d[length^3] '// &
-      'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]'
-
 contains
 
    !> Adds the tables of this file to a list.
    subroutine add_surface_tables(tables)
       type(table_type), allocatable, intent(inout) :: tables(:)
 
-      call add_table(tables, table_type('spectrum', 'spectrum', write_all=write_spectrum_table, &
-         columns=spectrum_columns, &
+      call add_table(tables, table_type('spectrum', 'spectrum', put_all=put_spectra, &
+         columns='direction[-] wave_number[rad/length] waves[-] spectrum_2d[length^4] spectrum_1d[length^3] '// &
+         'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]', &
          meaning='The power spectrum of the surface.'))
+      ! The columns are those of the table in memory.
       call add_table(tables, table_type('height', 'height', written_by_all=is_written_by_all, &
          write_all=write_height_table, &
-         columns=height_columns, &
+         columns='x[length] y[length] height[length]', &
          meaning="The heights that are solved, as a file of numpy that kind = 'file' reads."))
    end subroutine add_surface_tables
 
-   !> Errors: exit_file_trouble.
-   subroutine write_spectrum_table(results, error)
+   subroutine put_spectra(results, file)
       type(results_type), intent(in) :: results
-      type(error_type), allocatable, intent(out) :: error
+      type(output_file), intent(inout) :: file
 
-      type(output_file) :: file
-
-      call results%open_table('spectrum', spectrum_columns, file)
       associate (surface => results%solver%surface)
          associate (shape => surface%shape, unit => surface%amplitude, length => surface%length, &
                     points => surface%points)
@@ -59,8 +51,7 @@ contains
                call put_spectrum(file, 'y', line_spectrum(shape, unit, length, points, 2), is_radial=.false.)
          end associate
       end associate
-      call file%finish(error)
-   end subroutine write_spectrum_table
+   end subroutine put_spectra
 
    !> Writes the block of a spectrum.
    subroutine put_spectrum(file, direction, spectrum, is_radial)
@@ -95,7 +86,8 @@ contains
    !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
    !> A table in memory has their places too. Of a map that is distributed over the ranks the first one takes the
    !> columns one by one. Errors: exit_file_trouble.
-   subroutine write_height_table(results, error)
+   subroutine write_height_table(table, results, error)
+      class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
@@ -112,7 +104,7 @@ contains
          points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
          if (associated(results%memory)) then
-            call results%open_table('height', height_columns, file)
+            call results%open_table(trim(table%file), table%columns, file)
          else if (is_here) then
             call file%open(results%scene%directory, results%scene%case//'.height.npy', npy_header(points([2, 1])))
          end if

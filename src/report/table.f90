@@ -32,9 +32,10 @@ module wavycon_table
       logical :: needs_surface = .true.   !! whether it is made from the whole surface
       logical :: is_for_flat_surfaces = .false.   !! whether it is written where p* and Delta are zero
       procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
-      !> One of these two: the rows of a load, for a table that has rows of each load; or all of the table.
+      !> One of these: the rows of a load, for a table that has rows of each load; all rows; or the table with its file.
       procedure(load_interface), pointer, nopass :: put_load => null()
-      procedure(write_interface), pointer, nopass :: write_all => null()
+      procedure(all_interface), pointer, nopass :: put_all => null()
+      procedure(write_interface), pointer, pass(table) :: write_all => null()
    contains
       procedure :: name
       procedure :: is_requested
@@ -58,9 +59,17 @@ module wavycon_table
          type(output_file), intent(inout) :: file   !! with the columns of the table
       end subroutine load_interface
 
+      !> `put_all`: writes the rows of all loads.
+      subroutine all_interface(results, file)
+         import :: output_file, results_type
+         type(results_type), intent(in) :: results
+         type(output_file), intent(inout) :: file   !! with the columns of the table
+      end subroutine all_interface
+
       !> `write_all`: opens the table, writes it and finishes it. Errors: exit_file_trouble.
-      subroutine write_interface(results, error)
-         import :: error_type, results_type
+      subroutine write_interface(table, results, error)
+         import :: error_type, results_type, table_type
+         class(table_type), intent(in) :: table
          type(results_type), intent(in) :: results
          type(error_type), allocatable, intent(out) :: error
       end subroutine write_interface
@@ -189,9 +198,13 @@ contains
          return
       end if
       call results%open_table(trim(self%file), self%columns, file)
-      do load = 1, size(results%loads)
-         call self%put_load(results, load, file)
-      end do
+      if (associated(self%put_all)) then
+         call self%put_all(results, file)
+      else
+         do load = 1, size(results%loads)
+            call self%put_load(results, load, file)
+         end do
+      end if
       call file%finish(error)
    end subroutine write_table
 

@@ -29,10 +29,6 @@ module wavycon_theory_tables
 
    public :: add_theory_tables
 
-   !> Columns for the wave in one dimension, for that in two and for a ball, after the first three columns, and the
-   !> first two of them along lines. Those of the others are NaN.
-   integer, parameter :: closed_forms(3) = [5, 12, 5], closed_forms_on_lines(2) = [4, 3]
-
 contains
 
    !> Adds the tables of this file to a list.
@@ -65,19 +61,21 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      real(dp) :: values(sum(closed_forms))
+      real(dp) :: of_ball(5), of_line(5), of_plane(12)
 
-      values = not_a_number()
+      of_ball = not_a_number()
+      of_line = not_a_number()
+      of_plane = not_a_number()
       associate (p => results%loads(load)%pbar_over_pstar, wavelength => results%solver%surface%paper_wavelength())
          if (results%solver%surface%has_free_edges) then
-            values(sum(closed_forms(:2)) + 1:) = values_of_ball(results, load)
+            of_ball = values_of_ball(results, load)
          else if (results%solver%surface%dimension == 1) then
-            values(:closed_forms(1)) = &
+            of_line = &
                [kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
                 westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
                 line_crack_contact_area_fraction(p)]
          else
-            values(closed_forms(1) + 1:sum(closed_forms(:2))) = &
+            of_plane = &
                [hertz_point_contact_area_fraction(p), penny_crack_contact_area_fraction(p), &
                 light_load_mean_gap_one_square(p), light_load_mean_gap_lattice(p), &
                 penny_crack_mean_gap_over_amplitude(p), light_load_contact_area_longer(p), &
@@ -88,7 +86,7 @@ contains
          end if
          call file%add([load])
          call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), &
-                        values])
+                        of_line, of_plane, of_ball])
       end associate
       call file%end_row()
    end subroutine put_theory
@@ -97,7 +95,7 @@ contains
    function values_of_ball(results, load) result(values)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
-      real(dp) :: values(closed_forms(3))
+      real(dp) :: values(5)
 
       type(hertz_ball) :: contact
       real(dp) :: radii(2), roller(2)
@@ -122,29 +120,31 @@ contains
       type(output_file), intent(inout) :: file
 
       type(surface_line) :: line
-      real(dp) :: dundurs(series_terms(results)), phi, theta
+      real(dp) :: dundurs(series_terms(results)), of_line(4), of_plane(3), phi, theta
       real(dp), allocatable :: values(:, :)
       integer :: k, number
 
+      of_line = not_a_number()
+      of_plane = not_a_number()
       call results%begin_block(file, load)
       associate (surface => results%solver%surface, load_p => results%loads(load)%pbar_over_pstar)
          if (surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
          do number = 1, surface%dimension
             call start_surface_line(line, results, number)
-            allocate (values(sum(closed_forms_on_lines), 0:ubound(line%distance, 1)), source=not_a_number())
+            allocate (values(size(of_line) + size(of_plane), 0:ubound(line%distance, 1)))
             do k = 0, ubound(values, 2)
                call surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
                if (surface%dimension == 1) then
-                  values(:closed_forms_on_lines(1), k) = [westergaard_pressure_over_pstar(phi/2, load_p), &
-                                                 westergaard_displacement_over_amplitude(phi/2, load_p), &
-                                                 westergaard_gap_over_amplitude(phi/2, load_p), &
-                                                 dundurs_pressure_over_pstar(phi, load_p, dundurs)]
+                  of_line = [westergaard_pressure_over_pstar(phi/2, load_p), &
+                             westergaard_displacement_over_amplitude(phi/2, load_p), &
+                             westergaard_gap_over_amplitude(phi/2, load_p), &
+                             dundurs_pressure_over_pstar(phi, load_p, dundurs)]
                else
-                  values(closed_forms_on_lines(1) + 1:, k) = &
-                     [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
-                      crack_pressure(nearest_crest(phi - pi, theta), load_p), &
-                      crack_opening(nearest_crest(phi - pi, theta), load_p)]
+                  of_plane = [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
+                              crack_pressure(nearest_crest(phi - pi, theta), load_p), &
+                              crack_opening(nearest_crest(phi - pi, theta), load_p)]
                end if
+               values(:, k) = [of_line, of_plane]
             end do
             call put_surface_line(line, results, load, values, file)
             deallocate (values)

@@ -85,7 +85,7 @@ contains
 
       call checkpoint%create(results, known)
       call solve_loads(results, known, checkpoint, log)
-      if (results%sharing%any(.not. checkpoint%is_complete())) &
+      if (results%sharing%any(.not. checkpoint%is_complete)) &
          call log%say('note: not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call show_loads(results, log)

@@ -95,11 +95,11 @@ contains
       type(grid_edge), intent(in) :: edge
       integer, intent(in) :: i, j
 
-      real(dp) :: phi, theta
+      real(dp) :: angle(2)
 
-      call edge%angles(i, j, phi, theta)
-      if (surface%dimension == 1) theta = 0.0_dp
-      h = 1 - surface%shape_at(phi, theta)
+      angle = edge%angles(real([i, j], dp))
+      if (surface%dimension == 1) angle(2) = 0.0_dp
+      h = 1 - surface%shape_at(angle(1), angle(2))
    end function undeformed_gap
 
    !> u - ubar [Delta] of a pressure [p*] on the points of the whole cell.
