@@ -146,7 +146,7 @@ contains
       else
          allocate (own_values(self%points(1), kept%columns()))
          call waves_to_columns(self, own_columns, own_values)
-         call kept%gather(own_values, field)
+         call kept%gather(8*self%points(1), own_values, field, first_only=.false.)
       end if
    end subroutine sample
 
