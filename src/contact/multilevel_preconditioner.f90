@@ -187,7 +187,7 @@ contains
       real(sp), intent(inout), contiguous :: coarse(:, :)
 
       if (part%is_distributed .and. .not. slab%is_distributed) &
-         call part%gather((coarse(:, part%first:part%last)), coarse)
+         call part%gather(4*size(coarse, 1), (coarse(:, part%first:part%last)), coarse, first_only=.false.)
    end subroutine complete
 
    !> The adjoint of `average`, added to a field.

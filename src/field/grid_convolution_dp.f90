@@ -6,7 +6,7 @@ module wavycon_grid_convolution_dp
    use wavycon_constants, only: pi
    use wavycon_fftw, only: execute_real_to_waves => fftw_execute_dft_r2c, execute_waves => fftw_execute_dft, &
                            execute_waves_to_real => fftw_execute_dft_c2r
-   use wavycon_grid_slab, only: column_layout, grid_slab
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, wp => dp
    use wavycon_line_plans, only: plan_of_line, real_to_waves, waves_backward, waves_forward, waves_to_real
    implicit none (type, external)

@@ -10,18 +10,38 @@
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
 module wavycon_grid_slab
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_column_layout, only: column_layout, least_distributed_points, most_reach, strip_columns
    use wavycon_grid_points, only: image_of_point
    use wavycon_kinds, only: dp, sp
-   use wavycon_ranks, only: add_over_ranks, any_rank, comm, largest_over_ranks, share_error, &
-      this_rank
+   use wavycon_ranks, only: add_over_ranks, any_rank, comm, largest_over_ranks, ranks_at_work, ranks_on_this_machine, &
+      share_error, this_rank
+   use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
 
-   public :: column_layout, grid_slab, least_distributed_points, most_reach, strip_columns
+   public :: grid_slab
 
-   type, extends(column_layout) :: grid_slab
+   !> Columns of a strip. Slabs begin with a strip, so that sums over strips are the same however a grid is distributed,
+   !> and means of 2, 4, ... 32 columns have all of them on one rank.
+   integer, parameter, public :: strip_columns = 32
+
+   !> Columns that a neighbour may need, and that each rank with columns therefore has at least.
+   integer, parameter, public :: most_reach = 8
+
+   !> Grids with fewer points are whole on each rank.
+   integer(int64), parameter, public :: least_distributed_points = 65536_int64
+
+   type :: grid_slab
+      integer :: points(2) = 0          !! M, N of the grid
+      logical :: is_distributed = .false.    !! whether other ranks have the other columns
+      integer :: width = 0              !! columns of each rank but the last ones, a multiple of strip_columns
+      integer :: first = 1, last = 0    !! the own columns; last = first - 1: none
    contains
+      procedure :: start
+      procedure :: divide
+      procedure :: columns
+      procedure :: strips
+      procedure :: has_memory
+      procedure :: blocks
       procedure :: coarser
       procedure :: column_totals
       procedure :: strip_totals
@@ -37,14 +57,95 @@ module wavycon_grid_slab
       !> Columns beside the own ones.
       generic :: halo => halo_dp, halo_sp
       procedure :: fetch
-      !> The whole grid, on every rank.
-      generic :: gather => gather_whole_dp, gather_whole_sp
+      procedure :: gather
       procedure :: gather_to_first
       procedure :: exchange_rows
-      procedure, private :: add_reals, add_integers, halo_dp, halo_sp, gather_whole_dp, gather_whole_sp
+      procedure, private :: add_reals, add_integers, halo_dp, halo_sp
    end type grid_slab
 
 contains
+
+   !> Distributes a grid over the ranks that are at work. The result depends on nothing but the arguments and the number
+   !> of these ranks.
+   subroutine start(self, points, whole)
+      class(grid_slab), intent(out) :: self
+      integer, intent(in) :: points(2)         !! M, N >= 1
+      logical, intent(in), optional :: whole   !! whether no grid, however large, is distributed; .false. if absent
+
+      integer :: ranks, width
+
+      self%points = points
+      self%width = points(2)
+      self%last = points(2)
+      if (present(whole)) then
+         if (whole) return
+      end if
+      ranks = ranks_at_work()
+      if (ranks == 1 .or. product(int(points, int64)) < least_distributed_points) return
+      width = strip_columns*(((points(2) - 1)/strip_columns)/ranks + 1)
+      ! The last rank with columns has enough of them for its neighbours.
+      do while (modulo(points(2) - 1, width) + 1 < most_reach)
+         width = width + strip_columns
+      end do
+      if (width < points(2)) call set_width(self, width)
+   end subroutine start
+
+   !> Divides a grid of any size: all ranks at work but the last ones have the same number of columns. Only for uses
+   !> without neighbours and strips.
+   subroutine divide(self, points)
+      class(grid_slab), intent(out) :: self
+      integer, intent(in) :: points(2)   !! M, N >= 1
+
+      call self%start(points, whole=.true.)
+      if (ranks_at_work() > 1) call set_width(self, (points(2) - 1)/ranks_at_work() + 1)
+   end subroutine divide
+
+   !> Distributes a grid in slabs of a given width.
+   subroutine set_width(self, width)
+      class(grid_slab), intent(inout) :: self
+      integer, intent(in) :: width
+
+      self%is_distributed = .true.
+      self%width = width
+      self%first = min(this_rank()*width, self%points(2)) + 1
+      self%last = min((this_rank() + 1)*width, self%points(2))
+   end subroutine set_width
+
+   !> The first and last columns of all ranks, shape (2, ranks), of a grid that is distributed; last = first - 1: none.
+   function blocks(self)
+      class(grid_slab), intent(in) :: self
+      integer, allocatable :: blocks(:, :)
+
+      integer :: rank
+
+      allocate (blocks(2, 0:ranks_at_work() - 1))
+      do rank = 0, ranks_at_work() - 1
+         blocks(:, rank) = [min(rank*self%width, self%points(2)) + 1, min((rank + 1)*self%width, self%points(2))]
+      end do
+   end function blocks
+
+   !> The number of the own columns.
+   pure integer function columns(self)
+      class(grid_slab), intent(in) :: self
+
+      columns = self%last - self%first + 1
+   end function columns
+
+   !> The number of the own strips. Strip s has the own columns (s - 1)*strip_columns + 1 to min(s*strip_columns,
+   !> columns()).
+   pure integer function strips(self)
+      class(grid_slab), intent(in) :: self
+
+      strips = (self%columns() + strip_columns - 1)/strip_columns
+   end function strips
+
+   !> Whether this machine has the memory for so many real numbers at each point of the slabs of all its ranks.
+   logical function has_memory(self, numbers)
+      class(grid_slab), intent(in) :: self
+      integer, intent(in) :: numbers   !! of each point
+
+      has_memory = has_memory_for(int(self%points(1), int64)*self%width*numbers*ranks_on_this_machine())
+   end function has_memory
 
    !> The grid of half the points each way, distributed like this one: each rank has the means of its own columns. It
    !> may have as little as one column for its neighbours.
@@ -213,30 +314,6 @@ contains
 
    end subroutine fetch
 
-   subroutine gather_whole_dp(self, own, whole)
-      class(grid_slab), intent(in) :: self
-      real(dp), intent(in), contiguous :: own(:, :)         !! shape (any, columns())
-      real(dp), intent(inout), contiguous :: whole(:, :)    !! shape (any, N)
-
-      if (self%is_distributed) then
-         call gather(self, size(own, 1)*storage_size(own)/8, own, whole, first_only=.false.)
-      else
-         whole = own
-      end if
-   end subroutine gather_whole_dp
-
-   subroutine gather_whole_sp(self, own, whole)
-      class(grid_slab), intent(in) :: self
-      real(sp), intent(in), contiguous :: own(:, :)
-      real(sp), intent(inout), contiguous :: whole(:, :)
-
-      if (self%is_distributed) then
-         call gather(self, size(own, 1)*storage_size(own)/8, own, whole, first_only=.false.)
-      else
-         whole = own
-      end if
-   end subroutine gather_whole_sp
-
    !> The whole grid on the rank that writes the log and the tables.
    subroutine gather_to_first(self, own, whole)
       class(grid_slab), intent(in) :: self
@@ -249,21 +326,22 @@ contains
          return
       end if
       allocate (whole(size(own, 1), merge(self%points(2), 0, this_rank() == 0)))
-      call gather(self, size(own, 1)*storage_size(own)/8, own, whole, first_only=.true.)
+      call self%gather(size(own, 1)*storage_size(own)/8, own, whole, first_only=.true.)
       if (this_rank() > 0) deallocate (whole)
    end subroutine gather_to_first
 
-   subroutine gather(slab, column_bytes, own, whole, first_only)
-      type(grid_slab), intent(in) :: slab             !! of a distributed grid
+   !> The whole of a distributed grid, on every rank or on the first.
+   subroutine gather(self, column_bytes, own, whole, first_only)
+      class(grid_slab), intent(in) :: self
       integer, intent(in) :: column_bytes
-      type(*), intent(in), target :: own(*)
-      type(*), intent(inout), target :: whole(*)
-      logical, intent(in) :: first_only               !! whether rank 0 alone wants the grid
+      type(*), intent(in), target :: own(*)          !! the own columns
+      type(*), intent(inout), target :: whole(*)     !! all columns, where they are wanted
+      logical, intent(in) :: first_only              !! whether rank 0 alone wants the grid
 
       integer, allocatable :: have(:, :), want(:, :)
 
-      allocate (have, source=slab%blocks())
-      allocate (want, source=spread([1, slab%points(2)], 2, size(have, 2)))
+      allocate (have, source=self%blocks())
+      allocate (want, source=spread([1, self%points(2)], 2, size(have, 2)))
       if (first_only) want(2, 2:) = 0
       call comm%move(column_bytes, have, own, want, whole)
    end subroutine gather
@@ -272,7 +350,7 @@ contains
    !> elements may be complex numbers, and their number in a column need not be M.
    subroutine exchange_rows(self, rows, bytes, by_columns, by_rows, to_rows)
       class(grid_slab), intent(in) :: self
-      class(column_layout), intent(in) :: rows              !! of the matrix, as columns: divided
+      class(grid_slab), intent(in) :: rows                  !! of the matrix, as columns: divided
       integer, intent(in) :: bytes                          !! of an element
       type(*), intent(inout), target :: by_columns(*)       !! shape (rows, columns())
       type(*), intent(inout), target :: by_rows(*)          !! shape (own rows, N)

@@ -59,7 +59,7 @@ contains
             call rows%gather_to_first(own, whole)
          else
             allocate (whole(size(values, 2), rows%points(2)))
-            call rows%gather(own, whole)
+            call rows%gather(8*size(own, 1), own, whole, first_only=.false.)
          end if
          is_whole = allocated(whole)
          if (.not. is_whole) return

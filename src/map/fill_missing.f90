@@ -1,7 +1,6 @@
 !> Fills the holes of a height map by Laplace's equation: (M3) of README.md in this directory.
 !>
-!> The unknowns are the missing heights alone. Conjugate gradients solve the equations. They start from the solution on
-!> a grid of half the points each way, which is found in the same way (M4).
+!> The unknowns are the missing heights alone. Conjugate gradients solve the equations, from straight lines on (M4).
 module wavycon_fill_missing
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
@@ -29,7 +28,7 @@ contains
       type(measured_map), intent(inout) :: map    !! with at least one height that is there; `missing` is deallocated
       type(error_type), allocatable, intent(out) :: error
 
-      !> Real numbers for each height, and for each missing one, on coarser maps too.
+      !> Real numbers for each height, and for each missing one.
       integer(int64), parameter :: numbers_a_height = 4, numbers_a_hole = 6
       real(dp), allocatable :: filled(:, :)
       integer :: there(2)
@@ -46,25 +45,52 @@ contains
       unit = maxval(abs(filled))
       if (unit > 0.0_dp) then
          filled = filled/unit
-         call fill(filled, map%missing, (minval(step)/step)**2, periodic)
+         call start_on_lines(map%missing, filled)
+         call solve(map%missing, (minval(step)/step)**2, periodic, filled)
       end if
       map%height = merge(datum + unit*filled, map%height, map%missing)
       deallocate (map%missing)
    end subroutine fill_holes
 
-   !> Replaces the missing heights by the solution of (M3).
-   recursive subroutine fill(height, missing, weight, periodic)
-      real(dp), intent(inout) :: height(:, :)   !! shape (M, N), of order 1
-      logical, intent(in) :: missing(:, :)      !! shape (M, N); at least one is .false.
+   !> Starts the missing heights on straight lines along x between those that are there (M4). Before the first and after
+   !> the last of a column they are level; a column without any continues the one before.
+   pure subroutine start_on_lines(missing, height)
+      logical, intent(in) :: missing(:, :)
+      real(dp), intent(inout) :: height(:, :)   !! zero where it is missing
+
+      integer :: i, j, k, last
+
+      do j = 1, size(height, 2)
+         last = 0
+         do i = 1, size(height, 1)
+            if (missing(i, j)) cycle
+            associate (from => height(merge(last, i, last > 0), j))
+               do k = last + 1, i - 1
+                  height(k, j) = from + (height(i, j) - from)*(k - last)/(i - last)
+               end do
+            end associate
+            last = i
+         end do
+         if (last > 0) height(last + 1:, j) = height(last, j)
+         if (last == 0 .and. j > 1) height(:, j) = height(:, j - 1)
+      end do
+   end subroutine start_on_lines
+
+   !> Conjugate gradients, from the heights that are there, until the residual of (M3) is rounding.
+   subroutine solve(missing, weight, periodic, height)
+      logical, intent(in) :: missing(:, :)      !! shape (M, N)
       real(dp), intent(in) :: weight(2)         !! of neighbours along x and y, up to 1
       logical, intent(in) :: periodic           !! whether the last points are neighbours of the first
+      real(dp), intent(inout) :: height(:, :)   !! of order 1; only the missing heights change
 
-      integer, allocatable :: place(:, :)       ! of each missing height, its indices along x and y, shape (2, n)
-      integer :: i, j, n
+      real(dp), parameter :: goal = 4*epsilon(goal)
+      real(dp), allocatable :: direction(:), field(:, :), image(:), residual(:), value(:)
+      integer, allocatable :: place(:, :)       ! of each missing height, its indices along x and y
+      real(dp) :: last, largest, square, square_before, step
+      integer :: i, iteration, j, n
 
-      if (.not. any(missing)) return
-      call start_from_coarser(height, missing, weight, periodic)
-      allocate (place(2, count(missing)))
+      n = count(missing)
+      allocate (direction(n), image(n), place(2, n), residual(n))
       n = 0
       do j = 1, size(missing, 2)
          do i = 1, size(missing, 1)
@@ -73,56 +99,6 @@ contains
             place(:, n) = [i, j]
          end do
       end do
-      call solve(place, weight, periodic, height)
-   end subroutine fill
-
-   !> Sets the missing heights from the filled map of half the points each way (M4). A point of that map has the mean of
-   !> those of two by two heights that are there, and is missing if none is.
-   recursive subroutine start_from_coarser(height, missing, weight, periodic)
-      real(dp), intent(inout) :: height(:, :)
-      logical, intent(in) :: missing(:, :)
-      real(dp), intent(in) :: weight(2)
-      logical, intent(in) :: periodic
-
-      real(dp), allocatable :: coarse(:, :)
-      logical, allocatable :: none(:, :)
-      integer :: i, j, number, points(2)
-
-      points = (shape(height) + 1)/2
-      allocate (coarse(points(1), points(2)), source=0.0_dp)
-      allocate (none(points(1), points(2)))
-      do j = 1, points(2)
-         do i = 1, points(1)
-            associate (heights => height(2*i - 1:min(2*i, size(height, 1)), 2*j - 1:min(2*j, size(height, 2))), &
-                       gaps => missing(2*i - 1:min(2*i, size(height, 1)), 2*j - 1:min(2*j, size(height, 2))))
-               number = count(.not. gaps)
-               none(i, j) = number == 0
-               if (number > 0) coarse(i, j) = sum(heights, mask=.not. gaps)/number
-            end associate
-         end do
-      end do
-      call fill(coarse, none, weight, periodic)
-      do j = 1, size(height, 2)
-         do i = 1, size(height, 1)
-            if (missing(i, j)) height(i, j) = coarse((i + 1)/2, (j + 1)/2)
-         end do
-      end do
-   end subroutine start_from_coarser
-
-   !> Conjugate gradients, from the heights that are there, until the residual of (M3) is rounding.
-   subroutine solve(place, weight, periodic, height)
-      integer, intent(in) :: place(:, :)        !! of the missing heights
-      real(dp), intent(in) :: weight(2)
-      logical, intent(in) :: periodic
-      real(dp), intent(inout) :: height(:, :)   !! only the missing heights change
-
-      real(dp), parameter :: goal = 4*epsilon(goal)
-      real(dp), allocatable :: direction(:), field(:, :), image(:), residual(:), value(:)
-      real(dp) :: last, largest, square, square_before, step
-      integer :: iteration, n
-
-      n = size(place, 2)
-      allocate (direction(n), image(n), residual(n))
       allocate (value(n), source=[(height(place(1, n), place(2, n)), n=1, size(place, 2))])
       allocate (field(size(height, 1), size(height, 2)), source=0.0_dp)
       last = huge(last)
@@ -151,7 +127,7 @@ contains
    !> Sets the missing points of a field, and computes the left-hand side of (M3) there.
    subroutine apply(value, place, weight, periodic, field, image)
       real(dp), intent(in) :: value(:)
-      integer, intent(in) :: place(:, :)
+      integer, intent(in) :: place(:, :)        !! shape (2, n)
       real(dp), intent(in) :: weight(2)
       logical, intent(in) :: periodic
       real(dp), intent(inout) :: field(:, :)
