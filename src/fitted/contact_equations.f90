@@ -16,8 +16,8 @@ module wavycon_contact_equations
    use wavycon_disc_rule, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: linearise_sources
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, pool_extra_angles, &
-      pool_extra_radii, near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, &
+   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
+      pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
       sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
@@ -89,9 +89,8 @@ contains
          ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
          if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
          call start_chord_rule(equations%chords, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)
+         finer = merge(1, 0, merging_ratio > sharp_quadrature_ratio)
          ! Low degrees are not accurate enough to need many more.
-         finer = 0
-         if (merging_ratio > sharp_quadrature_ratio) finer = 1
          if (merging_ratio > near_images_ratio) finer = min(6, degree/4)
          call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, &
                               degree/fold + extra_disc_angles + finer)

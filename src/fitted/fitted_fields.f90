@@ -197,12 +197,8 @@ contains
       integer :: k
 
       associate (x => z%re - self%sources%x, y => z%im - self%sources%y)
-         if (self%answer%pool) then
-            call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
-            value = -value/(4*pi**2)
-         else
-            call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
-         end if
+         call self%lattice%kernel(merge(2, 1, self%answer%pool))%evaluate(size(x), x, y, value)
+         if (self%answer%pool) value = -value/(4*pi**2)
       end associate
       ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
       of_centre = 0.0_dp

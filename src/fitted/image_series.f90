@@ -16,7 +16,6 @@ module wavycon_image_series
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_periodic_kernel, only: periodic_kernel
-   use wavycon_point_sources, only: point_sources
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
    private
@@ -26,7 +25,7 @@ module wavycon_image_series
    type :: image_series
       real(dp) :: radius = 0.0_dp                  !! R [s]; 0 without a series
       real(dp) :: tolerance = 0.0_dp               !! of the series; 0 without one
-      type(point_sources) :: near                  !! lattice points left out of F
+      type(periodic_kernel) :: near                !! lattice points left out of F
       type(disc_polynomials) :: basis
       real(dp), allocatable :: coefficient(:, :)   !! B [1/s], of the Laplacian [1/s^3], shape (N, N)
    contains

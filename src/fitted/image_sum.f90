@@ -5,7 +5,7 @@ module wavycon_image_sum
    use wavycon_disc_sources, only: copies, linearise_sources
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
-   use wavycon_point_sources, only: point_sources
+   use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
    private
@@ -19,7 +19,7 @@ contains
    !>
    !> N.B. The derivatives are at fixed w_t: the targets move with the shape.
    subroutine add_image_sum(kernel, shape, rule, values, c, target, rows, shape_rows, opposite)
-      class(point_sources), intent(in) :: kernel
+      type(periodic_kernel), intent(in) :: kernel
       type(shape_map), intent(in) :: shape             !! with the symmetry of the lattice, or less
       type(disc_rule), intent(in) :: rule              !! with the weight of the expansion
       real(dp), intent(in) :: values(:, :)             !! of the basis at the rule's points, shape (n, N)

@@ -17,10 +17,9 @@ module wavycon_lattice_images
    public :: lattice_images
 
    type :: lattice_images
-      type(image_series), private :: series     !! of one regime
+      type(image_series) :: series     !! of one regime
    contains
       procedure :: prepare
-      procedure :: tolerance
       procedure :: add_rows
    end type lattice_images
 
@@ -36,21 +35,9 @@ contains
 
       if (self%series%holds_for(now%shape)) return
       if (two_in_a_cell(lattice, now)) return
-      if (now%pool) then
-         call start_image_series(self%series, lattice%pressure_kernel, now%basis%fold, growth*now%shape%radius(), &
-                                 tolerance)
-      else
-         call start_image_series(self%series, lattice%displacement_kernel, now%basis%fold, growth*now%shape%radius(), &
-                                 tolerance)
-      end if
+      call start_image_series(self%series, lattice%kernel(merge(2, 1, now%pool)), now%basis%fold, &
+                              growth*now%shape%radius(), tolerance)
    end subroutine prepare
-
-   !> The relative error of the images that the series leaves; 0 without a series.
-   pure real(dp) function tolerance(self)
-      class(lattice_images), intent(in) :: self
-
-      tolerance = self%series%tolerance
-   end function tolerance
 
    !> Adds the integrals of the terms of an expansion over all images for several targets, and the derivatives of their
    !> sum with respect to the shape.
@@ -72,14 +59,13 @@ contains
          call self%series%add_rows(now%shape, rule, values, now%c, target, rows, shape_rows)
          if (size(self%series%near%point, 2) > 0) &
             call add_image_sum(self%series%near, now%shape, rule, values, now%c, target, rows, shape_rows)
-      else if (now%pool) then
-         call add_image_sum(lattice%pressure_kernel, now%shape, rule, values, now%c, target, rows, shape_rows)
       else
-         call add_image_sum(lattice%displacement_kernel, now%shape, rule, values, now%c, target, rows, shape_rows)
+         call add_image_sum(lattice%kernel(merge(2, 1, now%pool)), now%shape, rule, values, now%c, target, rows, &
+                            shape_rows)
       end if
       if (two_in_a_cell(lattice, now)) then
          ! None of the second pools is the target's own.
-         whole = lattice%pressure_kernel
+         whole = lattice%kernel(2)
          whole%whole = .true.
          call add_image_sum(whole, now%shape, rule, values, now%c, target, rows, shape_rows, opposite=2*lattice%trough)
       end if

@@ -13,7 +13,7 @@ module wavycon_load_continuation
    implicit none (type, external)
    private
 
-   public :: is_start, load_steps, start_at_load
+   public :: is_start, start_at_load
 
    !> Relative change of the shape at which Newton's method stops during continuation: the next load makes smaller ones
    !> useless.

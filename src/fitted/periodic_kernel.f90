@@ -13,40 +13,42 @@ module wavycon_periodic_kernel
    use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
    use wavycon_ewald_sum, only: ewald_sum
    use wavycon_kinds, only: dp
-   use wavycon_point_sources, only: point_sources
    use wavycon_row_lattice, only: row_lattice
    implicit none (type, external)
    private
 
    public :: periodic_kernel, start_periodic_kernels
 
-   !> The point sources are the lattice points near the origin, which are summed one by one; x is along the rows. Power
-   !> 1 is Gp, power 3 its Laplacian.
-   type, extends(point_sources) :: periodic_kernel
+   !> Power 1 is Gp, power 3 its Laplacian. Without a fit it is the sum over the points alone.
+   type :: periodic_kernel
+      integer :: power = 1                         !! of 1/r: 1 or 3
       type(row_lattice) :: rows
-      type(even_polynomial) :: fit      !! of the smooth part without them; x along the rows
-      logical :: whole = .false.        !! with the origin's own term, for places that are on none of the lattice points
+      real(dp), allocatable :: point(:, :)         !! summed one by one, x along the rows, shape (2, m) [s]
+      type(even_polynomial), allocatable :: fit    !! of the smooth part without them; x along the rows
+      logical :: whole = .false.                   !! with the origin's own term, for places on no lattice point
    contains
       procedure :: evaluate
+      procedure, private :: evaluate_by_rows
+      procedure, private :: add_points
    end type periodic_kernel
 
    !> Rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
    real(dp), parameter :: rounding(2) = [32, 320]*epsilon(1.0_dp)
    !> Least square of a distance. The inverse powers of a place and of the same place reduced must be equal and finite.
    real(dp), parameter :: least_square = 1e-100_dp
+
 contains
 
    !> Fits both kernels of a lattice.
-   subroutine start_periodic_kernels(rows, displacement, laplacian)
+   subroutine start_periodic_kernels(rows, kernels)
       type(row_lattice), intent(in) :: rows
-      type(periodic_kernel), intent(out) :: displacement   !! Gp
-      type(periodic_kernel), intent(out) :: laplacian      !! of Gp
+      type(periodic_kernel), intent(out) :: kernels(2)     !! Gp and its Laplacian
 
       integer, parameter :: n = fit_degree
-      real(dp), dimension(0:n, 0:n) :: distance, value, value_of_laplacian, x, y
+      real(dp) :: values(0:n, 0:n, 2), x(0:n, 0:n), y(0:n, 0:n)
       complex(dp), allocatable :: z(:)
       real(dp), allocatable :: near(:, :)
-      integer :: k
+      integer :: i, k
 
       ! Fewer would take a fit of higher degree.
       z = rows%points_about(0.75_dp + 0.6_dp*max(rows%spacing, 1.0_dp), (0.0_dp, 0.0_dp))
@@ -54,33 +56,34 @@ contains
       near = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
       if (rows%along_y) near = near([2, 1], :)
       call fit_nodes(rows%spacing, x, y)
-      call ewald_sum(rows, size(x), x, y, value, value_of_laplacian)
-      do k = 1, size(near, 2)
-         distance = hypot(x - near(1, k), y - near(2, k))
-         value = value - 1.0_dp/distance
-         value_of_laplacian = value_of_laplacian - 1.0_dp/distance**3
+      call ewald_sum(rows, size(x), x, y, values(:, :, 1), values(:, :, 2))
+      do i = 1, 2
+         associate (kernel => kernels(i))
+            kernel%power = 2*i - 1
+            kernel%rows = rows
+            kernel%point = near
+            do k = 1, size(near, 2)
+               values(:, :, i) = values(:, :, i) - 1.0_dp/hypot(x - near(1, k), y - near(2, k))**kernel%power
+            end do
+            allocate (kernel%fit)
+            call start_even_polynomial(kernel%fit, rows%spacing, values(:, :, i), rounding(i))
+         end associate
       end do
-      displacement%rows = rows
-      displacement%point = near
-      call start_even_polynomial(displacement%fit, rows%spacing, value, rounding(1))
-      laplacian%power = 3
-      laplacian%rows = rows
-      laplacian%point = near
-      call start_even_polynomial(laplacian%fit, rows%spacing, value_of_laplacian, rounding(2))
    end subroutine start_periodic_kernels
 
-   !> The smooth part, which is the kernel less the origin's own term 1/r^power; or the whole kernel.
+   !> The smooth part, which is the kernel less the origin's own term 1/r^power; or the whole kernel. Its gradient as
+   !> well if that is given room.
    pure subroutine evaluate(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)
-      real(dp), intent(out) :: value(n)
-      real(dp), intent(out), optional :: slope_x(n), slope_y(n)
+      real(dp), intent(in) :: x(n), y(n)                             !! [s]
+      real(dp), intent(out) :: value(n)                              !! [s^-power]
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)      !! both or none [s^-(power+1)]
 
       if (self%rows%along_y) then
-         call evaluate_by_rows(self, n, y, x, value, slope_y, slope_x)
+         call self%evaluate_by_rows(n, y, x, value, slope_y, slope_x)
       else
-         call evaluate_by_rows(self, n, x, y, value, slope_x, slope_y)
+         call self%evaluate_by_rows(n, x, y, value, slope_x, slope_y)
       end if
    end subroutine evaluate
 
@@ -97,9 +100,16 @@ contains
       logical :: moved
       integer :: i
 
+      if (.not. allocated(self%fit)) then
+         value = 0.0_dp
+         if (present(slope_x)) slope_x = 0.0_dp
+         if (present(slope_x)) slope_y = 0.0_dp
+         call self%add_points(n, x, y, value, slope_x, slope_y)
+         return
+      end if
       call self%rows%reduce_along_rows(n, x, y, xr, yr, moved)
       call self%fit%evaluate(n, xr, yr, value, slope_x, slope_y)
-      call self%add(n, xr, yr, value, slope_x, slope_y)
+      call self%add_points(n, xr, yr, value, slope_x, slope_y)
       if (.not. (moved .or. self%whole)) return
       ! The origin's term is taken out at the place itself, not at the reduced place; for most places they are the same.
       do i = 1, n
@@ -114,6 +124,41 @@ contains
          end if
       end do
    end subroutine evaluate_by_rows
+
+   !> Adds what the points do.
+   pure subroutine add_points(self, n, x, y, value, slope_x, slope_y)
+      class(periodic_kernel), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)
+      real(dp), intent(inout) :: value(n)
+      real(dp), intent(inout), optional :: slope_x(n), slope_y(n)
+
+      real(dp) :: inverse, inverse_square, of_cube, of_first
+      integer :: i, k
+
+      ! 1/r or 1/r^3 as 1/r (of_first + of_cube/r^2): with a choice in them the loops would not be of vectors.
+      of_first = merge(1.0_dp, 0.0_dp, self%power == 1)
+      of_cube = 1.0_dp - of_first
+      do k = 1, size(self%point, 2)
+         associate (a => self%point(1, k), b => self%point(2, k))
+            if (present(slope_x)) then
+               do i = 1, n
+                  inverse_square = 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2)
+                  inverse = sqrt(inverse_square)*(of_first + of_cube*inverse_square)
+                  value(i) = value(i) + inverse
+                  inverse = self%power*inverse*inverse_square
+                  slope_x(i) = slope_x(i) - (x(i) - a)*inverse
+                  slope_y(i) = slope_y(i) - (y(i) - b)*inverse
+               end do
+            else
+               do i = 1, n
+                  inverse_square = 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2)
+                  value(i) = value(i) + sqrt(inverse_square)*(of_first + of_cube*inverse_square)
+               end do
+            end if
+         end associate
+      end do
+   end subroutine add_points
 
    !> 1/r or 1/r^3.
    pure real(dp) function inverse_power(power, inverse_square)

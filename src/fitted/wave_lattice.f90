@@ -30,10 +30,10 @@ module wavycon_wave_lattice
    real(dp), parameter :: hexagonal_merging = 0.71191_dp
 
    type :: wave_lattice
-      integer :: fold = 4                            !! of the symmetry about a crest
-      integer :: trough_fold = 4                     !! of the symmetry about a trough
+      integer :: fold = 2                            !! of the symmetry about a crest
+      integer :: trough_fold = 2                     !! of the symmetry about a trough
       integer :: troughs = 1                         !! in a cell: at `trough` and, if there are two, at -`trough`
-      logical :: square = .true.                     !! whether it is the square lattice
+      logical :: square = .false.                    !! whether it is the square lattice
       real(dp) :: area = 1.0_dp                      !! of a cell [s^2]
       real(dp) :: closing_pressure = 1.0_dp          !! mean pressure that just closes the troughs, p* (F7)
       real(dp) :: about_merging = 0.0_dp             !! mean pressure near which spots merge and pools separate
@@ -47,8 +47,9 @@ module wavycon_wave_lattice
       !> the trough [s].
       complex(dp), allocatable :: to_next_crest(:), to_next_trough(:)
       type(row_lattice) :: rows                      !! the crests
-      type(periodic_kernel) :: displacement_kernel   !! Gp: the integral of Gp and p is u less its mean (F2)
-      type(periodic_kernel) :: pressure_kernel       !! its Laplacian, which turns a gap into a pressure (F10)
+      !> Gp, of spots: the integral of Gp and p is u less its mean (F2). Its Laplacian, of pools, turns a gap into a
+      !> pressure (F10).
+      type(periodic_kernel) :: kernel(2)
    contains
       procedure :: undeformed_gap
       procedure :: undeformed_slope
@@ -62,11 +63,11 @@ contains
    function square_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
-      allocate (lattice%wave(2, 2), lattice%amplitude(2))
-      lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
-      lattice%amplitude(:) = [0.5_dp, 0.5_dp]
-      lattice%to_next_crest = [lattice%saddle]
-      call finish_lattice(lattice, row_lattice(spacing=1.0_dp, shift=0.0_dp), square_merging)
+      lattice = rectangular_lattice(1.0_dp, 0.5_dp)
+      lattice%fold = 4
+      lattice%trough_fold = 4
+      lattice%square = .true.
+      lattice%saddle = 0.5_dp
    end function square_lattice
 
    !> h/Delta = 1 - a_x cos X - a_y cos Y, a_x + a_y = 1.
@@ -75,9 +76,6 @@ contains
       real(dp), intent(in) :: amplitude_x  !! a_x, between 0 and 1 [Delta]
       type(wave_lattice) :: lattice
 
-      lattice%fold = 2
-      lattice%trough_fold = 2
-      lattice%square = .false.
       lattice%area = side_ratio
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/side_ratio], [2, 2])
@@ -95,9 +93,6 @@ contains
       real(dp), intent(in) :: side_ratio   !! longer wavelength, along y, over the shorter, s: 1 to 3
       type(wave_lattice) :: lattice
 
-      lattice%fold = 2
-      lattice%trough_fold = 2
-      lattice%square = .false.
       lattice%area = 0.5_dp*side_ratio
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 1.0_dp/side_ratio, 1.0_dp, -1.0_dp/side_ratio], [2, 2])
@@ -120,7 +115,6 @@ contains
       lattice%fold = 6
       lattice%trough_fold = 3
       lattice%troughs = 2
-      lattice%square = .false.
       lattice%area = 0.5_dp*root3
       allocate (lattice%wave(2, 3), lattice%amplitude(3))
       lattice%wave(:, :) = reshape([2.0_dp, 0.0_dp, 1.0_dp, root3, 1.0_dp, -root3]/root3, [2, 3])
@@ -148,7 +142,7 @@ contains
       complex(dp), allocatable :: middle(:)
 
       lattice%rows = rows
-      call start_periodic_kernels(rows, lattice%displacement_kernel, lattice%pressure_kernel)
+      call start_periodic_kernels(rows, lattice%kernel)
       if (.not. allocated(lattice%to_next_trough)) lattice%to_next_trough = lattice%to_next_crest
       if (.not. allocated(lattice%phase)) lattice%phase = [(-1.0_dp, 0.0_dp), (-1.0_dp, 0.0_dp)]
       lattice%pressure = lattice%amplitude*hypot(lattice%wave(1, :), lattice%wave(2, :))
