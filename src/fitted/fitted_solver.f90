@@ -124,7 +124,7 @@ contains
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
             call history%push(now, measures, misfit, remaining)
             if (history%newest_is_best) &
-               call set_answer(answer, lattice, history, now, degree, residual, ratio, images%series%tolerance)
+               call set_answer(answer, lattice, history, now, degree, residual, ratio, images%tolerance)
             if (history%best_meets(accuracy, required)) then
                answer%status = fitted_solved
                exit
