@@ -13,7 +13,7 @@
 module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
-   use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: linearise_sources
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
@@ -162,18 +162,16 @@ contains
       type(expansion), intent(in) :: now
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
+      real(dp) :: known
       integer :: i
 
       do i = 1, size(self%target)
          z = now%shape%place(self%target(i))
-         if (now%pool) then
-            self%residual(i) = self%residual(i) + lattice%pressure_rise(z) - (lattice%closing_pressure - load)
-            slope = -lattice%pressure_rise_slope(z)
-         else
-            self%residual(i) = self%residual(i) + now%approach - lattice%undeformed_gap(z)
-            self%matrix(i, self%before_shape) = -1.0_dp
-            slope = lattice%undeformed_slope(z)
-         end if
+         known = now%approach
+         if (now%pool) known = load - lattice%closing_pressure
+         self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
+         if (.not. now%pool) self%matrix(i, self%before_shape) = -1.0_dp
+         slope = -lattice%rise_slope(now%pool, z)
          call now%shape%linearise_place(self%target(i), place_slope)
          associate (shape_row => self%matrix(i, self%before_shape + 1:))
             shape_row = shape_row + slope%re*place_slope%re + slope%im*place_slope%im

@@ -99,7 +99,7 @@ contains
 
       pressure = 0.0_dp
       gap = 0.0_dp
-      without_gap = 1.0_dp - self%answer%mean_gap - self%lattice%undeformed_gap(place)
+      without_gap = 1.0_dp - self%answer%mean_gap + self%lattice%rise(.false., place)
       displacement = without_gap
       ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
       do i = 1, self%places
@@ -116,7 +116,7 @@ contains
       end do
       if (self%answer%pool) then
          pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
-            + self%lattice%pressure_rise(place - self%lattice%trough)
+            + self%lattice%rise(.true., place - self%lattice%trough)
          do i = 1, self%places
             pressure = pressure + self%sum_over_images(z(i), i)
          end do

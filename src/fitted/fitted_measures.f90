@@ -57,7 +57,7 @@ contains
          call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
          ! The rule's points are those of one sector: the mean over their copies is taken.
          mean = sum(reshape(value, [size(mean), 2*now%basis%fold]), 2)/(2*now%basis%fold)
-         pressure_between_pools = load - lattice%closing_pressure + lattice%pressure_rise(-lattice%trough) &
+         pressure_between_pools = load - lattice%closing_pressure + lattice%rise(.true., -lattice%trough) &
             - lattice%troughs*equations%integral(now, mean)/(4*pi**2)
       end function pressure_between_pools
 
@@ -72,12 +72,12 @@ contains
 
          z = now%shape%place(equations%rule%point)
          if (now%pool) then
-            associate (rise => lattice%pressure_rise(z) - lattice%closing_pressure, &
+            associate (rise => lattice%rise(.true., z) - lattice%closing_pressure, &
                        full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
                energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) - load*mean_gap*lattice%area)
             end associate
          else
-            energy = 0.5_dp*(now%approach*load*lattice%area - equations%integral(now, lattice%undeformed_gap(z)))
+            energy = 0.5_dp*(now%approach*load*lattice%area + equations%integral(now, lattice%rise(.false., z)))
          end if
       end function strain_energy
 

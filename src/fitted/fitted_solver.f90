@@ -4,7 +4,7 @@ module wavycon_fitted_solver
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: degree_history
    use wavycon_expansion, only: expansion
-   use wavycon_expansion_size, only: next_clustering, next_degree, shape_terms
+   use wavycon_expansion_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
       fitted_solved, most_previous
    use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
@@ -15,7 +15,6 @@ module wavycon_fitted_solver
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
    use wavycon_load_continuation, only: is_start, start_at_load
-   use wavycon_merging_ratio, only: merging_ratio
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
    implicit none (type, external)

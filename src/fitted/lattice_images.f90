@@ -12,7 +12,7 @@
 module wavycon_lattice_images
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
-   use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: copies, linearise_sources
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: most_near_points, series_clearance

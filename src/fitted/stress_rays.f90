@@ -5,12 +5,12 @@
 !> a ray where the kernel is nearly singular. The number of points grows as the logarithm of the distances.
 module wavycon_stress_rays
    use wavycon_constants, only: pi
+   use wavycon_disc_sources, only: find_density
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: ray_angles_of_strain, ray_angles_per_unit, ray_points, ray_points_per_degree, &
       ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
-   use wavycon_source_density, only: find_density
    use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, stress_fields
    implicit none (type, external)
    private

@@ -51,10 +51,8 @@ module wavycon_wave_lattice
       !> pressure (F10).
       type(periodic_kernel) :: kernel(2)
    contains
-      procedure :: undeformed_gap
-      procedure :: undeformed_slope
-      procedure :: pressure_rise
-      procedure :: pressure_rise_slope
+      procedure :: rise
+      procedure :: rise_slope
    end type wave_lattice
 
 contains
@@ -149,66 +147,44 @@ contains
       ! README.md (F6) and (F7): the pressure of full contact at the trough is P less the closing pressure.
       lattice%closing_pressure = -sum(lattice%pressure*lattice%phase%re)
       allocate (middle, source=lattice%to_next_trough)
-      lattice%about_merging = (1.0_dp + at_merging)*lattice%closing_pressure - minval(lattice%pressure_rise(middle))
+      lattice%about_merging = (1.0_dp + at_merging)*lattice%closing_pressure - minval(lattice%rise(.true., middle))
    end subroutine finish_lattice
 
-   !> h/Delta, README.md (F1), without loss of digits near a crest.
-   elemental real(dp) function undeformed_gap(self, z) result(h)
+   !> R, README.md (F13): the pressure of full contact less its value at the trough; or -h/Delta, README.md (F1). Either
+   !> is the sum over i of a_i (cos(2 pi k_i.x + angle_i) - cos angle_i), without loss of digits near the centre.
+   elemental real(dp) function rise(self, pool, z)
       class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from a crest [s]
+      logical, intent(in) :: pool   !! whether it is R
+      complex(dp), intent(in) :: z  !! x + i y from the trough for R, otherwise from a crest [s]
 
-      integer :: i
-
-      h = 0.0_dp
-      do i = 1, size(self%amplitude)
-         h = h + 2*self%amplitude(i)*sin(pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im))**2
-      end do
-   end function undeformed_gap
-
-   !> Gradient of h [Delta/s], as a complex number.
-   elemental complex(dp) function undeformed_slope(self, z) result(slope)
-      class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from a crest [s]
-
-      integer :: i
-
-      slope = 0.0_dp
-      do i = 1, size(self%amplitude)
-         slope = slope + 2*pi*self%amplitude(i)*cmplx(self%wave(1, i), self%wave(2, i), dp) &
-            *sin(2*pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im))
-      end do
-   end function undeformed_slope
-
-   !> R, README.md (F13): the pressure of full contact less its value at the trough x_t, the sum over i of a_i |k_i|
-   !> (cos 2 pi k_i.x - cos 2 pi k_i.x_t), without loss of digits near the trough.
-   elemental real(dp) function pressure_rise(self, z) result(p)
-      class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from the trough [s]
-
+      complex(dp) :: wave
       real(dp) :: half
       integer :: i
 
-      p = 0.0_dp
-      do i = 1, size(self%pressure)
+      rise = 0.0_dp
+      do i = 1, size(self%amplitude)
+         wave = merge(self%pressure(i)*self%phase(i), cmplx(self%amplitude(i), kind=dp), pool)
          half = pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im)
-         p = p - 2*self%pressure(i)*sin(half)*(self%phase(i)%re*sin(half) + self%phase(i)%im*cos(half))
+         rise = rise - 2*sin(half)*(wave%re*sin(half) + wave%im*cos(half))
       end do
-   end function pressure_rise
+   end function rise
 
    !> Its gradient [1/s], as a complex number.
-   elemental complex(dp) function pressure_rise_slope(self, z) result(slope)
+   elemental complex(dp) function rise_slope(self, pool, z) result(slope)
       class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from the trough [s]
+      logical, intent(in) :: pool
+      complex(dp), intent(in) :: z
 
+      complex(dp) :: wave
       real(dp) :: turn
       integer :: i
 
       slope = 0.0_dp
-      do i = 1, size(self%pressure)
+      do i = 1, size(self%amplitude)
+         wave = merge(self%pressure(i)*self%phase(i), cmplx(self%amplitude(i), kind=dp), pool)
          turn = 2*pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im)
-         slope = slope - 2*pi*self%pressure(i)*cmplx(self%wave(1, i), self%wave(2, i), dp) &
-            *(self%phase(i)%re*sin(turn) + self%phase(i)%im*cos(turn))
+         slope = slope - 2*pi*cmplx(self%wave(1, i), self%wave(2, i), dp)*(wave%re*sin(turn) + wave%im*cos(turn))
       end do
-   end function pressure_rise_slope
+   end function rise_slope
 
 end module wavycon_wave_lattice
