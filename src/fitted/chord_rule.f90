@@ -126,7 +126,8 @@ contains
          f_slope = density*f_slope
          shape_row(0) = 2*shape%b(0)*dot_product(density, analytic_square) &
             - dot_product(f_slope, q(:, 1)*analytic(:, 1) - q(:, 2)*analytic(:, 2))
-         slope = slope*spread(density, 2, 2)
+         slope(:, 1) = density*slope(:, 1)
+         slope(:, 2) = density*slope(:, 2)
          total(:, 1) = f_slope*(q(:, 1)*turn(:, 1) + q(:, 2)*turn(:, 2))
          total(:, 2) = f_slope*(q(:, 2)*turn(:, 1) - q(:, 1)*turn(:, 2))
       end associate
@@ -142,7 +143,7 @@ contains
       complex(dp), intent(out) :: w(points)
       real(dp), intent(out) :: weight(points)
 
-      real(dp) :: half, middle, scale
+      real(dp) :: half, middle, of_chord(size(self%node)), t(2)
       integer :: i, j, k, n
 
       n = size(self%node)
@@ -156,34 +157,18 @@ contains
                w(k + j) = target + (middle + half*self%node(j))*e
             end do
          end associate
-         scale = pi/size(self%direction)*half**2
+         of_chord = self%node_weight
          if (self%kernel_power == 3) then
-            weight(k + 1:k + n) = scale*finite_part_weights(self, -middle/half)
-         else
-            weight(k + 1:k + n) = scale*self%node_weight
+            ! W_j(s_0) of README.md (F32), with T_0 and T_1 at the target's place s_0.
+            of_chord = 0.0_dp
+            t = [1.0_dp, -middle/half]
+            do j = 0, n - 1
+               t = [t(2), -2*middle/half*t(2) - t(1)]
+               of_chord = of_chord + 4*t(2)*self%gegenbauer(:, j)
+            end do
          end if
+         weight(k + 1:k + n) = pi/size(self%direction)*half**2*of_chord
       end do
    end subroutine place_points
-
-   !> Weights along a chord for the finite part with 1/(s - s_0)^2: W_j(s_0) of README.md (F32).
-   pure function finite_part_weights(self, s_0) result(weight)
-      class(chord_rule), intent(in) :: self
-      real(dp), intent(in) :: s_0               !! the target's place on the chord, between -1 and 1
-      real(dp) :: weight(size(self%node))
-
-      real(dp) :: before, next, now
-      integer :: m
-
-      weight = 0.0_dp
-      ! T_1 and T_2.
-      before = s_0
-      now = 2*s_0**2 - 1.0_dp
-      do m = 0, size(self%node) - 1
-         weight = weight + 4*now*self%gegenbauer(:, m)
-         next = 2*s_0*now - before
-         before = now
-         now = next
-      end do
-   end function finite_part_weights
 
 end module wavycon_chord_rule
