@@ -6,13 +6,12 @@ module wavycon_fitted_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, not_accurate, not_found
-   use wavycon_fitted_frame, only: find_frame, fitted_frame, make_lattice
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fitted_source, only: fitted_source
    use wavycon_fitted_solver, only: fitted_answer, fitted_less_exact, fitted_solved, solve_fitted
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: by_expansions, no_solution
    use wavycon_surface, only: surface_type
-   use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
@@ -25,7 +24,6 @@ module wavycon_fitted_contact
 
    type, extends(contact_solver) :: fitted_contact
       type(fitted_frame), private :: frame
-      type(wave_lattice), allocatable, private :: lattice
       type(fitted_options), private :: options
       logical, private :: keep_fields = .true.
       type(fitted_answer), private :: last         !! of the last load solved, from which the next one starts
@@ -52,9 +50,6 @@ contains
       call find_frame(surface, self%frame)
       ! A flat surface is in full contact at every load: no expansion is needed.
       self%is_started = (self%frame%is_found() .or. .not. surface%amplitude > 0.0_dp) .and. .not. surface%has_hardness()
-      if (.not. self%frame%is_found()) return
-      allocate (self%lattice)
-      call make_lattice(self%frame, self%lattice)
    end subroutine start
 
    !> Solves one load by solve_fitted and converts its answer to p* and Delta.
@@ -70,7 +65,7 @@ contains
       if (self%frame%is_found()) then
          ! solve_fitted takes a relative accuracy. The largest of the three values, the peak pressure, is less than
          ! that of full contact at P = 1.
-         call solve_fitted(self%lattice, pbar_over_pstar/self%frame%pressure_unit, &
+         call solve_fitted(self%frame%lattice, pbar_over_pstar/self%frame%pressure_unit, &
                            self%options%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, &
                            self%keep_fields)
       end if
@@ -81,7 +76,7 @@ contains
       self%last = answer
       errors = known_errors([answer%mean_gap_error, answer%area_error, answer%peak_error*self%frame%pressure_unit], &
                             self%surface%full_contact_peak)
-      energy_unit = self%frame%pressure_unit/self%lattice%area
+      energy_unit = self%frame%pressure_unit/self%frame%lattice%area
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_expansions
       solution%measures = contact_measures( &
@@ -100,7 +95,6 @@ contains
       if (.not. self%keep_fields) return
       allocate (source)
       source%frame = self%frame
-      source%lattice = self%lattice
       source%answer = answer
       source%accuracy = self%options%accuracy
       call move_alloc(source, solution%source)

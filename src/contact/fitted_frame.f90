@@ -9,10 +9,7 @@ module wavycon_fitted_frame
    implicit none (type, external)
    private
 
-   public :: fitted_frame, find_frame, make_lattice
-
-   !> Lattices that expansions exist for.
-   integer, parameter :: no_lattice = 0, square = 1, rectangular = 2, rhombic = 3, hexagonal = 4
+   public :: fitted_frame, find_frame
 
    !> The point x, y of the surface, measured from a crest, is the point (x + i y) turn/side of the lattice.
    type :: fitted_frame
@@ -20,9 +17,7 @@ module wavycon_fitted_frame
       complex(dp) :: turn = (1.0_dp, 0.0_dp)   !! rotation, of modulus 1
       integer :: crests = 1                    !! in the surface's cell: at its corners and, if two, at its centre
       real(dp) :: pressure_unit = 1.0_dp       !! the lattice's, pi E* Delta/s [p*]
-      integer, private :: lattice = no_lattice
-      real(dp), private :: aspect_ratio = 1.0_dp   !! long over short side, of a rectangular or a rhombic lattice
-      real(dp), private :: amplitude_x = 0.5_dp    !! of the wave along x [Delta], of a rectangular lattice
+      type(wave_lattice), allocatable :: lattice   !! of the crests; none if no expansions exist for the surface
    contains
       procedure :: is_found
       procedure :: place
@@ -33,8 +28,9 @@ module wavycon_fitted_frame
 
 contains
 
-   !> Finds the frame of a surface. Expansions exist for the wave (21), also with two wavelengths, for two crossed waves
-   !> within the limits of wavycon_contact_tuning, and for the hexagonal wave.
+   !> Finds the frame of a surface; the kernels of its lattice are summed here, once for all loads. Expansions exist for
+   !> the wave (21), also with two wavelengths, for two crossed waves within the limits of wavycon_contact_tuning, and
+   !> for the hexagonal wave.
    subroutine find_frame(surface, frame)
       type(surface_type), intent(in) :: surface
       type(fitted_frame), intent(out) :: frame   !! is_found() is .false. for all other surfaces
@@ -46,7 +42,7 @@ contains
       if (surface%is_height_map()) return
       associate (c => surface%shape%c, length => surface%length)
          if (surface%paper_wave() /= no_paper_wave) then
-            frame%lattice = square
+            frame%lattice = square_lattice()
             frame%side = length(1)
             if (surface%paper_wave() /= rotated_paper_wave) then
                frame%side = length(1)/sqrt2
@@ -58,26 +54,21 @@ contains
             curvature = [c(1, 0), c(0, 1)]/length**2
             if (maxval(curvature) > largest_curvature_ratio*minval(curvature)) return
             frame%side = minval(length)
-            frame%amplitude_x = c(1, 0)
-            if (length(1) > length(2)) then
-               frame%turn = (0.0_dp, -1.0_dp)
-               frame%amplitude_x = c(0, 1)
-            end if
-            frame%aspect_ratio = maxval(length)/minval(length)
-            frame%lattice = rectangular
+            if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
+            frame%lattice = rectangular_lattice(maxval(length)/minval(length), &
+                                                merge(c(0, 1), c(1, 0), length(1) > length(2)))
          else if (has_only(reshape([1, 1], [2, 1]))) then
             if (maxval(length) > largest_aspect_ratio*minval(length)*(1.0_dp + rounding)) return
             frame%side = minval(length)
             frame%crests = 2
             if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
-            frame%aspect_ratio = maxval(length)/minval(length)
-            frame%lattice = rhombic
+            frame%lattice = rhombic_lattice(maxval(length)/minval(length))
          else if (has_only(reshape([1, 1, 0, 2], [2, 2]))) then
             if (abs(c(1, 1) - 2*c(0, 2)) > rounding .or. abs(length(2) - sqrt3*length(1)) > rounding*length(2)) return
             frame%side = length(1)
             frame%crests = 2
             frame%turn = (0.0_dp, -1.0_dp)
-            frame%lattice = hexagonal
+            frame%lattice = hexagonal_lattice()
          else
             return
          end if
@@ -113,25 +104,8 @@ contains
    pure logical function is_found(self)
       class(fitted_frame), intent(in) :: self
 
-      is_found = self%lattice /= no_lattice
+      is_found = allocated(self%lattice)
    end function is_found
-
-   !> Makes the lattice of a frame and its kernel, whose series are summed here once for all loads.
-   subroutine make_lattice(frame, lattice)
-      type(fitted_frame), intent(in) :: frame        !! is_found() is .true.
-      type(wave_lattice), intent(out) :: lattice
-
-      select case (frame%lattice)
-      case (square)
-         lattice = square_lattice()
-      case (rectangular)
-         lattice = rectangular_lattice(frame%aspect_ratio, frame%amplitude_x)
-      case (rhombic)
-         lattice = rhombic_lattice(frame%aspect_ratio)
-      case (hexagonal)
-         lattice = hexagonal_lattice()
-      end select
-   end subroutine make_lattice
 
    !> The coordinates on the lattice [s] of a point of the surface.
    elemental complex(dp) function place(self, x, y)

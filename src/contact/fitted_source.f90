@@ -18,15 +18,13 @@ module wavycon_fitted_source
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
-   use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
    public :: fitted_source
 
    type, extends(field_source) :: fitted_source
-      type(fitted_frame) :: frame
-      type(wave_lattice), allocatable :: lattice   !! always allocated
+      type(fitted_frame) :: frame       !! with a lattice
       type(fitted_answer) :: answer     !! in the units of src/fitted
       real(dp) :: accuracy = 0.0_dp     !! that it was asked for, relative
    contains
@@ -39,7 +37,6 @@ module wavycon_fitted_source
 
    type, extends(contact_fields) :: fitted_contact_fields
       real(dp) :: length(2) = 1.0_dp    !! sides of the surface's cell [length]
-      logical :: is_square = .false.    !! whether x and y are equivalent
       type(fitted_frame) :: frame
       real(dp) :: accuracy = 0.0_dp     !! that the solution was asked for, relative
       type(fitted_fields), allocatable :: fitted
@@ -64,11 +61,10 @@ contains
       associate (unused => record); end associate
       allocate (own)
       own%length = surface%length
-      own%is_square = self%lattice%square
       own%frame = self%frame
       own%accuracy = self%accuracy
       allocate (own%fitted)
-      call start_fitted_fields(own%fitted, self%lattice, self%answer)
+      call start_fitted_fields(own%fitted, self%frame%lattice, self%answer)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -81,7 +77,7 @@ contains
       type(fitted_stress_fields), allocatable :: own
 
       allocate (own)
-      call start_fitted_stress_fields(own, surface, self%frame, self%lattice, self%answer, self%accuracy, &
+      call start_fitted_stress_fields(own, surface, self%frame, self%answer, self%accuracy, &
                                       record%pbar_over_pstar)
       call move_alloc(own, answer)
    end subroutine stresses
@@ -125,7 +121,7 @@ contains
       integer :: k, l
 
       allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
-      call grid%start(points, offset, self%is_square, self%frame%crests)
+      call grid%start(points, offset, self%frame%lattice%square, self%frame%crests)
       call self%fitted%prepare_map(self%accuracy, grid%number_of_first())
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
@@ -159,7 +155,7 @@ contains
       type(fitted_fields) :: fields
       integer :: i, k, rotated
 
-      call start_fitted_fields(fields, self%lattice, self%answer)
+      call start_fitted_fields(fields, self%frame%lattice, self%answer)
       to_surface = self%frame%side/self%frame%turn
       edge = (fields%edge(edge_points) - fields%centre)*to_surface
       ! The contact lies on the left of the curve.
@@ -209,8 +205,8 @@ contains
       real(dp) :: energy_unit, errors(3), values(3)
 
       found = .true.
-      call find_fitted_details(self%lattice, self%answer, values, errors)
-      energy_unit = self%frame%pressure_unit/self%lattice%area
+      call find_fitted_details(self%frame%lattice, self%answer, values, errors)
+      energy_unit = self%frame%pressure_unit/self%frame%lattice%area
       answer = contact_details( &
                trough_gap=values(1), trough_gap_error=errors(1), &
                saddle_gap=values(2), saddle_gap_error=errors(2), &
@@ -232,7 +228,7 @@ contains
       real(dp) :: errors(3), range(2), slopes(3)
 
       associate (unused => record, unused_too => surface); end associate
-      call find_load_slopes(self%lattice, self%answer, slopes, errors, range, found)
+      call find_load_slopes(self%frame%lattice, self%answer, slopes, errors, range, found)
       if (.not. found) return
       associate (units => self%frame%pressure_unit**[1, 1, 2])
          slopes = slopes/units

@@ -11,7 +11,6 @@ module wavycon_fitted_stress_fields
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: depths_of_spot, depths_of_cell, edge_ratios
    use wavycon_surface, only: surface_type
-   use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
@@ -20,8 +19,6 @@ module wavycon_fitted_stress_fields
    type, extends(stress_fields) :: fitted_stress_fields
       private
       type(fitted_frame) :: frame
-      complex(dp) :: trough = 0.0_dp, saddle = 0.0_dp   !! of the lattice [s]
-      logical :: is_square = .false.                    !! whether x and y are equivalent on the lattice
       type(fitted_answer) :: answer
       type(fitted_stress) :: fitted
       real(dp) :: length(2) = 1.0_dp      !! sides of the surface's cell [length]
@@ -33,11 +30,10 @@ module wavycon_fitted_stress_fields
 
 contains
 
-   subroutine start_fitted_stress_fields(fields, surface, frame, lattice, answer, accuracy, pbar_over_pstar)
+   subroutine start_fitted_stress_fields(fields, surface, frame, answer, accuracy, pbar_over_pstar)
       type(fitted_stress_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       type(fitted_frame), intent(in) :: frame       !! of the surface
-      type(wave_lattice), intent(in) :: lattice     !! of the frame
       type(fitted_answer), intent(in) :: answer     !! with a solution
       real(dp), intent(in) :: accuracy              !! that the solution was asked for
       real(dp), intent(in) :: pbar_over_pstar       !! P
@@ -46,11 +42,8 @@ contains
       fields%side_ratio = surface%length(2)/surface%length(1)
       fields%length = surface%length
       fields%frame = frame
-      fields%trough = lattice%trough
-      fields%saddle = lattice%saddle
-      fields%is_square = lattice%square
       fields%answer = answer
-      call start_fitted_stress(fields%fitted, lattice, answer, accuracy)
+      call start_fitted_stress(fields%fitted, frame%lattice, answer, accuracy)
    end subroutine start_fitted_stress_fields
 
    subroutine at(self, x, y, depth, parts, error)
@@ -88,7 +81,7 @@ contains
       integer :: k, l
 
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
-      call grid%start(points, offset, self%is_square, self%frame%crests)
+      call grid%start(points, offset, self%frame%lattice%square, self%frame%crests)
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
             first = grid%first_of([k, l])
@@ -153,7 +146,7 @@ contains
 
       associate (shape => self%answer%solution%shape)
          centre = (0.0_dp, 0.0_dp)
-         if (self%answer%pool) centre = self%trough
+         if (self%answer%pool) centre = self%frame%lattice%trough
          directions = 2*shape%fold
          allocate (edge(directions/2 + 1))
          edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
@@ -161,11 +154,11 @@ contains
       end associate
       allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])
       if (self%answer%pool) then
-         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%saddle, 0.5_dp*self%saddle, &
-                       0.5_dp*self%trough, 0.25_dp*self%trough]
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%frame%lattice%saddle, 0.5_dp*self%frame%lattice%saddle, &
+                       0.5_dp*self%frame%lattice%trough, 0.25_dp*self%frame%lattice%trough]
          below = [radius*depths_of_spot, depths_of_cell]
       else
-         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%saddle]
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%frame%lattice%saddle]
          below = radius*depths_of_spot
       end if
       n = size(at_surface)

@@ -1,16 +1,26 @@
 !> The singular integral over a mapped disc for a target inside, however near its edge: of f/|z - z'|, and Hadamard's
 !> finite part of that of f/|z - z'|^3.
 !>
-!> For f = (1 - |w|^2)^power times a polynomial, J the map's Jacobian and Q its divided difference along a chord,
+!> Points are on chords w = w_t + t e^(i phi) of the disc through the target. The area element is |t| dt dphi, and
+!> 1 - |w|^2 is the product of the distances to the chord's ends, so that with the weight (1 - |w|^2)^power a
+!> Gauss-Gegenbauer rule along the chord is exact for polynomials. In phi the midpoint rule over half a turn converges
+!> exponentially. With J the map's Jacobian and Q = (z(w) - z(w_t))/(t e^(i phi)) its divided difference, which does not
+!> vanish, the integral over all chords, dt dphi, is that of
 !>
-!>     integral of f J/|z(w) - z(w_t)| over the disc = integral of f J/|Q| over all chords, dt dphi,
+!>     f J/|Q|   for f/|z - z'|, power 1/2: the area element cancels the singularity, README.md (F28), (F30);
+!>     f J/(t^2 |Q|^3)   for f/|z - z'|^3, power 3/2, as Hadamard's finite part, README.md (F29), (F31).
 !>
-!> README.md (F28), and with 1/|z - z'|^3 it is the finite part of f J/(t^2 |Q|^3) (F29). Q does not vanish, so that
-!> quadrature along the chords and over their angles converges exponentially.
+!> For the finite part let s be the place along a chord, from -1 to 1, and s_0 the target's. Then
+!>
+!>     finite part of the integral of (1 - s^2)^(3/2) C_m(s)/(s - s_0)^2 ds = (pi/2)(m+1)(m+3) T_(m+2)(s_0),   (F33)
+!>
+!> with Gegenbauer's polynomials C_m of this weight, whose squares have the integrals (pi/8)(m+1)(m+3) (F34), and
+!> Chebyshev's T_m. The part left out about the target is round in the image, not in the disc; what that changes is odd
+!> in t and cancels.
 module wavycon_chord_rule
-   use wavycon_chord_points, only: chord_points, start_chord_points
-   use wavycon_chord_quotient, only: chord_quotient, start_chord_quotient
+   use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials
+   use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
    use wavycon_shape_map, only: shape_map
@@ -20,96 +30,145 @@ module wavycon_chord_rule
    public :: chord_rule, start_chord_rule
 
    type :: chord_rule
-      integer :: kernel_power = 1                              !! of 1/|z - z'|: 1 or 3
-      type(chord_points), private :: chords
-      type(chord_quotient), private :: quotient
-      ! Work space for the n points of one target.
-      real(dp), allocatable, private :: density(:), f(:), f_slope(:)    !! shape (n)
-      real(dp), allocatable, private :: values(:, :)                    !! of the basis, shape (n, N)
+      private
+      integer :: kernel_power = 1                         !! of 1/|z - z'|: 1 or 3
+      real(dp), allocatable :: node(:), node_weight(:)    !! Gauss's rule along a chord, -1 to 1, shape (n)
+      real(dp), allocatable :: gegenbauer(:, :)           !! what C_m weighs at the nodes, shape (n, 0:n-1), or none
+      complex(dp), allocatable :: direction(:)            !! e^(i phi) of each chord, shape (m)
+      real(dp), allocatable :: turn(:, :)                 !! e^(2 i phi) by real and imaginary part, shape (n m, 2)
+      ! Of the last target at the n m points; they keep their place in memory. Real and imaginary parts are apart, so
+      ! that loops vectorise and BLAS sums the terms.
+      real(dp), allocatable :: values(:, :)               !! of the basis, shape (n m, N)
+      real(dp), allocatable :: difference(:, :, :)        !! D_k of README.md (F26), shape (n m, 2, K)
+      real(dp), allocatable :: power(:, :, :)             !! as of linearise_slopes, shape (n m, 2, K)
    contains
       procedure :: rows
+      procedure :: place_points
    end type chord_rule
 
 contains
 
-   !> Prepares for one basis and one number of shape terms.
+   !> Prepares for a basis, a number of shape terms, and a number of chords and of points on each.
    !>
    !> The weight determines the kernel: the power 1/2, of a spot's pressure, has 1/|z - z'|, the power 3/2, of an
    !> pool's gap, 1/|z - z'|^3.
    subroutine start_chord_rule(rule, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
-      type(disc_polynomials), intent(in) :: basis
+      type(disc_polynomials), intent(in) :: basis      !! of the weight's power 1/2 or 3/2
       integer, intent(in) :: shape_terms  !! K >= 1
       integer, intent(in) :: angles       !! number of chords, >= 1
-      integer, intent(in) :: points       !! on a chord, >= 1
+      integer, intent(in) :: points       !! n, on a chord, >= 2
 
-      integer :: n
+      integer :: m
 
-      n = angles*points
       rule%kernel_power = nint(2*basis%power)
-      call start_chord_points(rule%chords, basis%power, angles, points)
-      call start_chord_quotient(rule%quotient, n, shape_terms)
-      allocate (rule%density(n), rule%f(n), rule%f_slope(n), rule%values(n, basis%terms))
+      rule%direction = [(exp(cmplx(0.0_dp, pi*(m - 0.5_dp)/angles, dp)), m=1, angles)]
+      associate (n => points*angles)
+         allocate (rule%node(points), rule%node_weight(points), rule%turn(n, 2), rule%values(n, basis%terms), &
+                   rule%difference(n, 2, shape_terms), rule%power(n, 2, shape_terms))
+      end associate
+      rule%turn(:, 1) = reshape(spread(real(rule%direction**2, dp), 1, points), [points*angles])
+      rule%turn(:, 2) = reshape(spread(aimag(rule%direction**2), 1, points), [points*angles])
+      call gauss_jacobi(basis%power, basis%power, rule%node, rule%node_weight)
+      if (rule%kernel_power == 1) return
+      allocate (rule%gegenbauer(points, 0:points - 1))
+      associate (g => rule%gegenbauer, s => rule%node)
+         g(:, 0) = rule%node_weight
+         g(:, 1) = 4*s*g(:, 0)
+         do m = 2, points - 1
+            g(:, m) = (2*(m + 1)*s*g(:, m - 1) - (m + 2)*g(:, m - 2))/m
+         end do
+      end associate
    end subroutine start_chord_rule
 
-   !> The integral for one target, README.md (F30) or (F31), for each polynomial of the basis, and its derivatives with
+   !> The integral for one target, README.md (F30) or (F31), for each polynomial of a basis, and its derivatives with
    !> respect to the shape for a sum of them.
    !>
    !> N.B. The derivatives are at fixed w_t: the target moves with the shape.
    subroutine rows(self, basis, shape, target, c, row, shape_row)
       class(chord_rule), intent(inout) :: self
-      type(disc_polynomials), intent(in) :: basis      !! the one the rule was prepared for
+      type(disc_polynomials), intent(in) :: basis      !! the one that the rule was prepared for
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: target                !! w_t, |w_t| <= 1
       real(dp), intent(in) :: c(:)                     !! coefficients of the sum, shape (N)
       real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N) [s, 1/s with power 3]
-      real(dp), intent(out), optional :: shape_row(0:) !! d(integral of the sum)/d b_k, shape (0:K) [1, 1/s^2]
+      real(dp), intent(out) :: shape_row(0:)           !! d(integral of the sum)/d b_k, shape (0:K) [1, 1/s^2]
 
-      integer :: i, n
+      real(dp), dimension(size(self%turn, 1), 2) :: analytic, q, slope, step, total
+      real(dp), dimension(size(self%turn, 1)) :: analytic_square, density, f, f_slope, jacobian, weight
+      complex(dp) :: w(size(weight))
+      integer :: n, terms
 
-      call self%chords%place(target)
-      n = size(self%chords%w)
-      call basis%evaluate(n, self%chords%w, self%values)
-      call self%quotient%evaluate(shape, target, self%chords%w, self%chords%turn)
-      associate (jacobian => self%quotient%jacobian, q => self%quotient%q, weight => self%chords%weight, &
-                 density => self%density, f => self%f, f_slope => self%f_slope)
+      n = size(weight)
+      terms = ubound(shape%b, 1)
+      call self%place_points(target, n, w, weight)
+      call basis%evaluate(n, w, self%values)
+      call shape%find_differences(n, target, w, analytic, self%difference)
+      call shape%linearise_slopes(n, w, self%power, step)
+      call dgemv('N', 2*n, terms, 1.0_dp, self%power, 2*n, shape%b(1:), 1, 0.0_dp, slope, 1)
+      call dgemv('N', 2*n, terms, 1.0_dp, self%difference, 2*n, shape%b(1:), 1, 0.0_dp, total, 1)
+      associate (turn => self%turn, tau => (shape%fold + 1)*shape%clustering)
+         ! The factor e^(i phi) of Q does not matter, as only |Q| is used, and for the same reason this is its conjugate.
+         q(:, 1) = shape%b(0)*analytic(:, 1) + turn(:, 1)*total(:, 1) - turn(:, 2)*total(:, 2)
+         q(:, 2) = -shape%b(0)*analytic(:, 2) + turn(:, 1)*total(:, 2) + turn(:, 2)*total(:, 1)
+         analytic_square = (1.0_dp - tau*step(:, 1))**2 + (tau*step(:, 2))**2
+         jacobian = shape%b(0)**2*analytic_square - (slope(:, 1)**2 + slope(:, 2)**2)
          ! density = weight/|Q|^p, f = density J and, for d|Q|^-p, f_slope = p J/|Q|^2.
-         do i = 1, n
-            f_slope(i) = 1.0_dp/(q(i, 1)**2 + q(i, 2)**2)
-            density(i) = weight(i)*sqrt(f_slope(i))
-         end do
+         f_slope = 1.0_dp/(q(:, 1)**2 + q(:, 2)**2)
+         density = weight*sqrt(f_slope)
          if (self%kernel_power == 3) density = density*f_slope
          f_slope = self%kernel_power*jacobian*f_slope
          f = jacobian*density
          call dgemv('T', n, basis%terms, 1.0_dp, self%values, n, f, 1, 0.0_dp, row, 1)
-         if (.not. present(shape_row)) return
+         ! README.md (F39): by the Jacobian, dJ/db_k, and by the distance, -p J/|Q|^2 Re(conj(Q) dQ/db_k).
          call dgemv('N', n, basis%terms, 1.0_dp, self%values, n, c, 1, 0.0_dp, f, 1)
          density = density*f
+         f_slope = density*f_slope
+         shape_row(0) = 2*shape%b(0)*dot_product(density, analytic_square) &
+            - dot_product(f_slope, q(:, 1)*analytic(:, 1) - q(:, 2)*analytic(:, 2))
+         slope(:, 1) = density*slope(:, 1)
+         slope(:, 2) = density*slope(:, 2)
+         total(:, 1) = f_slope*(q(:, 1)*turn(:, 1) + q(:, 2)*turn(:, 2))
+         total(:, 2) = f_slope*(q(:, 2)*turn(:, 1) - q(:, 1)*turn(:, 2))
       end associate
-      call add_shape_slopes(self, shape, shape_row)
+      call dgemv('T', 2*n, terms, -2.0_dp, self%power, 2*n, slope, 1, 0.0_dp, shape_row(1:), 1)
+      call dgemv('T', 2*n, terms, -1.0_dp, self%difference, 2*n, total, 1, 1.0_dp, shape_row(1:), 1)
    end subroutine rows
 
-   !> Derivatives of the sum's integral, README.md (F39): by the Jacobian, dJ/db_k, and by the distance, -p J/|Q|^2
-   !> Re(conj(Q) dQ/db_k), both times the sum's value and the weight, which `density` holds.
-   subroutine add_shape_slopes(self, shape, shape_row)
-      type(chord_rule), intent(inout) :: self
-      type(shape_map), intent(in) :: shape
-      real(dp), intent(out) :: shape_row(0:)
+   !> Points and weights for a target, chord after chord.
+   pure subroutine place_points(self, target, points, w, weight)
+      class(chord_rule), intent(in) :: self
+      complex(dp), intent(in) :: target
+      integer, intent(in) :: points           !! of all chords
+      complex(dp), intent(out) :: w(points)
+      real(dp), intent(out) :: weight(points)
 
-      integer :: j, rows, terms
+      real(dp) :: half, middle, of_chord(size(self%node)), t(2)
+      integer :: i, j, k, n
 
-      associate (density => self%density, f_slope => self%f_slope, p => self%quotient)
-         shape_row(0) = 2*shape%b(0)*dot_product(density, p%analytic_square)
-         do j = 1, 2
-            p%slope(:, j) = density*p%slope(:, j)
-            p%q(:, j) = density*f_slope*p%q(:, j)
-            shape_row(0) = shape_row(0) - dot_product(p%q(:, j), p%b_0_term(:, j))
-         end do
-         rows = 2*p%points
-         terms = ubound(shape%b, 1)
-         call dgemv('T', rows, terms, -2.0_dp, p%slope_terms, rows, p%slope, 1, 0.0_dp, shape_row(1:), 1)
-         call dgemv('T', rows, terms, -1.0_dp, p%b_terms, rows, p%q, 1, 1.0_dp, shape_row(1:), 1)
-      end associate
-   end subroutine add_shape_slopes
+      n = size(self%node)
+      do i = 1, size(self%direction)
+         k = (i - 1)*n
+         associate (e => self%direction(i))
+            ! The chord's points are t = middle + half s.
+            middle = -(target%re*e%re + target%im*e%im)
+            half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
+            do j = 1, n
+               w(k + j) = target + (middle + half*self%node(j))*e
+            end do
+         end associate
+         of_chord = self%node_weight
+         if (self%kernel_power == 3) then
+            ! W_j(s_0) of README.md (F32), with T_0 and T_1 at the target's place s_0.
+            of_chord = 0.0_dp
+            t = [1.0_dp, -middle/half]
+            do j = 0, n - 1
+               t = [t(2), -2*middle/half*t(2) - t(1)]
+               of_chord = of_chord + 4*t(2)*self%gegenbauer(:, j)
+            end do
+         end if
+         weight(k + 1:k + n) = pi/size(self%direction)*half**2*of_chord
+      end do
+   end subroutine place_points
 
 end module wavycon_chord_rule

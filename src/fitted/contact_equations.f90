@@ -13,11 +13,11 @@
 module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
-   use wavycon_disc_rule, only: disc_rule, start_disc_rule
+   use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: linearise_sources
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, pool_extra_angles, &
-      pool_extra_radii, near_images_ratio, sharp_chords_per_degree, sharp_collocation_factor, &
+   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
+      pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
       sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
@@ -89,9 +89,8 @@ contains
          ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
          if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
          call start_chord_rule(equations%chords, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)
+         finer = merge(1, 0, merging_ratio > sharp_quadrature_ratio)
          ! Low degrees are not accurate enough to need many more.
-         finer = 0
-         if (merging_ratio > sharp_quadrature_ratio) finer = 1
          if (merging_ratio > near_images_ratio) finer = min(6, degree/4)
          call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, &
                               degree/fold + extra_disc_angles + finer)
@@ -163,18 +162,16 @@ contains
       type(expansion), intent(in) :: now
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
+      real(dp) :: known
       integer :: i
 
       do i = 1, size(self%target)
          z = now%shape%place(self%target(i))
-         if (now%pool) then
-            self%residual(i) = self%residual(i) + lattice%pressure_rise(z) - (lattice%closing_pressure - load)
-            slope = -lattice%pressure_rise_slope(z)
-         else
-            self%residual(i) = self%residual(i) + now%approach - lattice%undeformed_gap(z)
-            self%matrix(i, self%before_shape) = -1.0_dp
-            slope = lattice%undeformed_slope(z)
-         end if
+         known = now%approach
+         if (now%pool) known = load - lattice%closing_pressure
+         self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
+         if (.not. now%pool) self%matrix(i, self%before_shape) = -1.0_dp
+         slope = -lattice%rise_slope(now%pool, z)
          call now%shape%linearise_place(self%target(i), place_slope)
          associate (shape_row => self%matrix(i, self%before_shape + 1:))
             shape_row = shape_row + slope%re*place_slope%re + slope%im*place_slope%im

@@ -21,13 +21,11 @@ module wavycon_degree_history
       real(dp), private :: difference(all_measures) = huge(1.0_dp) !! of the newest two
       real(dp) :: decay(2) = 1.0_dp                                !! of the misfit to the newest solution, and before
       real(dp), private :: misfit = huge(1.0_dp)                   !! of the newest solution
-      type(expansion), private :: newest(0:most_previous)          !! the newest first
+      type(expansion) :: newest(0:most_previous)                   !! the newest first, as many as there are
    contains
       procedure :: push
       procedure :: best_meets
-      procedure :: get_previous
       procedure, private :: estimate
-      procedure, private :: is_best
    end type degree_history
 
    !> Solutions that it takes for an estimate.
@@ -54,7 +52,10 @@ contains
          difference = abs(measures - self%measures)
          self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
          call self%estimate(measures, difference, remaining)
-         self%newest_is_best = self%is_best(measures)
+         ! Close to merging a higher degree may be worse.
+         self%newest_is_best = self%solutions < least_solutions
+         if (.not. self%newest_is_best) self%newest_is_best = sum(self%error(:peak_measure)/measures(:peak_measure)) &
+            < sum(self%best_error(:peak_measure)/measures(:peak_measure))
          if (self%newest_is_best) self%best_error = self%error
          self%difference = difference
       end if
@@ -98,16 +99,6 @@ contains
 
    end subroutine estimate
 
-   !> Whether the errors just estimated are the least so far: close to merging a higher degree may be worse.
-   pure logical function is_best(self, measures)
-      class(degree_history), intent(in) :: self
-      real(dp), intent(in) :: measures(all_measures)   !! of the new solution, which is not counted yet
-
-      is_best = self%solutions < least_solutions
-      if (.not. is_best) is_best = sum(self%error(:peak_measure)/measures(:peak_measure)) &
-         < sum(self%best_error(:peak_measure)/measures(:peak_measure))
-   end function is_best
-
    !> Whether the best solution is as accurate as required, relative to the measures.
    pure logical function best_meets(self, accuracy, required)
       class(degree_history), intent(in) :: self
@@ -117,17 +108,5 @@ contains
       best_meets = self%solutions >= least_solutions &
          .and. all(self%best_error(:required) <= accuracy*self%measures(:required))
    end function best_meets
-
-   !> The expansions before the newest one, the last one first.
-   pure subroutine get_previous(self, previous)
-      class(degree_history), intent(in) :: self
-      type(expansion), allocatable, intent(out) :: previous(:)
-
-      integer :: count
-
-      count = min(self%solutions - 1, most_previous)
-      allocate (previous(count))
-      previous(:) = self%newest(1:count)
-   end subroutine get_previous
 
 end module wavycon_degree_history

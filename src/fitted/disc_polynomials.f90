@@ -88,7 +88,7 @@ contains
       real(dp), intent(out) :: values(n, self%terms)
 
       real(dp) :: x(n), angular_re(n), angular_im(n), step_re(n), step_im(n), old, a, b, c
-      integer :: i, k, l, t
+      integer :: i, k, l, older, t
 
       do i = 1, n
          x(i) = 2*(w(i)%re**2 + w(i)%im**2) - 1.0_dp
@@ -118,20 +118,15 @@ contains
             a = self%recurrence(1, t)
             b = self%recurrence(2, t)
             c = self%recurrence(3, t)
-            select case (l)
-            case (0)
-               do i = 1, n
-                  values(i, t) = b*angular_re(i)
-               end do
-            case (1)
-               do i = 1, n
-                  values(i, t) = (a*x(i) + b)*values(i, t - 1)
-               end do
-            case default
-               do i = 1, n
-                  values(i, t) = (a*x(i) + b)*values(i, t - 1) + c*values(i, t - 2)
-               end do
-            end select
+            if (l == 0) then
+               values(:, t) = b*angular_re
+               cycle
+            end if
+            ! c is 0 for l = 1.
+            older = max(t - 2, 1)
+            do i = 1, n
+               values(i, t) = (a*x(i) + b)*values(i, t - 1) + c*values(i, older)
+            end do
          end do
       end do
    end subroutine evaluate
@@ -146,9 +141,10 @@ contains
 
       complex(dp) :: power(n), step(n)
       real(dp) :: a, b, c, s
-      integer :: i, k, l, t
+      integer :: i, k, l, older, t
 
       step = conjg(w)**self%fold
+      power = 0.0_dp
       t = 0
       do k = 0, self%degree, self%fold
          ! The gradient of Re(w^k) is k conj(w)^(k-1).
@@ -159,25 +155,17 @@ contains
             a = self%recurrence(1, t)
             b = self%recurrence(2, t)
             c = self%recurrence(3, t)
-            select case (l)
-            case (0)
-               slope_x(:, t) = 0.0_dp
-               slope_y(:, t) = 0.0_dp
-               if (k > 0) then
-                  slope_x(:, t) = b*k*power%re
-                  slope_y(:, t) = b*k*power%im
-               end if
-            case default
-               do i = 1, n
-                  s = a*(2*(w(i)%re**2 + w(i)%im**2) - 1.0_dp) + b
-                  slope_x(i, t) = s*slope_x(i, t - 1) + 4*a*w(i)%re*values(i, t - 1)
-                  slope_y(i, t) = s*slope_y(i, t - 1) + 4*a*w(i)%im*values(i, t - 1)
-               end do
-               if (l > 1) then
-                  slope_x(:, t) = slope_x(:, t) + c*slope_x(:, t - 2)
-                  slope_y(:, t) = slope_y(:, t) + c*slope_y(:, t - 2)
-               end if
-            end select
+            if (l == 0) then
+               slope_x(:, t) = b*k*power%re
+               slope_y(:, t) = b*k*power%im
+               cycle
+            end if
+            older = max(t - 2, 1)
+            do i = 1, n
+               s = a*(2*(w(i)%re**2 + w(i)%im**2) - 1.0_dp) + b
+               slope_x(i, t) = s*slope_x(i, t - 1) + 4*a*w(i)%re*values(i, t - 1) + c*slope_x(i, older)
+               slope_y(i, t) = s*slope_y(i, t - 1) + 4*a*w(i)%im*values(i, t - 1) + c*slope_y(i, older)
+            end do
          end do
       end do
    end subroutine slopes

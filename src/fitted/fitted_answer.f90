@@ -5,7 +5,7 @@ module wavycon_fitted_answer
    implicit none (type, external)
    private
 
-   public :: fitted_answer, fitted_status_text
+   public :: fitted_answer
 
    !> Statuses of a solution.
    integer, parameter, public :: fitted_solved = 0
@@ -46,26 +46,5 @@ module wavycon_fitted_answer
       !> Solutions of the lower degrees that the estimates are from, the last one first, shape (1..most_previous).
       type(expansion), allocatable :: previous(:)
    end type fitted_answer
-
-contains
-
-   !> A status in words.
-   pure function fitted_status_text(status) result(text)
-      integer, intent(in) :: status  !! one of the above
-      character(:), allocatable :: text
-
-      select case (status)
-      case (fitted_solved)
-         text = 'solved'
-      case (fitted_less_exact)
-         text = 'solved, less exactly than asked for'
-      case (fitted_merged)
-         text = 'neither separate spots nor separate pools'
-      case (fitted_bad_input)
-         text = 'load or accuracy out of range'
-      case default
-         text = 'no solution found'
-      end select
-   end function fitted_status_text
 
 end module wavycon_fitted_answer

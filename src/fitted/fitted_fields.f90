@@ -99,7 +99,7 @@ contains
 
       pressure = 0.0_dp
       gap = 0.0_dp
-      without_gap = 1.0_dp - self%answer%mean_gap - self%lattice%undeformed_gap(place)
+      without_gap = 1.0_dp - self%answer%mean_gap + self%lattice%rise(.false., place)
       displacement = without_gap
       ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
       do i = 1, self%places
@@ -116,7 +116,7 @@ contains
       end do
       if (self%answer%pool) then
          pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
-            + self%lattice%pressure_rise(place - self%lattice%trough)
+            + self%lattice%rise(.true., place - self%lattice%trough)
          do i = 1, self%places
             pressure = pressure + self%sum_over_images(z(i), i)
          end do
@@ -197,12 +197,8 @@ contains
       integer :: k
 
       associate (x => z%re - self%sources%x, y => z%im - self%sources%y)
-         if (self%answer%pool) then
-            call self%lattice%pressure_kernel%evaluate(size(x), x, y, value)
-            value = -value/(4*pi**2)
-         else
-            call self%lattice%displacement_kernel%evaluate(size(x), x, y, value)
-         end if
+         call self%lattice%kernel(merge(2, 1, self%answer%pool))%evaluate(size(x), x, y, value)
+         if (self%answer%pool) value = -value/(4*pi**2)
       end associate
       ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
       of_centre = 0.0_dp

@@ -10,7 +10,7 @@ module wavycon_fitted_measures
    implicit none (type, external)
    private
 
-   public :: measure_expansion, mean_gap, peak_pressure
+   public :: measure_expansion
 
    !> The order of the measures in an array, and their number.
    integer, parameter, public :: gap_measure = 1        !! mean gap G [Delta]
@@ -31,81 +31,56 @@ contains
       type(expansion), intent(in) :: now
       real(dp), intent(out) :: measures(all_measures)
 
-      measures(gap_measure) = mean_gap(equations, lattice, now)
+      ! G: 1 - delta of a spot, README.md (F5), the mean of a pool's gap.
+      measures(gap_measure) = 1.0_dp - now%approach
+      if (now%pool) measures(gap_measure) = lattice%troughs*equations%integral(now)/lattice%area
       measures(area_measure) = now%shape%area()
-      measures(peak_measure) = peak_pressure(equations, lattice, load, now)
       measures(centre_measure) = now%at((0.0_dp, 0.0_dp))
-      measures(energy_measure) = strain_energy(equations, lattice, load, now)
+      measures(peak_measure) = measures(centre_measure)
+      if (now%pool) measures(peak_measure) = pressure_between_pools()
+      measures(energy_measure) = strain_energy(measures(gap_measure))
       measures(perimeter_measure) = now%shape%perimeter()
-   end subroutine measure_expansion
 
-   !> G: 1 - delta of a spot, README.md (F5), the mean of a pool's gap.
-   real(dp) function mean_gap(equations, lattice, now)
-      type(contact_equations), intent(in) :: equations
-      type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
+   contains
 
-      if (now%pool) then
-         mean_gap = lattice%troughs*equations%integral(now)/lattice%area
-      else
-         mean_gap = 1.0_dp - now%approach
-      end if
-   end function mean_gap
+      !> Pressure at a crest, where it is highest: that of full contact less 1/(4 pi^2) times the integral of the
+      !> Laplacian of Gp and the gap, README.md (F45). The pools of a cell are mirror images about the crest, so that
+      !> each contributes the same.
+      real(dp) function pressure_between_pools()
+         type(periodic_kernel) :: kernel
+         complex(dp) :: from_crest(2*now%basis%fold*size(equations%rule%point))
+         real(dp) :: mean(size(equations%rule%point)), value(size(from_crest))
 
-   !> Pressure at a crest, where it is highest. Between pools it is that of full contact less 1/(4 pi^2) times the
-   !> integral of the Laplacian of Gp and the gap, README.md (F45). The pools of a cell are mirror images about the
-   !> crest, so that each contributes the same.
-   real(dp) function peak_pressure(equations, lattice, load, now)
-      type(contact_equations), intent(in) :: equations
-      type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load
-      type(expansion), intent(in) :: now
-
-      type(periodic_kernel) :: kernel
-      complex(dp), allocatable :: from_crest(:)
-      real(dp), allocatable :: value(:), x(:), y(:)
-
-      if (.not. now%pool) then
-         peak_pressure = now%at((0.0_dp, 0.0_dp))
-         return
-      end if
-      kernel = lattice%pressure_kernel
-      kernel%whole = .true.
-      associate (points => equations%rule%point, copies_of_each => 2*now%basis%fold)
-         from_crest = lattice%trough + copies(now%basis%fold, now%shape%place(points))
-         x = from_crest%re
-         y = from_crest%im
-         allocate (value(size(x)))
-         call kernel%evaluate(size(x), x, y, value)
+         kernel = lattice%kernel(2)
+         kernel%whole = .true.
+         from_crest = lattice%trough + copies(now%basis%fold, now%shape%place(equations%rule%point))
+         call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
          ! The rule's points are those of one sector: the mean over their copies is taken.
-         value = sum(reshape(value, [size(points), copies_of_each]), 2)/copies_of_each
-      end associate
-      peak_pressure = load - lattice%closing_pressure + lattice%pressure_rise(-lattice%trough) &
-         - lattice%troughs*equations%integral(now, value)/(4*pi**2)
-   end function peak_pressure
+         mean = sum(reshape(value, [size(mean), 2*now%basis%fold]), 2)/(2*now%basis%fold)
+         pressure_between_pools = load - lattice%closing_pressure + lattice%rise(.true., -lattice%trough) &
+            - lattice%troughs*equations%integral(now, mean)/(4*pi**2)
+      end function pressure_between_pools
 
-   !> Half the integral of p u over a cell [Delta s^2]: README.md (F46) of a spot, (F47) above merging.
-   !>
-   !> In contact u = delta - h; above merging p u = p (delta - h + g) everywhere, where p g = 0. The integral of p h
-   !> follows from the Fourier coefficients of p at the waves of h, which are |k| times those of u.
-   real(dp) function strain_energy(equations, lattice, load, now) result(energy)
-      type(contact_equations), intent(in) :: equations
-      type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load
-      type(expansion), intent(in) :: now
+      !> Half the integral of p u over a cell [Delta s^2]: README.md (F46) of a spot, (F47) above merging.
+      !>
+      !> In contact u = delta - h; above merging p u = p (delta - h + g) everywhere, where p g = 0. The integral of p h
+      !> follows from the Fourier coefficients of p at the waves of h, which are |k| times those of u.
+      real(dp) function strain_energy(mean_gap) result(energy)
+         real(dp), intent(in) :: mean_gap
 
-      complex(dp) :: z(size(equations%rule%point))
+         complex(dp) :: z(size(equations%rule%point))
 
-      z = now%shape%place(equations%rule%point)
-      if (now%pool) then
-         associate (rise => lattice%pressure_rise(z) - lattice%closing_pressure, &
-                    full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
-            energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) &
-                             - load*mean_gap(equations, lattice, now)*lattice%area)
-         end associate
-      else
-         energy = 0.5_dp*(now%approach*load*lattice%area - equations%integral(now, lattice%undeformed_gap(z)))
-      end if
-   end function strain_energy
+         z = now%shape%place(equations%rule%point)
+         if (now%pool) then
+            associate (rise => lattice%rise(.true., z) - lattice%closing_pressure, &
+                       full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
+               energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) - load*mean_gap*lattice%area)
+            end associate
+         else
+            energy = 0.5_dp*(now%approach*load*lattice%area + equations%integral(now, lattice%rise(.false., z)))
+         end if
+      end function strain_energy
+
+   end subroutine measure_expansion
 
 end module wavycon_fitted_measures

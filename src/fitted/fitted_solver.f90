@@ -4,9 +4,9 @@ module wavycon_fitted_solver
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: degree_history
    use wavycon_expansion, only: expansion
-   use wavycon_expansion_size, only: next_clustering, next_degree, shape_terms
+   use wavycon_expansion_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
-      fitted_solved, fitted_status_text
+      fitted_solved, most_previous
    use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       measure_expansion, peak_measure, perimeter_measure
@@ -15,14 +15,13 @@ module wavycon_fitted_solver
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
    use wavycon_load_continuation, only: is_start, start_at_load
-   use wavycon_merging_ratio, only: merging_ratio
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
    implicit none (type, external)
    private
 
    public :: solve_fitted
-   public :: fitted_answer, fitted_status_text
+   public :: fitted_answer
    public :: fitted_fields, start_fitted_fields, fitted_separations
    public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
    public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
@@ -124,7 +123,7 @@ contains
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
             call history%push(now, measures, misfit, remaining)
             if (history%newest_is_best) &
-               call set_answer(answer, lattice, history, now, degree, residual, ratio, images%tolerance())
+               call set_answer(answer, lattice, history, now, degree, residual, ratio, images%tolerance)
             if (history%best_meets(accuracy, required)) then
                answer%status = fitted_solved
                exit
@@ -185,7 +184,7 @@ contains
       answer%energy_error = error(energy_measure)
       answer%perimeter_error = error(perimeter_measure)
       answer%misfit_decay = history%decay
-      call history%get_previous(answer%previous)
+      answer%previous = history%newest(1:min(history%solutions - 1, most_previous))
    end subroutine set_answer
 
 end module wavycon_fitted_solver

@@ -1,14 +1,23 @@
 !> What all other spots or pools of the lattice, and the mean, add to the equations of one of them: README.md,
 !> section 7.
 !>
-!> Where it pays and is as accurate this is a series made once for a size of the shape, otherwise a sum with the kernel
-!> itself between all targets and sources. A cell with two pools has them too near to each other for the series.
+!> It is a sum over the points of a rule of F(z_t, z_s), the mean of the kernel over all copies of a source under the
+!> symmetry. Where it pays and is as accurate, F less the lattice points near by is a double series of polynomials on
+!> the disc, which is made once for a size of the shape: for |z_t|, |z_s| <= R
+!>
+!>     F(z_t, z_s) = sum over a, b of P_a(z_t/R) B_ab P_b(z_s/R),   README.md (F35),
+!>
+!> P the disc polynomials of the weight 1. Otherwise F is evaluated for all targets and sources. A cell with two pools
+!> has them too near to each other for the series.
 module wavycon_lattice_images
-   use wavycon_disc_rule, only: disc_rule
+   use wavycon_constants, only: pi
+   use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
+   use wavycon_gauss_rules, only: disc_rule, start_disc_rule
+   use wavycon_disc_sources, only: copies, linearise_sources
    use wavycon_expansion, only: expansion
-   use wavycon_image_series, only: image_series, start_image_series
-   use wavycon_image_sum, only: add_image_sum
+   use wavycon_fitted_tuning, only: most_near_points, series_clearance
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
    use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -17,40 +26,104 @@ module wavycon_lattice_images
    public :: lattice_images
 
    type :: lattice_images
-      type(image_series), private :: series     !! of one regime
+      real(dp) :: tolerance = 0.0_dp               !! relative error that the series leaves; 0 without one
+      real(dp), private :: radius = 0.0_dp         !! R, at least that of a shape that it holds for [s]; 0 without one
+      type(periodic_kernel), private :: near       !! lattice points left out of the series
+      type(disc_polynomials), private :: basis
+      real(dp), allocatable, private :: coefficient(:, :)   !! B [1/s], of the Laplacian [1/s^3], shape (N, N)
    contains
       procedure :: prepare
-      procedure :: tolerance
       procedure :: add_rows
    end type lattice_images
 
+   !> Rounding leaves some 1e-13 of the largest value near the discs' edges.
+   real(dp), parameter :: least_tolerance = 5e-13_dp
+
 contains
 
-   !> Makes the series for a shape, unless the one at hand holds for it.
+   !> Makes the series of one regime for a shape, unless the one at hand holds for it.
    subroutine prepare(self, lattice, now, growth, tolerance)
       class(lattice_images), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
       real(dp), intent(in) :: growth        !! >= 1, of the shape that the series is to hold for
-      real(dp), intent(in) :: tolerance     !! > 0, of the series, relative
+      real(dp), intent(in) :: tolerance
+         !! > 0, error of F relative to its largest value; the error of the Laplacian, whose weight in the equations is
+         !! some hundredths, may be 20 times as large
 
-      if (self%series%holds_for(now%shape)) return
-      if (two_in_a_cell(lattice, now)) return
-      if (now%pool) then
-         call start_image_series(self%series, lattice%pressure_kernel, now%basis%fold, growth*now%shape%radius(), &
-                                 tolerance)
-      else
-         call start_image_series(self%series, lattice%displacement_kernel, now%basis%fold, growth*now%shape%radius(), &
-                                 tolerance)
-      end if
+      complex(dp), allocatable :: point(:)
+      real(dp) :: clearance, radius
+      integer :: degree
+
+      radius = now%shape%radius()
+      if (radius <= self%radius .or. two_in_a_cell(lattice, now)) return
+      self%radius = 0.0_dp
+      self%tolerance = 0.0_dp
+      radius = growth*radius
+      clearance = series_clearance*radius
+      ! A shape that is about to fold may have any size: the number of points is estimated before they are listed.
+      if (tolerance < least_tolerance .or. .not. pi*clearance**2 <= 2*most_near_points*lattice%rows%spacing) return
+      ! Points of a row are 1 apart: the next one is among these.
+      point = lattice%rows%points_about(clearance + 1.0_dp, (0.0_dp, 0.0_dp))
+      degree = series_degree(now%basis%fold, minval(abs(point), abs(point) >= clearance)/radius - 1.0_dp, tolerance)
+      point = pack(point, abs(point) < clearance .and. abs(point) > 0.0_dp)
+      if (size(point) > most_near_points) return
+      self%radius = radius
+      self%tolerance = tolerance
+      self%near%point = reshape([point%re, point%im], [2, size(point)], order=[2, 1])
+      associate (kernel => lattice%kernel(merge(2, 1, now%pool)))
+         self%near%power = kernel%power
+         call start_disc_polynomials(self%basis, now%basis%fold, degree, 0.0_dp)
+         call find_coefficients(self, kernel)
+      end associate
    end subroutine prepare
 
-   !> The relative error of the images that the series leaves; 0 without a series.
-   pure real(dp) function tolerance(self)
-      class(lattice_images), intent(in) :: self
+   !> Degree for a tolerance, README.md (F36). With the source on the edge, at its point nearest to the nearest lattice
+   !> point of F, terms that vary with the angle fall as powers of that point's distance, round ones as in Chebyshev's
+   !> series.
+   pure integer function series_degree(fold, distance, tolerance) result(degree)
+      integer, intent(in) :: fold
+      real(dp), intent(in) :: distance     !! of the singularity from the target's centre [R]
+      real(dp), intent(in) :: tolerance
 
-      tolerance = self%series%tolerance
-   end function tolerance
+      real(dp) :: digits
+
+      digits = -log(tolerance)
+      degree = max(fold*(ceiling(digits/(fold*log(distance))) - 1), &
+                   2*(ceiling(digits/(2*acosh(distance))) - 1))
+   end function series_degree
+
+   !> B from F at all pairs of a rule's points, by the orthonormality of the basis.
+   subroutine find_coefficients(self, kernel)
+      class(lattice_images), intent(inout) :: self
+      type(periodic_kernel), intent(in) :: kernel
+
+      type(disc_rule) :: rule
+      complex(dp), allocatable :: source(:, :), z(:)
+      real(dp), allocatable :: near(:), nodes(:, :), part(:, :), value(:), values(:, :)
+      integer :: j, k, n
+
+      associate (fold => self%basis%fold, degree => self%basis%degree, terms => self%basis%terms)
+         call start_disc_rule(rule, 0.0_dp, fold, degree/2 + 1, degree/fold + 1)
+         n = size(rule%point)
+         source = reshape(copies(fold, self%radius*rule%point), [n, 2*fold])
+         allocate (near(2*fold*n), nodes(n, n), part(n, terms), value(2*fold*n), values(n, terms))
+         do j = 1, n
+            ! F is symmetric in target and source: only the sources from the target on are needed.
+            z = reshape(self%radius*rule%point(j) - source(j:, :), [2*fold*(n - j + 1)])
+            k = size(z)
+            call kernel%evaluate(k, z%re, z%im, value)
+            call self%near%evaluate(k, z%re, z%im, near)
+            nodes(j:, j) = sum(reshape(value(:k) - near(:k), [n - j + 1, 2*fold]), 2)/(2*fold)
+            nodes(j, j:) = nodes(j:, j)
+         end do
+         call self%basis%evaluate(n, rule%point, values)
+         values = values*spread(rule%weight, 2, terms)
+         call dgemm('N', 'N', n, terms, n, 1.0_dp, nodes, n, values, n, 0.0_dp, part, n)
+         self%coefficient = reshape([real(dp) ::], [terms, terms], pad=[0.0_dp])
+         call dgemm('T', 'N', terms, terms, n, 1.0_dp, values, n, part, n, 0.0_dp, self%coefficient, terms)
+      end associate
+   end subroutine find_coefficients
 
    !> Adds the integrals of the terms of an expansion over all images for several targets, and the derivatives of their
    !> sum with respect to the shape.
@@ -66,23 +139,110 @@ contains
       real(dp), intent(inout) :: rows(:, :)            !! integrals, shape (m, N)
       real(dp), intent(inout) :: shape_rows(:, 0:)     !! d(integral of the sum)/d b_k, shape (m, 0:K)
 
+      !> F for all sources and targets, and its gradient with respect to the source's place.
+      real(dp), dimension(size(rule%point), size(target)) :: f, gradient_x, gradient_y
+      !> Gradient of the sum over all sources with respect to the target's place.
+      complex(dp) :: target_gradient(size(target))
+      complex(dp) :: place(size(target)), place_slope(0:ubound(now%shape%b, 1)), source(size(rule%point))
+      real(dp), dimension(size(rule%point), 0:ubound(now%shape%b, 1)) :: moment_x, moment_y, strength_slope
+      real(dp) :: strength(size(rule%point)), weighted(size(rule%point), size(now%c))
       type(periodic_kernel) :: whole
+      integer :: columns, m, n, t
 
-      if (self%series%holds_for(now%shape)) then
-         call self%series%add_rows(now%shape, rule, values, now%c, target, rows, shape_rows)
-         if (size(self%series%near%point, 2) > 0) &
-            call add_image_sum(self%series%near, now%shape, rule, values, now%c, target, rows, shape_rows)
-      else if (now%pool) then
-         call add_image_sum(lattice%pressure_kernel, now%shape, rule, values, now%c, target, rows, shape_rows)
+      m = size(target)
+      n = size(rule%point)
+      columns = size(now%shape%b)
+      place = now%shape%place(target)
+      source = now%shape%place(rule%point)
+      call linearise_sources(now%shape, rule, values, now%c, weighted, strength_slope, moment_x, moment_y)
+      strength = matmul(weighted, now%c)
+      f = 0.0_dp
+      gradient_x = 0.0_dp
+      gradient_y = 0.0_dp
+      target_gradient = 0.0_dp
+      if (now%shape%radius() <= self%radius) then
+         call add_series()
+         if (size(self%near%point, 2) > 0) call add_kernel(self%near, 1, (0.0_dp, 0.0_dp))
       else
-         call add_image_sum(lattice%displacement_kernel, now%shape, rule, values, now%c, target, rows, shape_rows)
+         call add_kernel(lattice%kernel(merge(2, 1, now%pool)), 1, (0.0_dp, 0.0_dp))
       end if
       if (two_in_a_cell(lattice, now)) then
-         ! None of the second pools is the target's own.
-         whole = lattice%pressure_kernel
+         ! None of the second pools, which are turned by half a turn, is the target's own.
+         whole = lattice%kernel(2)
          whole%whole = .true.
-         call add_image_sum(whole, now%shape, rule, values, now%c, target, rows, shape_rows, opposite=2*lattice%trough)
+         call add_kernel(whole, -1, 2*lattice%trough)
       end if
+      call dgemm('T', 'N', m, size(now%c), n, 1.0_dp, f, n, weighted, n, 1.0_dp, rows, m)
+      call dgemm('T', 'N', m, columns, n, 1.0_dp, f, n, strength_slope, n, 1.0_dp, shape_rows, m)
+      call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_x, n, moment_x, n, 1.0_dp, shape_rows, m)
+      call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_y, n, moment_y, n, 1.0_dp, shape_rows, m)
+      do t = 1, m
+         call now%shape%linearise_place(target(t), place_slope)
+         shape_rows(t, :) = shape_rows(t, :) + target_gradient(t)%re*place_slope%re &
+            + target_gradient(t)%im*place_slope%im
+      end do
+
+   contains
+
+      !> Adds the mean of a kernel over the copies of each source.
+      subroutine add_kernel(kernel, direction, to_centre)
+         type(periodic_kernel), intent(in) :: kernel
+         integer, intent(in) :: direction          !! 1, or -1 if the sources are turned by half a turn
+         complex(dp), intent(in) :: to_centre      !! place of the targets' centre as seen from the sources' [s]
+
+         complex(dp) :: all(2*now%shape%fold*n), turn, z(2*now%shape%fold*n)
+         real(dp), dimension(size(all)) :: slope_x, slope_y, value
+         real(dp) :: total_x(n), total_y(n)
+         integer :: copy, mirror
+
+         all = direction*copies(now%shape%fold, source) - to_centre
+         associate (mean => 1.0_dp/(2*now%shape%fold))
+            do t = 1, m
+               z = place(t) - all
+               call kernel%evaluate(size(z), z%re, z%im, value, slope_x, slope_y)
+               total_x = 0.0_dp
+               total_y = 0.0_dp
+               do copy = 0, 2*now%shape%fold - 1
+                  ! A copy moves as its source does, turned and mirrored: its gradient is turned and mirrored back.
+                  turn = -direction*mean*exp(cmplx(0.0_dp, -2*pi*(copy/2)/now%shape%fold, dp))
+                  mirror = 1 - 2*mod(copy, 2)
+                  associate (first => copy*n + 1, last => (copy + 1)*n)
+                     associate (x => slope_x(first:last), y => slope_y(first:last))
+                        f(:, t) = f(:, t) + mean*value(first:last)
+                        total_x = total_x + x
+                        total_y = total_y + y
+                        gradient_x(:, t) = gradient_x(:, t) + (turn%re*x - turn%im*y)
+                        gradient_y(:, t) = gradient_y(:, t) + mirror*(turn%re*y + turn%im*x)
+                     end associate
+                  end associate
+               end do
+               target_gradient(t) = target_gradient(t) &
+                  + mean*cmplx(dot_product(strength, total_x), dot_product(strength, total_y), dp)
+            end do
+         end associate
+      end subroutine add_kernel
+
+      !> Adds the series.
+      subroutine add_series()
+         real(dp), dimension(m, self%basis%terms) :: at_target, target_x, target_y
+         real(dp), dimension(n, self%basis%terms) :: at_source, source_x, source_y
+         real(dp) :: part(self%basis%terms, m), per_radius, total(self%basis%terms)
+
+         per_radius = 1.0_dp/self%radius
+         associate (terms => self%basis%terms)
+            call self%basis%evaluate(m, per_radius*place, at_target)
+            call self%basis%slopes(m, per_radius*place, at_target, target_x, target_y)
+            call self%basis%evaluate(n, per_radius*source, at_source)
+            call self%basis%slopes(n, per_radius*source, at_source, source_x, source_y)
+            call dgemm('N', 'T', terms, m, terms, 1.0_dp, self%coefficient, terms, at_target, m, 0.0_dp, part, terms)
+            call dgemm('N', 'N', n, m, terms, 1.0_dp, at_source, n, part, terms, 1.0_dp, f, n)
+            call dgemm('N', 'N', n, m, terms, per_radius, source_x, n, part, terms, 1.0_dp, gradient_x, n)
+            call dgemm('N', 'N', n, m, terms, per_radius, source_y, n, part, terms, 1.0_dp, gradient_y, n)
+         end associate
+         total = per_radius*matmul(self%coefficient, matmul(strength, at_source))
+         target_gradient = target_gradient + cmplx(matmul(target_x, total), matmul(target_y, total), dp)
+      end subroutine add_series
+
    end subroutine add_rows
 
    !> Whether a cell has a second pool, the first one turned by half a turn about a crest.

@@ -10,7 +10,7 @@ module wavycon_load_slopes
    use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
-   use wavycon_merging_ratio, only: merging_ratio
+   use wavycon_expansion_size, only: merging_ratio
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private

@@ -9,44 +9,60 @@
 !> lattice's rows the smooth part, less 1/r^power of the lattice points near by, is a polynomial in x^2 and y^2 to
 !> rounding, README.md (F22). It is fitted once to Ewald's sum (F20). The Laplacian has a fit of its own:
 !> differentiating the other one would amplify the rounding in its highest coefficients.
+!>
+!> Ewald's sum is exact to rounding anywhere, but slow. Gp has the Fourier coefficients 1/(A |k|), k /= 0, with A the
+!> area of a cell. It is split by the error function into a sum over lattice points n and one over wave vectors k of the
+!> reciprocal lattice, both of which fall off faster than any power:
+!>
+!>     Gp(x) = sum over n of erfc(e |x-n|)/|x-n|
+!>             + (1/A) [ sum over k /= 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = sqrt(pi/A).
+!>
+!> Source: P. P. Ewald, Ann. Phys. 369 (1921) 253-287, for the potential 1/r in the plane.
 module wavycon_periodic_kernel
+   use wavycon_constants, only: pi
    use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
-   use wavycon_ewald_sum, only: ewald_sum
    use wavycon_kinds, only: dp
-   use wavycon_point_sources, only: point_sources
    use wavycon_row_lattice, only: row_lattice
    implicit none (type, external)
    private
 
-   public :: periodic_kernel, start_periodic_kernels
+   public :: ewald_sum, periodic_kernel, start_periodic_kernels
 
-   !> The point sources are the lattice points near the origin, which are summed one by one; x is along the rows. Power
-   !> 1 is Gp, power 3 its Laplacian.
-   type, extends(point_sources) :: periodic_kernel
+   !> Power 1 is Gp, power 3 its Laplacian. Without a fit it is the sum over the points alone.
+   type :: periodic_kernel
+      integer :: power = 1                         !! of 1/r: 1 or 3
       type(row_lattice) :: rows
-      type(even_polynomial) :: fit      !! of the smooth part without them; x along the rows
-      logical :: whole = .false.        !! with the origin's own term, for places that are on none of the lattice points
+      real(dp), allocatable :: point(:, :)         !! summed one by one, x along the rows, shape (2, m) [s]
+      type(even_polynomial), allocatable :: fit    !! of the smooth part without them; x along the rows
+      logical :: whole = .false.                   !! with the origin's own term, for places on no lattice point
    contains
       procedure :: evaluate
+      procedure, private :: evaluate_by_rows
+      procedure, private :: add_points
    end type periodic_kernel
 
    !> Rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
    real(dp), parameter :: rounding(2) = [32, 320]*epsilon(1.0_dp)
    !> Least square of a distance. The inverse powers of a place and of the same place reduced must be equal and finite.
    real(dp), parameter :: least_square = 1e-100_dp
+
+   !> Terms beyond this argument of erfc are left out: erfc of it is 1e-19.
+   real(dp), parameter :: cut_off = 6.4_dp
+   !> Terms of the power series used for x < 1: the first one left out is below rounding.
+   integer, parameter :: series_terms = 20
+
 contains
 
    !> Fits both kernels of a lattice.
-   subroutine start_periodic_kernels(rows, displacement, laplacian)
+   subroutine start_periodic_kernels(rows, kernels)
       type(row_lattice), intent(in) :: rows
-      type(periodic_kernel), intent(out) :: displacement   !! Gp
-      type(periodic_kernel), intent(out) :: laplacian      !! of Gp
+      type(periodic_kernel), intent(out) :: kernels(2)     !! Gp and its Laplacian
 
       integer, parameter :: n = fit_degree
-      real(dp), dimension(0:n, 0:n) :: distance, value, value_of_laplacian, x, y
+      real(dp) :: values(0:n, 0:n, 2), x(0:n, 0:n), y(0:n, 0:n)
       complex(dp), allocatable :: z(:)
       real(dp), allocatable :: near(:, :)
-      integer :: k
+      integer :: i, k
 
       ! Fewer would take a fit of higher degree.
       z = rows%points_about(0.75_dp + 0.6_dp*max(rows%spacing, 1.0_dp), (0.0_dp, 0.0_dp))
@@ -54,33 +70,34 @@ contains
       near = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
       if (rows%along_y) near = near([2, 1], :)
       call fit_nodes(rows%spacing, x, y)
-      call ewald_sum(rows, size(x), x, y, value, value_of_laplacian)
-      do k = 1, size(near, 2)
-         distance = hypot(x - near(1, k), y - near(2, k))
-         value = value - 1.0_dp/distance
-         value_of_laplacian = value_of_laplacian - 1.0_dp/distance**3
+      call ewald_sum(rows, size(x), x, y, values(:, :, 1), values(:, :, 2))
+      do i = 1, 2
+         associate (kernel => kernels(i))
+            kernel%power = 2*i - 1
+            kernel%rows = rows
+            kernel%point = near
+            do k = 1, size(near, 2)
+               values(:, :, i) = values(:, :, i) - 1.0_dp/hypot(x - near(1, k), y - near(2, k))**kernel%power
+            end do
+            allocate (kernel%fit)
+            call start_even_polynomial(kernel%fit, rows%spacing, values(:, :, i), rounding(i))
+         end associate
       end do
-      displacement%rows = rows
-      displacement%point = near
-      call start_even_polynomial(displacement%fit, rows%spacing, value, rounding(1))
-      laplacian%power = 3
-      laplacian%rows = rows
-      laplacian%point = near
-      call start_even_polynomial(laplacian%fit, rows%spacing, value_of_laplacian, rounding(2))
    end subroutine start_periodic_kernels
 
-   !> The smooth part, which is the kernel less the origin's own term 1/r^power; or the whole kernel.
+   !> The smooth part, which is the kernel less the origin's own term 1/r^power; or the whole kernel. Its gradient as
+   !> well if that is given room.
    pure subroutine evaluate(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)
-      real(dp), intent(out) :: value(n)
-      real(dp), intent(out), optional :: slope_x(n), slope_y(n)
+      real(dp), intent(in) :: x(n), y(n)                             !! [s]
+      real(dp), intent(out) :: value(n)                              !! [s^-power]
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)      !! both or none [s^-(power+1)]
 
       if (self%rows%along_y) then
-         call evaluate_by_rows(self, n, y, x, value, slope_y, slope_x)
+         call self%evaluate_by_rows(n, y, x, value, slope_y, slope_x)
       else
-         call evaluate_by_rows(self, n, x, y, value, slope_x, slope_y)
+         call self%evaluate_by_rows(n, x, y, value, slope_x, slope_y)
       end if
    end subroutine evaluate
 
@@ -97,9 +114,16 @@ contains
       logical :: moved
       integer :: i
 
+      if (.not. allocated(self%fit)) then
+         value = 0.0_dp
+         if (present(slope_x)) slope_x = 0.0_dp
+         if (present(slope_x)) slope_y = 0.0_dp
+         call self%add_points(n, x, y, value, slope_x, slope_y)
+         return
+      end if
       call self%rows%reduce_along_rows(n, x, y, xr, yr, moved)
       call self%fit%evaluate(n, xr, yr, value, slope_x, slope_y)
-      call self%add(n, xr, yr, value, slope_x, slope_y)
+      call self%add_points(n, xr, yr, value, slope_x, slope_y)
       if (.not. (moved .or. self%whole)) return
       ! The origin's term is taken out at the place itself, not at the reduced place; for most places they are the same.
       do i = 1, n
@@ -115,6 +139,41 @@ contains
       end do
    end subroutine evaluate_by_rows
 
+   !> Adds what the points do.
+   pure subroutine add_points(self, n, x, y, value, slope_x, slope_y)
+      class(periodic_kernel), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)
+      real(dp), intent(inout) :: value(n)
+      real(dp), intent(inout), optional :: slope_x(n), slope_y(n)
+
+      real(dp) :: inverse, inverse_square, of_cube, of_first
+      integer :: i, k
+
+      ! 1/r or 1/r^3 as 1/r (of_first + of_cube/r^2): with a choice in them the loops would not be of vectors.
+      of_first = merge(1.0_dp, 0.0_dp, self%power == 1)
+      of_cube = 1.0_dp - of_first
+      do k = 1, size(self%point, 2)
+         associate (a => self%point(1, k), b => self%point(2, k))
+            if (present(slope_x)) then
+               do i = 1, n
+                  inverse_square = 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2)
+                  inverse = sqrt(inverse_square)*(of_first + of_cube*inverse_square)
+                  value(i) = value(i) + inverse
+                  inverse = self%power*inverse*inverse_square
+                  slope_x(i) = slope_x(i) - (x(i) - a)*inverse
+                  slope_y(i) = slope_y(i) - (y(i) - b)*inverse
+               end do
+            else
+               do i = 1, n
+                  inverse_square = 1.0_dp/((x(i) - a)**2 + (y(i) - b)**2)
+                  value(i) = value(i) + sqrt(inverse_square)*(of_first + of_cube*inverse_square)
+               end do
+            end if
+         end associate
+      end do
+   end subroutine add_points
+
    !> 1/r or 1/r^3.
    pure real(dp) function inverse_power(power, inverse_square)
       integer, intent(in) :: power
@@ -123,5 +182,117 @@ contains
       inverse_power = sqrt(inverse_square)
       if (power == 3) inverse_power = inverse_power*inverse_square
    end function inverse_power
+
+   !> Gp - 1/r, README.md (F20), and its Laplacian less 1/r^3, which is the sum of 1/|x - n|^3 over all lattice points
+   !> but the origin.
+   pure subroutine ewald_sum(rows, n, along, across, value, laplacian)
+      type(row_lattice), intent(in) :: rows
+      integer, intent(in) :: n
+      real(dp), intent(in) :: along(n), across(n)   !! along and across the rows, in the rectangle about the origin [s]
+      real(dp), intent(out) :: value(n)             !! [1/s]
+      real(dp), intent(out) :: laplacian(n)         !! [1/s^3]
+
+      real(dp) :: e, r
+      integer :: i
+
+      e = sqrt(pi/rows%spacing)
+      do i = 1, n
+         r = e*hypot(along(i), across(i))
+         value(i) = -2*sqrt(pi)/(e*rows%spacing) + e*origin_remainder(r)
+         laplacian(i) = e**3*origin_remainder_laplacian(r)
+      end do
+      call add_lattice_points(rows, e, n, along, across, value, laplacian)
+      call add_waves(rows, e, n, along, across, value, laplacian)
+   end subroutine ewald_sum
+
+   !> Adds the terms erfc(e r)/r of the lattice points but the origin, and their Laplacian by README.md (F21).
+   pure subroutine add_lattice_points(rows, e, n, along, across, value, laplacian)
+      type(row_lattice), intent(in) :: rows
+      real(dp), intent(in) :: e                      !! [1/s]
+      integer, intent(in) :: n
+      real(dp), intent(in) :: along(n), across(n)
+      real(dp), intent(inout) :: value(n), laplacian(n)
+
+      real(dp) :: bell, farthest, square, term
+      integer :: columns, i, j, k, most_rows
+
+      farthest = cut_off/e
+      most_rows = ceiling(farthest/rows%spacing + 0.5_dp)
+      columns = ceiling(farthest + 1.0_dp + 0.5_dp*most_rows)
+      do j = -most_rows, most_rows
+         do i = -columns, columns
+            if (i == 0 .and. j == 0) cycle
+            do k = 1, n
+               square = (along(k) - i - rows%shift*j)**2 + (across(k) - rows%spacing*j)**2
+               if (square >= farthest**2) cycle
+               associate (r => sqrt(square))
+                  term = erfc(e*r)/r
+               end associate
+               bell = 2*e/sqrt(pi)*exp(-e**2*square)
+               value(k) = value(k) + term
+               laplacian(k) = laplacian(k) + term/square + bell*(1/square + 2*e**2)
+            end do
+         end do
+      end do
+   end subroutine add_lattice_points
+
+   !> Adds the waves of the reciprocal lattice, k = (i, (j - i shift)/spacing), once for k and -k.
+   pure subroutine add_waves(rows, e, n, along, across, value, laplacian)
+      type(row_lattice), intent(in) :: rows
+      real(dp), intent(in) :: e                      !! [1/s]
+      integer, intent(in) :: n
+      real(dp), intent(in) :: along(n), across(n)
+      real(dp), intent(inout) :: value(n), laplacian(n)
+
+      real(dp) :: farthest, k_across, k_along, length, term, weight
+      integer :: columns, i, j, k, most_rows
+
+      farthest = cut_off*e/pi
+      columns = ceiling(farthest)
+      most_rows = ceiling(farthest*rows%spacing + 0.5_dp*columns)
+      do j = -most_rows, most_rows
+         do i = 0, columns
+            k_along = i
+            k_across = (j - i*rows%shift)/rows%spacing
+            length = hypot(k_along, k_across)
+            if ((i == 0 .and. j <= 0) .or. length >= farthest) cycle
+            weight = 2*erfc(pi*length/e)/(length*rows%spacing)
+            do k = 1, n
+               term = weight*cos(2*pi*(k_along*along(k) + k_across*across(k)))
+               value(k) = value(k) + term
+               laplacian(k) = laplacian(k) - (2*pi*length)**2*term
+            end do
+         end do
+      end do
+   end subroutine add_waves
+
+   !> -erf(x)/x: what remains of the origin's term erfc(x)/x when 1/x is taken out.
+   pure real(dp) function origin_remainder(x) result(value)
+      real(dp), intent(in) :: x             !! >= 0
+
+      value = -2/sqrt(pi)
+      if (x > 0.0_dp) value = -erf(x)/x
+   end function origin_remainder
+
+   !> The Laplacian in the plane of -erf(x)/x; with 1/r^3 taken out of README.md (F21).
+   pure real(dp) function origin_remainder_laplacian(x) result(value)
+      real(dp), intent(in) :: x             !! >= 0
+
+      real(dp) :: power
+      integer :: n
+
+      if (x < 1.0_dp) then
+         ! The closed form loses digits to cancellation: the series of -erf(x)/x, the sum over n of
+         ! -2/sqrt(pi) (-x^2)^n/(n! (2n+1)), differentiated.
+         power = -2/sqrt(pi)
+         value = 0.0_dp
+         do n = 1, series_terms
+            value = value - power*4*n/(2*n + 1.0_dp)
+            power = -power*x**2/n
+         end do
+      else
+         value = -erf(x)/x**3 + 2/sqrt(pi)*exp(-x**2)*(1/x**2 + 2)
+      end if
+   end function origin_remainder_laplacian
 
 end module wavycon_periodic_kernel

@@ -18,7 +18,6 @@ module wavycon_row_lattice
    contains
       procedure :: reduce_along_rows
       procedure :: reduced
-      procedure :: points_within
       procedure :: points_about
    end type row_lattice
 
@@ -59,22 +58,6 @@ contains
       call self%reduce_along_rows(1, [along], [across], along, across, moved)
       reduced = cmplx(merge(across(1), along(1), self%along_y), merge(along(1), across(1), self%along_y), dp)
    end function reduced
-
-   !> The lattice points, the origin left out, that are nearer to it than `distance`, and the distance of the next one.
-   pure subroutine points_within(self, distance, point, next)
-      class(row_lattice), intent(in) :: self
-      real(dp), intent(in) :: distance                       !! > 0 [s]
-      real(dp), allocatable, intent(out) :: point(:, :)      !! x and y, shape (2, m) [s]
-      real(dp), intent(out) :: next                          !! >= distance [s]
-
-      complex(dp), allocatable :: z(:)
-
-      ! Points of a row are 1 apart: the next one is among these.
-      allocate (z, source=self%points_about(distance + 1.0_dp, (0.0_dp, 0.0_dp)))
-      next = minval(abs(z), abs(z) >= distance)
-      z = pack(z, abs(z) < distance .and. abs(z) > 0.0_dp)
-      point = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
-   end subroutine points_within
 
    !> The lattice points, all moved by an offset, that are not farther than `distance` from the rectangle about the
    !> origin: the cell of places that are reduced.

@@ -30,6 +30,8 @@ module wavycon_shape_map
    contains
       procedure :: place
       procedure :: linearise_place
+      procedure :: find_differences
+      procedure :: linearise_slopes
       procedure :: analytic_part
       procedure :: slopes
       procedure :: jacobian
@@ -78,6 +80,95 @@ contains
          power = power*step
       end do
    end subroutine linearise_place
+
+   !> Divided differences of the map between a point and others, without cancellation where they are near:
+   !>
+   !>     z(w) - z(v) = b_0 (w - v) A + conj( (w - v) sum over k of b_k D_k ),   README.md (F26),
+   !>
+   !> A = 1 - tau (w^(m+1) - v^(m+1))/(w - v) and D_k = (w^j - v^j)/(w - v), j = m k - 1, m the fold. They follow from
+   !> w^(j+m) - v^(j+m) = w^m (w^j - v^j) + v^j (w^m - v^m).
+   pure subroutine find_differences(self, n, v, w, analytic, terms)
+      class(shape_map), intent(in) :: self
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: v, w(n)
+      real(dp), intent(out) :: analytic(n, 2)     !! A, real and imaginary part: loops over points vectorise
+      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))    !! D_k
+
+      complex(dp) :: power
+      real(dp), dimension(n, 2) :: of_fold, point, step
+      integer :: i, k
+
+      point = reshape([w%re, w%im], [n, 2])
+      step = point
+      terms(:, 1, 1) = 1.0_dp
+      terms(:, 2, 1) = 0.0_dp
+      do k = 1, self%fold - 2
+         call multiply_add(n, terms(:, :, 1), point, v**k)
+         call multiply_add(n, step, point, (0.0_dp, 0.0_dp))
+      end do
+      call multiply_add(n, step, point, (0.0_dp, 0.0_dp))
+      of_fold = terms(:, :, 1)
+      call multiply_add(n, of_fold, point, v**(self%fold - 1))
+      do k = 2, ubound(self%b, 1)
+         power = v**(self%fold*(k - 1) - 1)
+         do i = 1, n
+            terms(i, 1, k) = terms(i, 1, k - 1)*step(i, 1) - terms(i, 2, k - 1)*step(i, 2) &
+               + (power%re*of_fold(i, 1) - power%im*of_fold(i, 2))
+            terms(i, 2, k) = terms(i, 1, k - 1)*step(i, 2) + terms(i, 2, k - 1)*step(i, 1) &
+               + (power%re*of_fold(i, 2) + power%im*of_fold(i, 1))
+         end do
+      end do
+      analytic(:, 1) = 1.0_dp
+      analytic(:, 2) = 0.0_dp
+      if (self%clustering > 0.0_dp) then
+         call multiply_add(n, of_fold, point, v**self%fold)
+         analytic = analytic - self%clustering*of_fold
+      end if
+   end subroutine find_differences
+
+   !> Derivatives of the conjugate of dz/d conj(w) with respect to b_k, (m k - 1) w^(m k - 2), and w^m, m the fold.
+   pure subroutine linearise_slopes(self, n, w, terms, step)
+      class(shape_map), intent(in) :: self
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: w(n)
+      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))
+      real(dp), intent(out) :: step(n, 2)         !! w^m
+
+      real(dp) :: factor, point(n, 2)
+      integer :: i, k
+
+      point = reshape([w%re, w%im], [n, 2])
+      step(:, 1) = 1.0_dp
+      step(:, 2) = 0.0_dp
+      do k = 1, self%fold
+         if (k == self%fold - 1) terms(:, :, 1) = (self%fold - 1)*step
+         call multiply_add(n, step, point, (0.0_dp, 0.0_dp))
+      end do
+      do k = 2, ubound(self%b, 1)
+         factor = (self%fold*k - 1.0_dp)/(self%fold*(k - 1) - 1.0_dp)
+         do i = 1, n
+            terms(i, 1, k) = factor*(terms(i, 1, k - 1)*step(i, 1) - terms(i, 2, k - 1)*step(i, 2))
+            terms(i, 2, k) = factor*(terms(i, 1, k - 1)*step(i, 2) + terms(i, 2, k - 1)*step(i, 1))
+         end do
+      end do
+   end subroutine linearise_slopes
+
+   !> a b + c of complex numbers by real and imaginary part, into a.
+   pure subroutine multiply_add(n, a, b, c)
+      integer, intent(in) :: n
+      real(dp), intent(inout) :: a(n, 2)
+      real(dp), intent(in) :: b(n, 2)
+      complex(dp), intent(in) :: c
+
+      real(dp) :: re
+      integer :: i
+
+      do i = 1, n
+         re = a(i, 1)*b(i, 1) - a(i, 2)*b(i, 2) + c%re
+         a(i, 2) = a(i, 1)*b(i, 2) + a(i, 2)*b(i, 1) + c%im
+         a(i, 1) = re
+      end do
+   end subroutine multiply_add
 
    !> w - tau w^(fold+1): the analytic part of the map over b_0.
    elemental complex(dp) function analytic_part(self, w)

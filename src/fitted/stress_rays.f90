@@ -5,12 +5,12 @@
 !> a ray where the kernel is nearly singular. The number of points grows as the logarithm of the distances.
 module wavycon_stress_rays
    use wavycon_constants, only: pi
+   use wavycon_disc_sources, only: find_density
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: ray_angles_of_strain, ray_angles_per_unit, ray_points, ray_points_per_degree, &
       ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
-   use wavycon_source_density, only: find_density, place_differences
    use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, stress_fields
    implicit none (type, external)
    private
@@ -190,6 +190,7 @@ contains
          real(dp), intent(in) :: node(n), node_weight(n)
 
          complex(dp), dimension(n) :: density, difference, step, w
+         real(dp) :: analytic(n, 2), differences(n, 2, ubound(solution%shape%b, 1))
          real(dp), dimension(n) :: at_t, eta, root, sigma, strength, strength_y, t, x, y
          real(dp) :: squared_stretch
          complex(dp) :: kernel
@@ -203,7 +204,11 @@ contains
          t = 2*half*sin(0.5_dp*sigma)*merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
          step = t*direction
          w = origin + step
-         call place_differences(solution%shape, origin, n, step, w, difference)
+         call solution%shape%find_differences(n, origin, w, analytic, differences)
+         associate (b => solution%shape%b)
+            difference = b(0)*step*cmplx(analytic(:, 1), analytic(:, 2), dp) &
+               + conjg(step*cmplx(matmul(differences(:, 1, :), b(1:)), matmul(differences(:, 2, :), b(1:)), dp))
+         end associate
          gradient = solution%pool .and. self%kernel == all_fields
          call find_density(solution, gradient, n, w, root**2, density)
          ! dt = root dsigma, and the density's own root, of a gap itself its cube.

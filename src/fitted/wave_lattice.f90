@@ -30,10 +30,10 @@ module wavycon_wave_lattice
    real(dp), parameter :: hexagonal_merging = 0.71191_dp
 
    type :: wave_lattice
-      integer :: fold = 4                            !! of the symmetry about a crest
-      integer :: trough_fold = 4                     !! of the symmetry about a trough
+      integer :: fold = 2                            !! of the symmetry about a crest
+      integer :: trough_fold = 2                     !! of the symmetry about a trough
       integer :: troughs = 1                         !! in a cell: at `trough` and, if there are two, at -`trough`
-      logical :: square = .true.                     !! whether it is the square lattice
+      logical :: square = .false.                    !! whether it is the square lattice
       real(dp) :: area = 1.0_dp                      !! of a cell [s^2]
       real(dp) :: closing_pressure = 1.0_dp          !! mean pressure that just closes the troughs, p* (F7)
       real(dp) :: about_merging = 0.0_dp             !! mean pressure near which spots merge and pools separate
@@ -47,13 +47,12 @@ module wavycon_wave_lattice
       !> the trough [s].
       complex(dp), allocatable :: to_next_crest(:), to_next_trough(:)
       type(row_lattice) :: rows                      !! the crests
-      type(periodic_kernel) :: displacement_kernel   !! Gp: the integral of Gp and p is u less its mean (F2)
-      type(periodic_kernel) :: pressure_kernel       !! its Laplacian, which turns a gap into a pressure (F10)
+      !> Gp, of spots: the integral of Gp and p is u less its mean (F2). Its Laplacian, of pools, turns a gap into a
+      !> pressure (F10).
+      type(periodic_kernel) :: kernel(2)
    contains
-      procedure :: undeformed_gap
-      procedure :: undeformed_slope
-      procedure :: pressure_rise
-      procedure :: pressure_rise_slope
+      procedure :: rise
+      procedure :: rise_slope
    end type wave_lattice
 
 contains
@@ -62,11 +61,11 @@ contains
    function square_lattice() result(lattice)
       type(wave_lattice) :: lattice
 
-      allocate (lattice%wave(2, 2), lattice%amplitude(2))
-      lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
-      lattice%amplitude(:) = [0.5_dp, 0.5_dp]
-      lattice%to_next_crest = [lattice%saddle]
-      call finish_lattice(lattice, row_lattice(spacing=1.0_dp, shift=0.0_dp), square_merging)
+      lattice = rectangular_lattice(1.0_dp, 0.5_dp)
+      lattice%fold = 4
+      lattice%trough_fold = 4
+      lattice%square = .true.
+      lattice%saddle = 0.5_dp
    end function square_lattice
 
    !> h/Delta = 1 - a_x cos X - a_y cos Y, a_x + a_y = 1.
@@ -75,9 +74,6 @@ contains
       real(dp), intent(in) :: amplitude_x  !! a_x, between 0 and 1 [Delta]
       type(wave_lattice) :: lattice
 
-      lattice%fold = 2
-      lattice%trough_fold = 2
-      lattice%square = .false.
       lattice%area = side_ratio
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/side_ratio], [2, 2])
@@ -95,9 +91,6 @@ contains
       real(dp), intent(in) :: side_ratio   !! longer wavelength, along y, over the shorter, s: 1 to 3
       type(wave_lattice) :: lattice
 
-      lattice%fold = 2
-      lattice%trough_fold = 2
-      lattice%square = .false.
       lattice%area = 0.5_dp*side_ratio
       allocate (lattice%wave(2, 2), lattice%amplitude(2))
       lattice%wave(:, :) = reshape([1.0_dp, 1.0_dp/side_ratio, 1.0_dp, -1.0_dp/side_ratio], [2, 2])
@@ -120,7 +113,6 @@ contains
       lattice%fold = 6
       lattice%trough_fold = 3
       lattice%troughs = 2
-      lattice%square = .false.
       lattice%area = 0.5_dp*root3
       allocate (lattice%wave(2, 3), lattice%amplitude(3))
       lattice%wave(:, :) = reshape([2.0_dp, 0.0_dp, 1.0_dp, root3, 1.0_dp, -root3]/root3, [2, 3])
@@ -148,73 +140,51 @@ contains
       complex(dp), allocatable :: middle(:)
 
       lattice%rows = rows
-      call start_periodic_kernels(rows, lattice%displacement_kernel, lattice%pressure_kernel)
+      call start_periodic_kernels(rows, lattice%kernel)
       if (.not. allocated(lattice%to_next_trough)) lattice%to_next_trough = lattice%to_next_crest
       if (.not. allocated(lattice%phase)) lattice%phase = [(-1.0_dp, 0.0_dp), (-1.0_dp, 0.0_dp)]
       lattice%pressure = lattice%amplitude*hypot(lattice%wave(1, :), lattice%wave(2, :))
       ! README.md (F6) and (F7): the pressure of full contact at the trough is P less the closing pressure.
       lattice%closing_pressure = -sum(lattice%pressure*lattice%phase%re)
       allocate (middle, source=lattice%to_next_trough)
-      lattice%about_merging = (1.0_dp + at_merging)*lattice%closing_pressure - minval(lattice%pressure_rise(middle))
+      lattice%about_merging = (1.0_dp + at_merging)*lattice%closing_pressure - minval(lattice%rise(.true., middle))
    end subroutine finish_lattice
 
-   !> h/Delta, README.md (F1), without loss of digits near a crest.
-   elemental real(dp) function undeformed_gap(self, z) result(h)
+   !> R, README.md (F13): the pressure of full contact less its value at the trough; or -h/Delta, README.md (F1). Either
+   !> is the sum over i of a_i (cos(2 pi k_i.x + angle_i) - cos angle_i), without loss of digits near the centre.
+   elemental real(dp) function rise(self, pool, z)
       class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from a crest [s]
+      logical, intent(in) :: pool   !! whether it is R
+      complex(dp), intent(in) :: z  !! x + i y from the trough for R, otherwise from a crest [s]
 
-      integer :: i
-
-      h = 0.0_dp
-      do i = 1, size(self%amplitude)
-         h = h + 2*self%amplitude(i)*sin(pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im))**2
-      end do
-   end function undeformed_gap
-
-   !> Gradient of h [Delta/s], as a complex number.
-   elemental complex(dp) function undeformed_slope(self, z) result(slope)
-      class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from a crest [s]
-
-      integer :: i
-
-      slope = 0.0_dp
-      do i = 1, size(self%amplitude)
-         slope = slope + 2*pi*self%amplitude(i)*cmplx(self%wave(1, i), self%wave(2, i), dp) &
-            *sin(2*pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im))
-      end do
-   end function undeformed_slope
-
-   !> R, README.md (F13): the pressure of full contact less its value at the trough x_t, the sum over i of a_i |k_i|
-   !> (cos 2 pi k_i.x - cos 2 pi k_i.x_t), without loss of digits near the trough.
-   elemental real(dp) function pressure_rise(self, z) result(p)
-      class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from the trough [s]
-
+      complex(dp) :: wave
       real(dp) :: half
       integer :: i
 
-      p = 0.0_dp
-      do i = 1, size(self%pressure)
+      rise = 0.0_dp
+      do i = 1, size(self%amplitude)
+         wave = merge(self%pressure(i)*self%phase(i), cmplx(self%amplitude(i), kind=dp), pool)
          half = pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im)
-         p = p - 2*self%pressure(i)*sin(half)*(self%phase(i)%re*sin(half) + self%phase(i)%im*cos(half))
+         rise = rise - 2*sin(half)*(wave%re*sin(half) + wave%im*cos(half))
       end do
-   end function pressure_rise
+   end function rise
 
    !> Its gradient [1/s], as a complex number.
-   elemental complex(dp) function pressure_rise_slope(self, z) result(slope)
+   elemental complex(dp) function rise_slope(self, pool, z) result(slope)
       class(wave_lattice), intent(in) :: self
-      complex(dp), intent(in) :: z  !! x + i y from the trough [s]
+      logical, intent(in) :: pool
+      complex(dp), intent(in) :: z
 
+      complex(dp) :: wave
       real(dp) :: turn
       integer :: i
 
       slope = 0.0_dp
-      do i = 1, size(self%pressure)
+      do i = 1, size(self%amplitude)
+         wave = merge(self%pressure(i)*self%phase(i), cmplx(self%amplitude(i), kind=dp), pool)
          turn = 2*pi*(self%wave(1, i)*z%re + self%wave(2, i)*z%im)
-         slope = slope - 2*pi*self%pressure(i)*cmplx(self%wave(1, i), self%wave(2, i), dp) &
-            *(self%phase(i)%re*sin(turn) + self%phase(i)%im*cos(turn))
+         slope = slope - 2*pi*cmplx(self%wave(1, i), self%wave(2, i), dp)*(wave%re*sin(turn) + wave%im*cos(turn))
       end do
-   end function pressure_rise_slope
+   end function rise_slope
 
 end module wavycon_wave_lattice
