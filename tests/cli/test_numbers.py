@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs that must agree: repeated, resolved, reordered, with threads, with another locale, in other units."""
+"""Runs that must agree: repeated, reordered, with threads, with another locale, in other units."""
 import re
 import subprocess
 
@@ -56,12 +56,6 @@ class Numbers(ProgramTest):
     def test_two_runs_agree_to_the_last_digit(self):
         for surface in SURFACES:
             self.assert_same_bytes(*(self.tables(surface, LOADS, output) for output in ("first", "second")))
-
-    def test_a_resolved_deck_reruns_to_the_same_numbers(self):
-        for surface in SURFACES:
-            first = self.tables(surface, LOADS, "first")
-            self.run_deck("first/case.resolved", output="second")
-            self.assert_same_bytes(first, self.folder/"second")
 
     def test_neither_the_order_of_the_loads_nor_repeats_matter(self):
         for surface in SURFACES:

@@ -13,6 +13,7 @@ import time
 
 sys.dont_write_bytecode = True
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
+from rough_map import rough_map  # noqa: E402, F401
 from tables import Table  # noqa: E402
 
 SECONDS = 2.0  # most processor time of a deck that needs little work [s]

@@ -1,6 +1,5 @@
 """Height maps on which a search that follows the contact it has can miss some of it, or does not settle."""
-import math
-
+from common import rough_map
 from random_scenes import Scene
 
 KINDS = ("spike", "plateaus", "equal crests", "nearly equal crests", "step", "checkerboard", "noise")
@@ -27,11 +26,9 @@ def hard_loads(stream, count):
 
 
 def waves(stream, rows, columns):
-    """A smooth surface with few crests, of height 1 at most."""
-    parts = [(stream.uniform(-0.3, 0.3), stream.randint(1, 2), stream.randint(-2, 2), stream.random())
-             for _ in range(3)]
-    return [[sum(a*math.cos(2.0*math.pi*(m*j/columns + n*i/rows + phase)) for a, m, n, phase in parts)
-             for j in range(columns)] for i in range(rows)]
+    """A smooth surface with few crests, of height 1 or so."""
+    heights = rough_map(rows, columns, stream.getrandbits(32), shortest=2, power=1.0)
+    return [[0.3*value for value in row] for row in heights]
 
 
 def spike(stream, rows, columns):

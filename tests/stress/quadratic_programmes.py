@@ -1,12 +1,11 @@
 """Random quadratic programmes with known solutions: a table of the lines of stress_qp.f90."""
 import math
 import re
-import subprocess
-import threading
 
 from common import RUNTIME_WORDS, run, write
 
-SILENCE = 300.0  # time limit of a programme [s]
+TOGETHER = 100  # programmes that are solved by one process
+SILENCE = 300.0  # time limit of a process [s]
 # Of so many programmes one with nearly parallel constraints may be refused: among hundreds of these, rounding may keep
 # the dual pass from an end, which the status tells. Of 10,000 programmes it was one.
 EACH_REFUSED = 5000
@@ -28,31 +27,6 @@ def read_line(line):
     return case
 
 
-def run_cases(program, *numbers):
-    """The cases, one by one; after a crash or a hang (None, last output)."""
-    last_words = ""
-    with subprocess.Popen([program, *map(str, numbers)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True) as process:
-        watch = threading.Timer(SILENCE, process.kill)
-        try:
-            watch.start()
-            for line in process.stdout:
-                watch.cancel()
-                watch = threading.Timer(SILENCE, process.kill)
-                watch.start()
-                case = read_line(line)
-                if case is None:
-                    last_words += line
-                else:
-                    yield case, ""
-            process.wait()
-        finally:
-            watch.cancel()
-            process.kill()
-    if process.returncode:
-        yield None, last_words or f"ended by signal {-process.returncode}: a crash, or {SILENCE:.0f} s without an answer"
-
-
 def lost_digits(cases):
     """Lines of the table: the error of x and the residual by decades of the condition number."""
     lines = [f'{"condition of D":>16}{"solved":>9}{"refused":>9}{"worst KKT residual":>20}{"worst error of x":>18}'
@@ -70,21 +44,18 @@ def lost_digits(cases):
     return lines
 
 
-def campaign(settings, _work):
+def campaign(settings, work):
     """The notes are the table of lost digits."""
     part = settings.part("quadratic programmes")
     count, largest = settings.amount((10000, 300), (400, 30))
+    write({}, work)
     cases = []
     refused = wrong = 0
-    first = 1
-    while first <= count:
-        done = first - 1
-        for case, words in run_cases(settings.programs/"stress_qp", settings.seed, first, count, largest):
-            done += 1
-            name = f"stress_qp {settings.seed} {done} {done} {largest}"
-            if case is None:
-                part.count(name, [words.strip()])
-                continue
+    while part.tried < count:
+        first = part.tried + 1
+        outcome = run([settings.programs/"stress_qp", settings.seed, first, min(first + TOGETHER, count), largest], work,
+                      patience=SILENCE)
+        for case in filter(None, map(read_line, outcome.stdout.decode().splitlines())):
             cases.append(case)
             complaints = []
             refused += case["verdict"] == "refused" and case["kind"] == "nearly parallel"
@@ -93,12 +64,18 @@ def campaign(settings, _work):
                     case["kind"] != "nearly parallel" or refused > max(1, count//EACH_REFUSED)):
                 complaints.append(f'{case["verdict"]}: {case["kind"]}, {case["n"]:.0f} x {case["m"]:.0f}, '
                                   f'condition {case["condition"]:.0e}: {case["status"]}')
-            part.count(name, complaints)
-        first = done + 1
+            part.count(command_of(settings, part.tried + 1, largest), complaints)
+        if outcome.status or part.tried < first:
+            part.count(command_of(settings, part.tried + 1, largest),
+                       [f"exit status {outcome.status}: {outcome.stderr.decode(errors='replace').strip()}"])
     worst = max((max(case[name] for name in RESIDUALS) for case in cases if case["status"] == "converged"), default=0.0)
     part.worst = f"KKT {worst:.1e}, {wrong} wrong, {max((case['seconds'] for case in cases), default=0.0):.1f} s"
     part.notes = lost_digits(cases)
     return part
+
+
+def command_of(settings, number, largest):
+    return f"stress_qp {settings.seed} {number} {number} {largest}"
 
 
 def discretisations(quick):

@@ -1,6 +1,8 @@
 """Random surfaces and loads, as decks; and the same surfaces shifted, mirrored, rotated and in other units."""
 import math
 
+from common import rough_map
+
 KINDS = ("wave_1d", "wave_2d", "wave_2d of two lengths", "wave_2d alike", "crossed_1d", "crossed_1d alike",
          "hexagonal", "profile", "sum", "even sum", "file", "even file", "mirrored file")
 FITTED = ("wave_2d", "wave_2d alike", "crossed_1d alike", "hexagonal")  # kinds that solver = 'fitted' can solve
@@ -127,17 +129,12 @@ def random_scene(stream, kind):
 def random_map(stream, even):
     """Heights of waves whose amplitudes fall as a power of their number, of random directions and phases."""
     rows, columns = stream.choice((8, 12, 16)), stream.choice((8, 16))
-    slope, shortest = stream.uniform(1.0, 2.5), stream.randint(2, min(rows, columns)//2)
-    heights = [[0.0]*columns for _ in range(rows)]
-    for m in range(shortest + 1):
-        for n in range(0 if even else -shortest, shortest + 1):
-            if (m, n) == (0, 0) or m*m + n*n > shortest**2:
-                continue
-            a, phase = math.hypot(m, n)**-slope*stream.gauss(0.0, 1.0), stream.uniform(0.0, 2.0*math.pi)
-            for i in range(rows):
-                for j in range(columns):
-                    x, y = 2.0*math.pi*j*m/columns, 2.0*math.pi*i*n/rows
-                    heights[i][j] += a*(math.cos(x)*math.cos(y) if even else math.cos(x + y - phase))
+    heights = rough_map(rows, columns, stream.getrandbits(32), shortest=stream.randint(2, min(rows, columns)//2),
+                        power=stream.uniform(1.0, 2.5))
+    if even:
+        # With its mirror images, to the last bit.
+        heights = [[math.fsum(heights[k][l] for k in (i, -i) for l in (j, -j)) for j in range(columns)]
+                   for i in range(rows)]
     return heights
 
 

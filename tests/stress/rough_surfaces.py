@@ -2,8 +2,8 @@
 program writes, and on twice the points; a measured one is prepared by the program, checked here, and with mirror images
 solved a second time on the whole cell. Spots and summary have the same area, contours about the same."""
 import math
-import random
 
+from common import rough_map
 from npy import read_npy
 from random_scenes import random_loads
 from same_contact import LARGEST_RATIO, difference
@@ -125,11 +125,10 @@ def compare(settings, name, rows, again, work, part, what, off_by, most):
 def measured_heights(stream):
     """Heights of some waves, tilt, form and noise, with holes."""
     rows, columns = stream.choice(((48, 64), (64, 40), (33, 50), (80, 16)))
-    waves = [(stream.gauss(0.0, 1.0)/k, stream.randint(-k, k), k, stream.random()) for k in range(1, 6)]
+    waves = rough_map(rows, columns, stream.getrandbits(32), power=1.0)
     tilt = [stream.choice((0.0, 1.0, 100.0))*stream.gauss(0.0, 1.0) for _ in range(5)]
     noise = stream.choice((0.0, 1e-3, 0.1))
-    heights = [[sum(a*math.cos(2.0*math.pi*(m*j/columns + n*i/rows + phase)) for a, m, n, phase in waves)
-                + noise*stream.gauss(0.0, 1.0) + tilt[0] + tilt[1]*j + tilt[2]*i
+    heights = [[waves[i][j] + noise*stream.gauss(0.0, 1.0) + tilt[0] + tilt[1]*j + tilt[2]*i
                 + (tilt[3]*j*j + tilt[4]*i*i)/rows for j in range(columns)] for i in range(rows)]
     for _ in range(stream.choice((0, 1, 3, 8))):
         i, j = stream.randrange(rows), stream.randrange(columns)
