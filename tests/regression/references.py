@@ -14,8 +14,8 @@ INPUTS = HERE.parent.parent / "inputs"
 # All references together [byte].
 LARGEST = 200_000
 # A table of more rows than LONG is thinned out to some SAMPLE rows; what stands for all its rows comes below them.
-LONG = 6
-SAMPLE = 2
+LONG = 24
+SAMPLE = 5
 
 # Tolerances. A number agrees if it differs by at most `absolute + of_largest*L`, where L is the largest size that the
 # reference has in that column.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The published reference values: recomputed, against grids and other methods, and on both sides of merging."""
+"""The published reference values: recomputed, against grids and other methods, and for consistency."""
 import math
 import pathlib
 import subprocess
@@ -43,8 +43,10 @@ def merging_of(surface):
 class ReferenceTable:
     """The tests of a surface's table."""
     surface = ""
+    loads = frozenset()            # that the table must have
     to_recompute = ()              # loads, at another accuracy, hence by other degrees; next to merging in both regimes
     by_grids = ()                  # accuracy and loads
+    smooth = ()                    # ranges of P in hundredths in which no spots merge
     merging_loads = 0.0, 0.0, 0.0  # distance of the loads next to merging; relative errors allowed below and above it
 
     @classmethod
@@ -67,6 +69,21 @@ class ReferenceTable:
         expected, bound = self.table[load][name]
         self.assertLessEqual(abs(value - expected), error + bound,
                              f"{name} at {load}: {value}, published {expected}")
+
+    def test_loads_and_bounds(self):
+        self.assertGreaterEqual(set(self.table), self.loads)
+        for load, row in self.table.items():
+            for name, (value, error) in row.items():
+                exactly_zero = name == ("saddle_gap_over_amplitude" if load > self.merging_load
+                                        else "saddle_pressure_over_pstar")
+                with self.subTest(load=load, name=name):
+                    if exactly_zero:
+                        self.assertEqual((0.0, 0.0), (value, error))
+                    else:
+                        self.assertGreater(value, 0.0)
+                        self.assertGreater(error, 0.0)
+                        # The largest errors are those of the saddle that is about to close.
+                        self.assertLess(error, 0.15*value)
 
     def test_both_sides_of_merging(self):
         below, above = self.merging
@@ -99,11 +116,27 @@ class ReferenceTable:
                 for name in IN_SUMMARY:
                     self.check(load, name, *pair(record, name))
 
+    def test_work_of_the_load_is_the_energy(self):
+        # The work of the load is the strain energy, dE = -P dG: E + P G grows by the integral of G over P.
+        step = 0.01
+        for first, last in self.smooth:
+            rows = [self.table[i/100] for i in range(first, last + 1)]
+            gaps = [row["mean_gap_over_amplitude"][0] for row in rows]
+            gained = [row["elastic_energy_over_pstar_amplitude"][0] + load*step*row["mean_gap_over_amplitude"][0]
+                      for load, row in ((first, rows[0]), (last, rows[-1]))]
+            work = simpson(gaps, step)
+            # The error of Simpson's rule at twice the step is some 16 times as large; 4 is cautious.
+            allowed = abs(work - simpson(gaps[::2], 2*step))/4
+            self.assertLess(allowed, 1e-7)
+            self.assertAlmostEqual(work, gained[1] - gained[0], delta=allowed)
+
 
 class Wave2d(ReferenceTable, ProgramTest):
     surface = "wave_2d"
+    loads = frozenset(i/100 for i in range(1, 100)) | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
     to_recompute = 0.001, 0.05, 0.2, 0.226, 0.236, 0.3, 0.5, 0.8, 0.999
     by_grids = (1e-3, (0.05, 0.2, 0.23, 0.4, 0.7)), (1e-4, (0.01, 0.1, 0.5, 0.95))
+    smooth = (8, 20), (40, 60), (60, 96)
     merging_loads = 1e-4, 1.5e-6, 1e-5
 
     def test_other_methods(self):
@@ -116,8 +149,10 @@ class Wave2d(ReferenceTable, ProgramTest):
 
 class Hexagonal(ReferenceTable, ProgramTest):
     surface = "hexagonal"
+    loads = frozenset(i/100 for i in range(1, 100)) | {0.001, 0.002, 0.005, 0.995, 0.998, 0.999}
     to_recompute = 0.001, 0.05, 0.3, 0.5, 0.65, 0.72, 0.75, 0.9, 0.999
     by_grids = (1e-3, (0.1, 0.6, 0.72, 0.8)), (1e-4, (0.01, 0.3, 0.95))
+    smooth = (8, 40), (40, 64), (76, 96)
     merging_loads = 5e-4, 1e-4, 1e-4
 
 
@@ -126,7 +161,11 @@ class Yield(ProgramTest):
     surfaces = {"wave_2d": "kind = 'wave_2d'", "rectangular": "kind = 'wave_2d', wavelength_y = 2",
                 "hexagonal": "kind = 'hexagonal'"}
     laterals = "constrained", "hydrostatic"
+    ratios = tuple(i/20 for i in range(11))
+    loads = (0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, *(i/20 for i in range(3, 21)))
     name = "largest_von_mises_over_pstar"
+    # Relative errors of less than ten digits: next to merging, and where the search for a place on the surface ends early.
+    error_of = {("hexagonal", 0.7): 3e-9, ("wave_2d", 0.65): 4e-8}
 
     @classmethod
     def setUpClass(cls):
@@ -136,6 +175,34 @@ class Yield(ProgramTest):
 
     def place(self, key):
         return [float(self.table[key][name]) for name in ("x_over_cell_x", "y_over_cell_y", "depth_over_cell_x")]
+
+    def test_rows_and_bounds(self):
+        self.assertEqual({(surface, lateral, nu, load) for surface in self.surfaces for lateral in self.laterals
+                          for nu in self.ratios for load in self.loads}, set(self.table))
+        for key, row in self.table.items():
+            value, error = pair(row, self.name)
+            self.assertGreater(error, 0.0)
+            self.assertLess(error, self.error_of.get((key[0], key[3]), 2e-10)*value, key)
+            for number in self.place(key):
+                self.assertTrue(0.0 <= number < 1.0, key)
+
+    def test_full_contact(self):
+        """Below the crest of the square wave, or on its surface between crests and troughs."""
+        for lateral in self.laterals:
+            for nu in self.ratios:
+                key = "wave_2d", lateral, nu, 1.0
+                value, error = pair(self.table[key], self.name)
+                mean = (1 - 2*nu)/(1 - nu) if lateral == "constrained" else 0.0
+                below = 1.5*math.exp(-2*(1 + nu)/3) + mean
+                between = math.sqrt(mean**2 + 0.75*(1 - 2*nu)**2)
+                self.assertLessEqual(abs(value - max(below, between)), error + 1e-15)
+                x, y, depth = self.place(key)
+                if below > between:
+                    expected = 2*(1 + nu)/3/(2*math.pi*math.sqrt(2))
+                    self.assertAlmostEqual(expected, depth, delta=2e-6)
+                    self.assertIn((x % 0.5, y % 0.5), ((0.0, 0.0),))
+                else:
+                    self.assertEqual((0.25, 0.25, 0.0), (x % 0.5, y % 0.5, depth))
 
     def test_recomputed(self):
         """By expansions of other degrees, and by grids."""
@@ -173,6 +240,21 @@ class Challenge(ProgramTest):
         cls.table = {(int(row["seed"]), float(row["pressure_over_e_star_slope"])): row
                      for row in Table(REFERENCE / "challenge.dat").records()}
 
+    def test_rows_and_bounds(self):
+        self.assertEqual({(seed, load) for seed in (1, 2) for load in self.loads}, set(self.table))
+        for seed in (1, 2):
+            rows = [self.table[seed, load] for load in self.loads]
+            for name, way in (("contact_area_fraction", 1), ("mean_gap", -1), ("stiffness", 1)):
+                values = [way*pair(row, name)[0] for row in rows]
+                self.assertEqual(sorted(values), values, name)
+            for row in rows:
+                coarse, fine = (float(row[f"contact_area_fraction_{points}"]) for points in (2048, 4096))
+                area, error = pair(row, "contact_area_fraction")
+                self.assertAlmostEqual((4*fine - coarse)/3, area, delta=1e-3*area)
+                self.assertTrue(abs(fine - area) <= error <= 0.015*area)
+                self.assertLess(pair(row, "mean_gap")[1], 4e-4)
+                self.assertLess(pair(row, "stiffness")[1], 0.007*float(row["stiffness"]))
+
     def test_stiffness_is_the_slope_of_the_gap(self):
         """Its integral over the logarithm of the pressure, by trapezoids, whose error is the tolerance."""
         for seed in (1, 2):
@@ -193,6 +275,10 @@ class Challenge(ProgramTest):
         self.assertAlmostEqual(float(row["contact_area_fraction_2048"]), area, delta=self.of_pairs*area)
         gap, error = pair(row, "mean_gap")
         self.assertLessEqual(abs(float(record["mean_gap"]) - gap), error + self.of_pairs*gap)
+
+
+def simpson(values, step):
+    return step/3*(values[0] + values[-1] + 4*sum(values[1:-1:2]) + 2*sum(values[2:-1:2]))
 
 
 if __name__ == "__main__":
