@@ -144,7 +144,7 @@ contains
       is_full = self%measures%contact_area_fraction > 0.5_dp
       if (size(curves) > 0) then
          call find_spots(curves, self%measures%contact_area_fraction, surface%dimension, surface%length, loads, &
-                         answer, surface%mirrored)
+                         surface%mirrored, answer)
       else if (self%is_good() .or. is_full) then
          call one_region(is_full, surface%dimension, answer)
       end if

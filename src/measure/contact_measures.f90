@@ -40,7 +40,7 @@ module wavycon_contact_measures
       real(dp) :: contact_area_corrected_fraction = unknown
       !> Elastic energy per nominal area, the mean of p u/2 [p* Delta], and its error estimate, or `unknown`.
       real(dp) :: elastic_energy = unknown, elastic_energy_error = unknown
-      !> That of wavycon_load_concentration, of a light contact on a height map; otherwise 0.
+      !> load_concentration of wavycon_grid_area, of a light contact on a height map; otherwise 0.
       real(dp) :: load_concentration = 0.0_dp
       !> With free edges the part of the load that lies within `border` sides of the border; otherwise 0.
       real(dp) :: load_at_border = 0.0_dp

@@ -55,23 +55,19 @@ contains
    end function total_perimeter
 
    !> The regions that curves divide a cell into. The numbers of spots and pools of the curves run from 1 without gaps.
-   subroutine find_spots(curves, area, dimension, length, loads, answer, with_images)
+   subroutine find_spots(curves, area, dimension, length, loads, is_map, answer)
       type(contact_contour), intent(in) :: curves(:)   !! all of the cell, at least one
       real(dp), intent(in) :: area                !! of the contact over the nominal area
       integer, intent(in) :: dimension            !! of the contact, 1 or 2
       real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
       real(dp), intent(in) :: loads(:)            !! of the spots, over the load; of no size if they are not known
+      !> Whether the cell is a map and its mirror images. In 2-D a region and its images then have one number.
+      logical, intent(in) :: is_map
       type(contact_spots), intent(out) :: answer
-      !> Whether the cell is a map and its mirror images. In 2-D a region and its images then have one number. Absent:
-      !> it is not.
-      logical, intent(in), optional :: with_images
 
       type(contact_region), allocatable :: spots(:), pools(:)
       integer, allocatable :: spot(:), pool(:)
-      logical :: is_map
 
-      is_map = .false.
-      if (present(with_images)) is_map = with_images
       if (dimension == 1) then
          call find_strips(curves, spots, pools)
       else

@@ -19,27 +19,24 @@ contains
 
    !> Sorts the values of equal parts of the area that are selected into bins between the lowest, but at most 0, and the
    !> highest. The sum of fraction*mean is exactly their part of the mean over the whole area.
-   pure subroutine make_histogram(values, selected, bins, answer, is_continuous)
+   pure subroutine make_histogram(values, selected, bins, is_continuous, answer)
       real(dp), intent(in) :: values(:, :)
       logical, intent(in) :: selected(:, :)      !! of the same shape
       integer, intent(in) :: bins                !! >= 1
-      type(histogram), intent(out) :: answer
       !> Whether the values are those at points of a periodic grid of a field that is linear between points that are
-      !> selected, (A7); absent: they are not.
-      logical, intent(in), optional :: is_continuous
+      !> selected, (A7).
+      logical, intent(in) :: is_continuous
+      type(histogram), intent(out) :: answer
 
-      logical :: linear
       integer :: k, l
 
       answer%first = min(0.0_dp, minval(values, mask=selected))
       answer%width = (max(0.0_dp, maxval(values, mask=selected)) - answer%first)/bins
       allocate (answer%fraction(bins), answer%mean(bins), source=0.0_dp)
       if (.not. any(selected)) answer%width = 0.0_dp
-      linear = .false.
-      if (present(is_continuous)) linear = is_continuous
       do l = 1, size(values, 2)
          do k = 1, size(values, 1)
-            if (linear) then
+            if (is_continuous) then
                call add_cell(answer, values, selected, k, l)
             else if (selected(k, l)) then
                call add_value(answer, values(k, l), 1.0_dp)

@@ -21,7 +21,7 @@ module wavycon_cell_file
 
    !> The header of numpy's format, version 1.0 (numpy.lib.format), is a multiple of so many bytes, the same for all
    !> maps of a kind, so that readers that do not know the format skip it.
-   integer, parameter, public :: npy_header_step = 256
+   integer, parameter :: npy_header_step = 256
 
    type :: cell_file
       type(output_file) :: file

@@ -49,7 +49,7 @@ contains
 
       class(contact_fields), allocatable :: fields
       type(surface_line) :: line
-      real(dp), allocatable :: gap(:), p(:), shape(:), u(:), values(:, :)
+      real(dp), allocatable :: gap(:), p(:), shape(:), u(:)
       integer :: number
 
       call results%begin_block(file, load)
@@ -57,21 +57,16 @@ contains
          call results%loads(load)%fields(surface, fields)
          do number = 1, surface%dimension
             call start_surface_line(line, results, number)
-            associate (n => ubound(line%distance, 1))
-               allocate (values(7, 0:n), p(0:n), u(0:n), gap(0:n))
-               shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%parameter()) &
-                       - surface%form_gap(line%angle(1, :), line%angle(2, :))
+            associate (n => size(line%distance))
+               allocate (p(n), u(n), gap(n), shape(n))
             end associate
+            shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%parameter()) &
+                    - surface%form_gap(line%angle(1, :), line%angle(2, :))
             call fields%at_points(line%angle, shape, p, u, gap)
-            values(1, :) = results%in_p_star(p)
-            values(2, :) = u
-            values(3, :) = gap
-            values(4, :) = 1.0_dp - shape
-            values(5, :) = p_star*p
-            values(6, :) = surface%amplitude*u
-            values(7, :) = surface%amplitude*gap
-            call put_surface_line(line, results, load, values, file)
-            deallocate (values, p, u, gap)
+            call put_surface_line(line, results, load, transpose(reshape( &
+               [results%in_p_star(p), u, gap, 1.0_dp - shape, p_star*p, surface%amplitude*u, surface%amplitude*gap], &
+               [size(p), 7])), file)
+            deallocate (p, u, gap, shape)
          end do
       end associate
    end subroutine put_lines

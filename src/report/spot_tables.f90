@@ -189,8 +189,8 @@ contains
          ! The pressure of a series waves about zero outside the contact, whose edge is an isobar.
          least = 0.0_dp
          if (scene%method%has('edge_level')) least = scene%method%real('edge_level')
-         call make_histogram(pressure, pressure > least, bins, pressures, linear)
-         call make_histogram(gap, .not. pressure > least, bins, gaps, linear)
+         call make_histogram(pressure, pressure > least, bins, linear, pressures)
+         call make_histogram(gap, .not. pressure > least, bins, linear, gaps)
       end associate
       call results%begin_block(file, load)
       do bin = 1, bins

@@ -252,21 +252,17 @@ class Plot(ProgramTest):
 
     def test_errors_too_large_for_a_bar(self):
         self.assertNotIn("error unknown", self.drawn("auto.summary.dat"))
-        table = Table(self.folder/"auto.summary.dat")
-        column = table.names.index("contact_area_fraction_error")
-        lines = (self.folder/"auto.summary.dat").read_text().splitlines()
-        words = lines[-1].split()
-        words[column] = "1.0"
-        (self.folder/"open.summary.dat").write_text("\n".join(lines[:-1] + [" ".join(words)]) + "\n")
-        self.assertIn("error unknown or as large as the value", self.drawn("open.summary.dat"))
+        for name, column, error in (("auto.summary", "contact_area_fraction_error", "1.0"),
+                                    ("stress.stress_largest", "largest_shear_over_pstar_error", "NaN")):
+            lines = (self.folder/f"{name}.dat").read_text().splitlines()
+            words = lines[-1].split()
+            words[Table(self.folder/f"{name}.dat").names.index(column)] = error
+            changed = f"open.{name.split('.')[1]}.dat"
+            (self.folder/changed).write_text("\n".join(lines[:-1] + [" ".join(words)]) + "\n")
+            self.assertIn("error unknown or as large as the value", self.drawn(changed))
         # Unknown errors of a grid are NaN, but so are those of the paper's series, which is not marked.
         self.assertIn("error unknown or as large as the value", self.drawn("map.summary.dat"))
         self.assertNotIn("error unknown", self.drawn("paper.summary.dat"))
-        lines = (self.folder/"stress.stress_largest.dat").read_text().splitlines()
-        words = lines[-1].split()
-        words[Table(self.folder/"stress.stress_largest.dat").names.index("largest_shear_over_pstar_error")] = "NaN"
-        (self.folder/"open.stress_largest.dat").write_text("\n".join(lines[:-1] + [" ".join(words)]) + "\n")
-        self.assertIn("error unknown or as large as the value", self.drawn("open.stress_largest.dat"))
 
     def test_the_linear_law_beside_the_areas_of_a_map(self):
         self.assertIn("the rms slope", self.drawn("map.summary.dat"))
