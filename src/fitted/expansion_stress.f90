@@ -11,7 +11,7 @@ module wavycon_expansion_stress
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: add_gap, all_fields, stress_fields
+   use wavycon_stress_kernel, only: all_fields, stress_fields
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -188,12 +188,7 @@ contains
                   do m = 1, size(self%centre)
                      at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
                      fields(7:8) = self%half_turn(m)*fields(7:8)
-                     if (self%spot%solution%pool) then
-                        call add_gap(size(sources%x), at%re - sources%x, at%im - sources%y, z(k), &
-                                     sources%strength(:, 1), fields)
-                     else
-                        call sources%add_at(all_fields, at, z(k), fields)
-                     end if
+                     call sources%add_at(all_fields, at, z(k), fields)
                      fields(7:8) = self%half_turn(m)*fields(7:8)
                   end do
                   fields = -fields
