@@ -49,7 +49,8 @@ contains
       self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
       ! A flat surface is in full contact at every load: no expansion is needed.
-      self%is_started = (allocated(self%frame%lattice) .or. .not. surface%amplitude > 0.0_dp) .and. .not. surface%has_hardness()
+      self%is_started = (allocated(self%frame%lattice) .or. .not. surface%amplitude > 0.0_dp) &
+         .and. .not. surface%has_hardness()
    end subroutine start
 
    !> Solves one load by solve_fitted and converts its answer to p* and Delta.

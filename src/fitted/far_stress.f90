@@ -21,7 +21,8 @@ module wavycon_far_stress
       logical, private :: pool = .false.
       integer :: n(3) = 0                               !! terms, and nodes, in x, y and z
       real(dp), allocatable :: node_x(:), node_y(:), node_z(:)   !! places at which the values are taken [s]
-      real(dp), allocatable, private :: coefficient(:, :, :, :)  !! shape (0:n_x-1, 0:n_y-1, 0:n_z, 8); last in z the constant
+      !> Shape (0:n_x-1, 0:n_y-1, 0:n_z, 8); last in z the constant.
+      real(dp), allocatable, private :: coefficient(:, :, :, :)
    contains
       procedure :: add_at
    end type far_stress
