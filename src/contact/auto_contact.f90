@@ -58,7 +58,7 @@ contains
          allocate (closed_form)
          call closed_form%start(surface)
          call move_alloc(closed_form, self%first)
-      else if (frame%is_found()) then
+      else if (allocated(frame%lattice)) then
          self%choice = has_expansions
          allocate (fitted)
          call fitted%start(surface, fitted_options(options%accuracy), keep_fields)

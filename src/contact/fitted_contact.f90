@@ -49,7 +49,8 @@ contains
       self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
       ! A flat surface is in full contact at every load: no expansion is needed.
-      self%is_started = (self%frame%is_found() .or. .not. surface%amplitude > 0.0_dp) .and. .not. surface%has_hardness()
+      self%is_started = (allocated(self%frame%lattice) .or. .not. surface%amplitude > 0.0_dp) &
+         .and. .not. surface%has_hardness()
    end subroutine start
 
    !> Solves one load by solve_fitted and converts its answer to p* and Delta.
@@ -62,7 +63,7 @@ contains
       type(fitted_answer) :: answer
       type(fitted_source), allocatable :: source
 
-      if (self%frame%is_found()) then
+      if (allocated(self%frame%lattice)) then
          ! solve_fitted takes a relative accuracy. The largest of the three values, the peak pressure, is less than
          ! that of full contact at P = 1.
          call solve_fitted(self%frame%lattice, pbar_over_pstar/self%frame%pressure_unit, &

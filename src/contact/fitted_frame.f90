@@ -19,7 +19,6 @@ module wavycon_fitted_frame
       real(dp) :: pressure_unit = 1.0_dp       !! the lattice's, pi E* Delta/s [p*]
       type(wave_lattice), allocatable :: lattice   !! of the crests; none if no expansions exist for the surface
    contains
-      procedure :: is_found
       procedure :: place
    end type fitted_frame
 
@@ -33,7 +32,7 @@ contains
    !> for the hexagonal wave.
    subroutine find_frame(surface, frame)
       type(surface_type), intent(in) :: surface
-      type(fitted_frame), intent(out) :: frame   !! is_found() is .false. for all other surfaces
+      type(fitted_frame), intent(out) :: frame   !! without a lattice for all other surfaces
 
       real(dp) :: curvature(2)
 
@@ -99,13 +98,6 @@ contains
       end function has_only
 
    end subroutine find_frame
-
-   !> Whether expansions exist for the surface.
-   pure logical function is_found(self)
-      class(fitted_frame), intent(in) :: self
-
-      is_found = allocated(self%lattice)
-   end function is_found
 
    !> The coordinates on the lattice [s] of a point of the surface.
    elemental complex(dp) function place(self, x, y)

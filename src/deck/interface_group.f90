@@ -110,7 +110,7 @@ contains
          has_adhesion = surface%is_paper_wave()
       else
          call find_frame(surface, frame)
-         has_adhesion = frame%is_found()
+         has_adhesion = allocated(frame%lattice)
       end if
    end function has_adhesion
 

@@ -108,7 +108,7 @@ contains
       call dgemv('N', 2*n, terms, 1.0_dp, self%power, 2*n, shape%b(1:), 1, 0.0_dp, slope, 1)
       call dgemv('N', 2*n, terms, 1.0_dp, self%difference, 2*n, shape%b(1:), 1, 0.0_dp, total, 1)
       associate (turn => self%turn, tau => (shape%fold + 1)*shape%clustering)
-         ! The factor e^(i phi) of Q does not matter, as only |Q| is used, and for the same reason this is its conjugate.
+         ! As only |Q| is used, the factor e^(i phi) of Q does not matter, and this is its conjugate.
          q(:, 1) = shape%b(0)*analytic(:, 1) + turn(:, 1)*total(:, 1) - turn(:, 2)*total(:, 2)
          q(:, 2) = -shape%b(0)*analytic(:, 2) + turn(:, 1)*total(:, 2) + turn(:, 2)*total(:, 1)
          analytic_square = (1.0_dp - tau*step(:, 1))**2 + (tau*step(:, 2))**2

@@ -5,7 +5,7 @@ module wavycon_disc_sources
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
-   use wavycon_stress_kernel, only: add_sources, stress_fields
+   use wavycon_stress_kernel, only: add_sources, of_gap, of_gradient, of_pressure, stress_fields
    implicit none (type, external)
    private
 
@@ -13,7 +13,7 @@ module wavycon_disc_sources
 
    !> A whole spot or pool as point sources.
    type :: disc_sources
-      logical :: pool = .false.
+      integer :: source = of_pressure              !! what they are, as of wavycon_stress_kernel
       real(dp), allocatable :: x(:), y(:)          !! from the centre, shape (n) [s]
       real(dp), allocatable :: strength(:, :)
          !! times area, shape (n, 2): a spot's pressure or a pool's gap, and 0; or the gap's gradient
@@ -34,7 +34,7 @@ contains
       type(disc_rule) :: rule
       complex(dp), allocatable :: density(:), strength(:), z(:)
 
-      sources%pool = solution%pool
+      if (solution%pool) sources%source = merge(of_gradient, of_gap, gradient)
       associate (fold => solution%basis%fold)
          ! The gradient behaves as the root of 1 - |w|^2, as a pressure does.
          call start_disc_rule(rule, merge(0.5_dp, solution%basis%power, gradient), fold, radii, &
@@ -83,12 +83,12 @@ contains
    !> Adds the fields at a place.
    pure subroutine add_at(self, kernel, place, depth, fields)
       class(disc_sources), intent(in) :: self
-      integer, intent(in) :: kernel                     !! as of add_sources, for which the sources were set
+      integer, intent(in) :: kernel                     !! as of add_sources
       complex(dp), intent(in) :: place                  !! from the centre [s]
       real(dp), intent(in) :: depth                     !! >= 0 [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
-      call add_sources(kernel, self%pool, size(self%x), place%re - self%x, place%im - self%y, depth, &
+      call add_sources(kernel, self%source, size(self%x), place%re - self%x, place%im - self%y, depth, &
                        self%strength(:, 1), self%strength(:, 2), fields)
    end subroutine add_at
 

@@ -1,14 +1,15 @@
-!> A function that is even in x and in y, as a polynomial in x^2 and y^2 on the rectangle |x| <= 1/2, |y| <= height/2.
+!> Chebyshev's interpolation on -1 <= x <= 1, at the nodes cos(pi (i - 1/2)/n); and a function that is even in x and in
+!> y, as a polynomial in x^2 and y^2 on the rectangle |x| <= 1/2, |y| <= height/2.
 !>
-!> It is interpolated by Chebyshev's polynomials in u = 8 x^2 - 1 and v = 8 (y/height)^2 - 1, both between -1 and 1:
-!> README.md (F22).
+!> The latter is interpolated in u = 8 x^2 - 1 and v = 8 (y/height)^2 - 1, both between -1 and 1: README.md (F22).
 !> Coefficients below rounding are dropped, and the rest is turned into powers of u and v, evaluated by Horner's scheme.
 module wavycon_even_polynomial
-   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node
+   use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
+   public :: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
    public :: even_polynomial, fit_nodes, start_even_polynomial
 
    type :: even_polynomial
@@ -141,5 +142,40 @@ contains
          end do
       end if
    end subroutine evaluate
+
+   !> The i-th of n nodes of Chebyshev's interpolation.
+   elemental real(dp) function chebyshev_node(i, n) result(x)
+      integer, intent(in) :: i          !! 1 to n; the largest node is the first
+      integer, intent(in) :: n          !! >= 1
+
+      x = cos(pi*(i - 0.5_dp)/n)
+   end function chebyshev_node
+
+   !> The matrix that turns values at the n nodes into coefficients of T_0 to T_(n-1).
+   pure function chebyshev_coefficients(n) result(matrix)
+      integer, intent(in) :: n          !! >= 1
+      real(dp) :: matrix(0:n - 1, n)
+
+      integer :: i, k
+
+      do i = 1, n
+         matrix(:, i) = [(merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1)]
+      end do
+   end function chebyshev_coefficients
+
+   !> T_0 to T_(n-1).
+   pure function chebyshev_polynomials(x, n) result(t)
+      real(dp), intent(in) :: x
+      integer, intent(in) :: n          !! >= 2
+      real(dp) :: t(0:n - 1)
+
+      integer :: i
+
+      t(0) = 1.0_dp
+      t(1) = x
+      do i = 2, n - 1
+         t(i) = 2*x*t(i - 1) - t(i - 2)
+      end do
+   end function chebyshev_polynomials
 
 end module wavycon_even_polynomial

@@ -6,12 +6,12 @@ module wavycon_expansion_stress
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_expansion, only: expansion
-   use wavycon_far_stress, only: far_nodes, far_stress, set_far_values, start_far_stress
-   use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance, series_depth
+   use wavycon_far_stress, only: far_stress, set_far_values, start_far_stress
+   use wavycon_fitted_tuning, only: far_top, near_clearance, series_depth
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: add_gap, all_fields, stress_fields
+   use wavycon_stress_kernel, only: all_fields, stress_fields
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -166,9 +166,9 @@ contains
       type(disc_sources) :: sources
       type(stress_series) :: series
       complex(dp) :: at
-      real(dp), allocatable :: values(:, :, :, :), x(:), y(:), z(:)
+      real(dp), allocatable :: values(:, :, :, :)
       real(dp) :: fields(stress_fields), mean, sides(2)
-      integer :: i, j, k, m, terms(3)
+      integer :: i, j, k, m
 
       associate (rows => self%lattice%rows)
          call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
@@ -176,24 +176,19 @@ contains
          mean = -sum(sources%strength(:, 1))/rows%spacing
          sides = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) sides = sides([2, 1])
-         terms = far_sizes(sides, self%spot%digits - 1.0_dp)
          allocate (self%far)
-         call start_far_stress(self%far, sides(1), sides(2), far_top, far_bottom, self%spot%solution%pool, terms)
-         allocate (x(terms(1)), y(terms(2)), z(terms(3)), values(terms(1), terms(2), terms(3), stress_fields))
-         call far_nodes(self%far, x, y, z)
-         do k = 1, terms(3)
-            do j = 1, terms(2)
-               do i = 1, terms(1)
+         call start_far_stress(self%far, sides, self%spot%solution%pool, self%spot%digits - 1.0_dp)
+      end associate
+      associate (n => self%far%n, x => self%far%node_x, y => self%far%node_y, z => self%far%node_z)
+         allocate (values(n(1), n(2), n(3), stress_fields))
+         do k = 1, n(3)
+            do j = 1, n(2)
+               do i = 1, n(1)
                   fields = 0.0_dp
                   do m = 1, size(self%centre)
                      at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
                      fields(7:8) = self%half_turn(m)*fields(7:8)
-                     if (self%spot%solution%pool) then
-                        call add_gap(size(sources%x), at%re - sources%x, at%im - sources%y, z(k), &
-                                     sources%strength(:, 1), fields)
-                     else
-                        call sources%add_at(all_fields, at, z(k), fields)
-                     end if
+                     call sources%add_at(all_fields, at, z(k), fields)
                      fields(7:8) = self%half_turn(m)*fields(7:8)
                   end do
                   fields = -fields
@@ -205,27 +200,5 @@ contains
          call set_far_values(self%far, mean, values)
       end associate
    end subroutine prepare_far
-
-   !> Numbers of terms: the fields are singular beyond the sides by near_clearance, and above the surface by as much.
-   pure function far_sizes(sides, digits) result(terms)
-      real(dp), intent(in) :: sides(2)
-      real(dp), intent(in) :: digits
-      integer :: terms(3)
-
-      terms(:2) = ceiling(digits/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
-      ! At the surface, outside of the nodes, the polynomials have grown.
-      associate (middle => 0.5_dp*(far_bottom**2 + far_top**2), half => 0.5_dp*(far_bottom**2 - far_top**2))
-         terms(3) = ceiling(digits/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
-      end associate
-      terms = max(terms, 4)
-   end function far_sizes
-
-   !> Sum of the half axes of Bernstein's ellipse through x > 1: a function that is analytic inside has coefficients of
-   !> Chebyshev's polynomials that fall as its powers.
-   elemental real(dp) function ellipse(x)
-      real(dp), intent(in) :: x
-
-      ellipse = x + sqrt(x**2 - 1.0_dp)
-   end function ellipse
 
 end module wavycon_expansion_stress

@@ -5,7 +5,7 @@
 !>
 !> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity.
 module wavycon_exterior_series
-   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node
+   use wavycon_even_polynomial, only: chebyshev_coefficients, chebyshev_node
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp

@@ -4,22 +4,25 @@
 !> 13. They are the difference of the Fourier series of all and the sum of the near ones, which is taken at some depth
 !> where the series is short. The same point sources stand for both, so that the difference is exact.
 module wavycon_far_stress
-   use wavycon_chebyshev, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
+   use wavycon_even_polynomial, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
+   use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance
+   use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
    use wavycon_stress_kernel, only: dh_field, h_field, hz_field, l_field, stress_fields, v_field
    implicit none (type, external)
    private
 
-   public :: far_stress, start_far_stress, far_nodes, set_far_values
+   public :: far_stress, start_far_stress, set_far_values
 
    !> Each field is x^a y^b (constant + z^c even(z)), with coefficients of Chebyshev's polynomials in x^2, y^2 and z^2.
    type :: far_stress
-      real(dp) :: width = 0.5_dp, height = 0.5_dp       !! of the quarter of the cell [s]
-      real(dp) :: top = 0.0_dp, bottom = 0.0_dp         !! of the depths of the nodes [s]
-      logical :: pool = .false.
-      integer :: n(3) = 0                               !! terms in x, y and z
-      real(dp), allocatable :: coefficient(:, :, :, :)  !! shape (0:n_x-1, 0:n_y-1, 0:n_z, 8); last in z the constant
+      real(dp), private :: sides(2) = 0.5_dp            !! of the quarter of the cell [s]
+      logical, private :: pool = .false.
+      integer :: n(3) = 0                               !! terms, and nodes, in x, y and z
+      real(dp), allocatable :: node_x(:), node_y(:), node_z(:)   !! places at which the values are taken [s]
+      !> Shape (0:n_x-1, 0:n_y-1, 0:n_z, 8); last in z the constant.
+      real(dp), allocatable, private :: coefficient(:, :, :, :)
    contains
       procedure :: add_at
    end type far_stress
@@ -34,34 +37,38 @@ module wavycon_far_stress
 
 contains
 
-   subroutine start_far_stress(table, width, height, top, bottom, pool, terms)
+   !> Chooses terms and nodes. The fields are singular beyond the sides by near_clearance, and above the surface by as
+   !> much.
+   subroutine start_far_stress(table, sides, pool, digits)
       type(far_stress), intent(out) :: table
-      real(dp), intent(in) :: width, height    !! half the sides of the rectangle about a crest [s]
-      real(dp), intent(in) :: top, bottom      !! depths between which the values are taken [s]
+      real(dp), intent(in) :: sides(2)         !! half the sides of the rectangle about a crest, along x and y [s]
       logical, intent(in) :: pool
-      integer, intent(in) :: terms(3)          !! in x, y and z
+      real(dp), intent(in) :: digits           !! natural logarithm of 1/accuracy
 
-      table%width = width
-      table%height = height
-      table%top = top
-      table%bottom = bottom
-      table%pool = pool
-      table%n = terms
-      allocate (table%coefficient(0:terms(1) - 1, 0:terms(2) - 1, 0:terms(3), stress_fields), source=0.0_dp)
-   end subroutine start_far_stress
-
-   !> Places at which the values are taken.
-   subroutine far_nodes(table, x, y, z)
-      type(far_stress), intent(in) :: table
-      real(dp), intent(out) :: x(:), y(:), z(:)     !! [s]
-
+      real(dp), parameter :: middle = 0.5_dp*(far_bottom**2 + far_top**2), half = 0.5_dp*(far_bottom**2 - far_top**2)
       integer :: i
 
-      x = table%width*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, size(x))], size(x))))
-      y = table%height*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, size(y))], size(y))))
-      z = sqrt(0.5_dp*(table%top**2 + table%bottom**2 &
-                       + (table%bottom**2 - table%top**2)*chebyshev_node([(i, i=1, size(z))], size(z))))
-   end subroutine far_nodes
+      table%sides = sides
+      table%pool = pool
+      table%n(:2) = ceiling(digits/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
+      ! At the surface, outside of the nodes, the polynomials have grown.
+      table%n(3) = ceiling(digits/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
+      table%n = max(table%n, 4)
+      associate (n => table%n)
+         table%node_x = sides(1)*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, n(1))], n(1))))
+         table%node_y = sides(2)*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, n(2))], n(2))))
+         table%node_z = sqrt(middle + half*chebyshev_node([(i, i=1, n(3))], n(3)))
+         allocate (table%coefficient(0:n(1) - 1, 0:n(2) - 1, 0:n(3), stress_fields), source=0.0_dp)
+      end associate
+   end subroutine start_far_stress
+
+   !> Sum of the half axes of Bernstein's ellipse through x > 1: a function that is analytic inside has coefficients of
+   !> Chebyshev's polynomials that fall as its powers.
+   elemental real(dp) function ellipse(x)
+      real(dp), intent(in) :: x
+
+      ellipse = x + sqrt(x**2 - 1.0_dp)
+   end function ellipse
 
    !> Sets the table.
    subroutine set_far_values(table, mean, values)
@@ -70,10 +77,10 @@ contains
       real(dp), intent(inout) :: values(:, :, :, :)  !! at the nodes, shape (n_x, n_y, n_z, 8); used up
 
       real(dp) :: constant(table%n(1), table%n(2), 2), of_x(table%n(1), table%n(1)), of_y(table%n(2), table%n(2)), &
-                  of_z(table%n(3), table%n(3)), x(table%n(1)), y(table%n(2)), z(table%n(3))
+                  of_z(table%n(3), table%n(3)), z(table%n(3))
       integer :: f, i, j, k
 
-      call far_nodes(table, x, y, z)
+      z = table%node_z
       of_x = chebyshev_coefficients(table%n(1))
       of_y = chebyshev_coefficients(table%n(2))
       of_z = chebyshev_coefficients(table%n(3))
@@ -115,12 +122,12 @@ contains
 
          if (odd_x(f)) then
             do i = 1, table%n(1)
-               plane(i, :) = plane(i, :)/x(i)
+               plane(i, :) = plane(i, :)/table%node_x(i)
             end do
          end if
          if (odd_y(f)) then
             do j = 1, table%n(2)
-               plane(:, j) = plane(:, j)/y(j)
+               plane(:, j) = plane(:, j)/table%node_y(j)
             end do
          end if
       end subroutine divide
@@ -128,7 +135,6 @@ contains
       !> D^2 L on the surface, from its value at the least depth and D^2 V above, integrated by Gauss's rule of as many
       !> points as there are terms: exact for the polynomial.
       function surface_values() result(surface)
-         use wavycon_gauss_rules, only: gauss_jacobi
          real(dp) :: surface(table%n(1), table%n(2), 2)
 
          real(dp) :: node(table%n(3)), per_node(table%n(3)), weight(table%n(3))
@@ -138,7 +144,7 @@ contains
          associate (least => z(table%n(3)))
             do k = 1, table%n(3)
                per_node = per_node + 0.5_dp*least*weight(k) &
-                  *matmul(chebyshev_polynomials(depth_argument(table, 0.5_dp*least*(1.0_dp + node(k))), &
+                  *matmul(chebyshev_polynomials(depth_argument(0.5_dp*least*(1.0_dp + node(k))), &
                                                 table%n(3)), of_z)
             end do
          end associate
@@ -151,11 +157,10 @@ contains
    end subroutine set_far_values
 
    !> The argument of the polynomials for a depth.
-   pure real(dp) function depth_argument(table, depth)
-      type(far_stress), intent(in) :: table
+   pure real(dp) function depth_argument(depth)
       real(dp), intent(in) :: depth
 
-      depth_argument = (2*depth**2 - table%top**2 - table%bottom**2)/(table%bottom**2 - table%top**2)
+      depth_argument = (2*depth**2 - far_top**2 - far_bottom**2)/(far_bottom**2 - far_top**2)
    end function depth_argument
 
    !> Adds the fields at a place.
@@ -169,9 +174,9 @@ contains
                   plane(0:self%n(2) - 1, 0:self%n(3), stress_fields), value
       integer :: f, i, k, rest
 
-      of_x = chebyshev_polynomials(2*(x/self%width)**2 - 1.0_dp, self%n(1))
-      of_y = chebyshev_polynomials(2*(y/self%height)**2 - 1.0_dp, self%n(2))
-      of_z(:self%n(3) - 1, 1) = chebyshev_polynomials(depth_argument(self, depth), self%n(3))
+      of_x = chebyshev_polynomials(2*(x/self%sides(1))**2 - 1.0_dp, self%n(1))
+      of_y = chebyshev_polynomials(2*(y/self%sides(2))**2 - 1.0_dp, self%n(2))
+      of_z(:self%n(3) - 1, 1) = chebyshev_polynomials(depth_argument(depth), self%n(3))
       of_z(:, 2) = depth*of_z(:, 1)
       of_z(self%n(3), :) = 1.0_dp
       rest = size(plane)

@@ -1,6 +1,5 @@
 !> The contact of a wave on its lattice by collocation fitted to the edge, to a given accuracy.
 module wavycon_fitted_solver
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: degree_history
    use wavycon_expansion, only: expansion
@@ -52,7 +51,6 @@ contains
 
       answer%pbar_over_pstar = pbar_over_pstar
       answer%status = fitted_bad_input
-      if (ieee_is_nan(pbar_over_pstar) .or. ieee_is_nan(accuracy)) return
       if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < lattice%closing_pressure)) return
       if (.not. accuracy > 0.0_dp) return
       first_is_pool = pbar_over_pstar > lattice%about_merging

@@ -11,7 +11,8 @@ module wavycon_stress_rays
       ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
-   use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, stress_fields
+   use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, of_gap, of_gradient, of_pressure, &
+      stress_fields
    implicit none (type, external)
    private
 
@@ -191,11 +192,10 @@ contains
 
          complex(dp), dimension(n) :: density, difference, step, w
          real(dp) :: analytic(n, 2), differences(n, 2, ubound(solution%shape%b, 1))
-         real(dp), dimension(n) :: at_t, eta, root, sigma, strength, strength_y, t, x, y
+         real(dp), dimension(n) :: at_t, eta, root, sigma, t
          real(dp) :: squared_stretch
          complex(dp) :: kernel
-         integer :: i
-         logical :: gradient
+         integer :: i, source
 
          eta = first + 0.5_dp*(last - first)*(1.0_dp + node)
          ! The same as r + width sinh(eta), without cancellation next to w_0.
@@ -209,18 +209,16 @@ contains
             difference = b(0)*step*cmplx(analytic(:, 1), analytic(:, 2), dp) &
                + conjg(step*cmplx(matmul(differences(:, 1, :), b(1:)), matmul(differences(:, 2, :), b(1:)), dp))
          end associate
-         gradient = solution%pool .and. self%kernel == all_fields
-         call find_density(solution, gradient, n, w, root**2, density)
+         source = of_pressure
+         if (solution%pool) source = merge(of_gradient, of_gap, self%kernel == all_fields)
+         call find_density(solution, source == of_gradient, n, w, root**2, density)
          ! dt = root dsigma, and the density's own root, of a gap itself its cube.
          at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
          density = density*(at_t*root*t)
-         if (solution%pool .and. .not. gradient) density = density*root**2
-         strength = density%re
-         strength_y = density%im
+         if (source == of_gap) density = density*root**2
          do i = 1, size(offset)
-            x = offset(i)%re - difference%re
-            y = offset(i)%im - difference%im
-            call add_sources(self%kernel, solution%pool, n, x, y, depth(i), strength, strength_y, fields(:, i))
+            call add_sources(self%kernel, source, n, offset(i)%re - difference%re, offset(i)%im - difference%im, &
+                             depth(i), density%re, density%im, fields(:, i))
          end do
          if (.not. on_surface) return
          ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
@@ -234,8 +232,7 @@ contains
             else
                kernel = stretch**2/squared_stretch**2/pi*at_origin
             end if
-            own(l_field) = own(l_field) + remainder*kernel%re
-            own(l_field + 1) = own(l_field + 1) + remainder*kernel%im
+            own(l_field:l_field + 1) = own(l_field:l_field + 1) + remainder*[kernel%re, kernel%im]
          end associate
       end subroutine add_points
 

@@ -126,7 +126,7 @@ contains
       case ('fitted')
          call find_frame(surface, frame)
          ! A flat surface is in full contact at every load: no expansion is needed.
-         if (.not. frame%is_found() .and. surface%amplitude > 0.0_dp) words = &
+         if (.not. allocated(frame%lattice) .and. surface%amplitude > 0.0_dp) words = &
             "is for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
             ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
             ':1 and for three equal waves at 60 degrees'
