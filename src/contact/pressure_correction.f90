@@ -2,8 +2,8 @@
 !> precision, on the points in and near the contact.
 !>
 !> Conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky & Keer (Wear 231
-!> (1999) 206-219), with a preconditioner and Polak & Ribiere's factor, and the projection on the allowed pressures in
-!> place of their factor. Numbers (C..) are the equations of README.md in this directory.
+!> (1999) 206-219), with a preconditioner and Polak & Ribiere's factor. Numbers (C..) are the equations of README.md in
+!> this directory.
 module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
@@ -227,7 +227,7 @@ contains
       type(correction_state), intent(inout) :: state
       real(sp), intent(in), contiguous :: direction(:)
       real(sp), intent(in) :: step
-      real(dp), intent(in) :: load                         !! sum of the pressures after the step, > 0
+      real(dp), intent(in) :: load                         !! sum of the pressures after the step
       real(dp), intent(in) :: change_sum                   !! of the changes since the start
       real(sp), intent(inout), contiguous :: field(:, :)   !! becomes what the pressure changes
 
@@ -235,8 +235,9 @@ contains
       real(sp), dimension(longest_chunk) :: change, delta
       integer :: c, n
 
-      excess = real(-change_sum/max(load, tiny(load)), sp)
+      excess = 0.0_sp
       factor = 0.0_sp
+      if (load > 0.0_dp) excess = real(-change_sum/load, sp)
       ! The step may be so much longer than the pressure that what is left of it would be rounded to zero.
       if (excess <= -1.0_sp) factor = real(state%sum_of(real(state%start_pressure, dp))/load, sp)
       !$omp parallel do num_threads(state%region%threads) private(change, delta, n)
