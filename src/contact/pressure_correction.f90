@@ -221,8 +221,8 @@ contains
       call state%update_contact(state%mean_gap(field))
    end subroutine take_step
 
-   !> Moves the pressure by a step with which points leave the contact, and then multiplies it by the factor that restores
-   !> its mean (C7).
+   !> Moves the pressure by a step with which points leave the contact, and then multiplies it by the factor that
+   !> restores its mean (C7).
    subroutine restore_mean(state, direction, step, load, change_sum, field)
       type(correction_state), intent(inout) :: state
       real(sp), intent(in), contiguous :: direction(:)
@@ -249,7 +249,8 @@ contains
             if (excess > -1.0_sp) then
                change(:n) = change(:n) + state%contact(a:b)*(excess*(start(a:b) + change(:n)))
             else
-               change(:n) = merge(factor*(start(a:b) + change(:n)) - start(a:b), change(:n), state%contact(a:b) > 0.0_sp)
+               change(:n) = merge(factor*(start(a:b) + change(:n)) - start(a:b), change(:n), &
+                                  state%contact(a:b) > 0.0_sp)
             end if
             delta(:n) = change(:n) - state%change(a:b)
             state%change(a:b) = change(:n)

@@ -20,7 +20,8 @@ module wavycon_compliance_operator
       integer :: transform_pairs = 0               !! number of applications so far to fields in double precision
       integer :: single_pairs = 0                  !! the same in single precision
       integer :: points(2) = 0                     !! of the grid that it was started on
-      logical :: even = .true.                     !! whether the points are those of a quarter of an even surface's cell
+      !> Whether the points are those of a quarter of an even surface's cell.
+      logical :: even = .true.
       !> Stiffness of a harmonic whose wavelength is a step in x or y [p*/Delta].
       real(dp) :: stiffness_per_step(2) = 0.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
