@@ -274,7 +274,7 @@ contains
       integer :: c, n
 
       associate (start => state%start_pressure, contact => state%contact)
-         change = state%change - real(step, dp)*direction
+         allocate (change, source=state%change - real(step, dp)*direction)
          above = contact*(start + change)
          below = contact*(state%room - change)
          shift = bounded_shift(state%slab, state%region%strip_places(), above, below, &
