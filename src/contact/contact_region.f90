@@ -1,22 +1,20 @@
 !> The points of a grid in and near the contact, and vectors of their values.
 !>
 !> A vector lists the values of a field at the points of the region, column by column. Its length is the number of these
-!> points: what is computed with vectors costs nothing where there is no contact. `gather` takes a vector from a field,
-!> `scatter` writes it back.
+!> points: what is computed with vectors costs nothing where there is no contact.
 !>
 !> Vectors are computed chunk by chunk: a chunk has at most `longest_chunk` numbers, so that several sums and changes of
 !> it take them from the cache, and threads share the chunks. Each strip of a slab begins a new chunk: its sums do not
 !> depend on what other slabs have.
 module wavycon_contact_region
    use, intrinsic :: iso_c_binding, only: c_bool
-   use, intrinsic :: iso_fortran_env, only: int8
-   use wavycon_grid_slab, only: strip_columns
+   use wavycon_grid_slab, only: grid_slab, strip_columns
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
    implicit none (type, external)
    private
 
-   public :: contact_region
+   public :: add_neighbours, contact_region
 
    !> Numbers of a chunk. It bounds the rounding of sums in single precision.
    integer, parameter, public :: longest_chunk = 4096
@@ -27,25 +25,21 @@ module wavycon_contact_region
       integer :: threads = 1                   !! for loops over its points
       integer :: chunks = 0
       integer, allocatable :: chunk(:)         !! place in vectors where each chunk begins, and one more, (chunks+1)
-      integer, allocatable :: strip(:)         !! where each strip of columns begins in vectors, shape (strips+1)
-      !> Runs of adjacent points: run r has the points first(r) to last(r) of its column, and point i of it has the
-      !> place i + offset(r) in vectors. A run belongs to one chunk.
-      integer, allocatable, private :: first(:), last(:), offset(:)
-      integer, allocatable, private :: run(:)  !! first run of each column, then last run + 1, shape (N+1)
+      !> Runs of adjacent points of one column and one chunk: the points first to last, and the place of the first of
+      !> them in vectors.
+      integer, allocatable, private :: column(:), first(:), last(:), place(:)
       integer, allocatable, private :: chunk_run(:)      !! first run of each chunk, and one more, shape (chunks+1)
-      integer, allocatable, private :: chunk_column(:)   !! column of that run, shape (chunks)
       integer, allocatable, private :: strip_chunk(:)    !! first chunk of each strip, and one more, shape (strips+1)
    contains
       procedure :: start
-      procedure :: gather
       procedure :: gather_scaled
-      procedure :: scatter
       procedure :: take_chunk
       procedure :: put_chunk
+      procedure :: convolve_chunk
+      procedure :: strip_places
       procedure :: strip_sums
       procedure :: correct
       procedure :: clear_outside
-      procedure :: convolve
    end type contact_region
 
 contains
@@ -53,93 +47,63 @@ contains
    !> Starts a region of the points of a slab.
    subroutine start(self, inside)
       class(contact_region), intent(out) :: self
-      logical(c_bool), intent(in) :: inside(:, :)   !! whether a point belongs to it, shape (M, N), N the own columns
+      real(sp), intent(in) :: inside(:, :)   !! > 0 at its points, 0 at others, shape (M, N), N the own columns
 
-      integer :: counts(size(inside, 2)), points(size(inside, 2))
-      integer :: begin, finish, j, m, most_chunks, n, r, strips
+      integer :: counts(2, size(inside, 2)), filled, i, j, m, n, r, strips
+      logical :: in_run
 
       m = size(inside, 1)
       n = size(inside, 2)
-      strips = (n + strip_columns - 1)/strip_columns
       !$omp parallel do num_threads(threads_for(size(inside)))
       do j = 1, n
-         points(j) = count(inside(:, j))
-         counts(j) = count(inside(2:, j) .and. .not. inside(:m - 1, j))
-         if (inside(1, j)) counts(j) = counts(j) + 1
-         ! Runs that would be longer than a chunk are split.
-         counts(j) = counts(j) + points(j)/longest_chunk
+         counts(:, j) = [count(inside(:, j) > 0.0_sp), &
+                         count(inside(2:, j) > 0.0_sp .and. inside(:m - 1, j) <= 0.0_sp) + 1]
       end do
-      ! Two adjacent chunks of a strip together have more numbers than one chunk can hold.
-      most_chunks = 2*(sum(points)/longest_chunk) + strips
-      allocate (self%run(n + 1), self%first(sum(counts)), self%last(sum(counts)), self%offset(sum(counts)))
-      allocate (self%chunk(most_chunks + 1), self%chunk_run(most_chunks + 1), self%chunk_column(most_chunks))
-      allocate (self%strip(strips + 1), self%strip_chunk(strips + 1))
-      self%columns = points > 0
-      self%threads = threads_for(sum(points))
+      self%columns = counts(1, :) > 0
+      self%threads = threads_for(sum(counts(1, :)))
+      strips = (n + strip_columns - 1)/strip_columns
+      allocate (self%chunk(sum(counts(1, :))/longest_chunk + strips + 1), self%strip_chunk(strips + 1))
+      allocate (self%chunk_run, mold=self%chunk)
+      associate (most_runs => sum(counts(2, :), self%columns) + size(self%chunk))
+         allocate (self%column(most_runs), self%first(most_runs), self%last(most_runs), self%place(most_runs))
+      end associate
       r = 0
+      filled = 0
       do j = 1, n
          if (modulo(j - 1, strip_columns) == 0) then
-            self%strip((j - 1)/strip_columns + 1) = self%points + 1
             self%strip_chunk((j - 1)/strip_columns + 1) = self%chunks + 1
+            filled = longest_chunk
          end if
-         self%run(j) = r + 1
-         finish = 0
-         do while (points(j) > 0)
-            begin = finish + 1
-            do while (.not. inside(begin, j))
-               begin = begin + 1
-            end do
-            finish = begin
-            do while (finish < min(m, begin + longest_chunk - 1))
-               if (.not. inside(finish + 1, j)) exit
-               finish = finish + 1
-            end do
-            call add_run()
-            points(j) = points(j) - (finish - begin + 1)
+         if (.not. self%columns(j)) cycle
+         in_run = .false.
+         do i = 1, m
+            if (inside(i, j) <= 0.0_sp) then
+               in_run = .false.
+               cycle
+            end if
+            if (filled == longest_chunk) then
+               self%chunks = self%chunks + 1
+               self%chunk(self%chunks) = self%points + 1
+               self%chunk_run(self%chunks) = r + 1
+               filled = 0
+               in_run = .false.
+            end if
+            self%points = self%points + 1
+            filled = filled + 1
+            if (.not. in_run) then
+               r = r + 1
+               self%column(r) = j
+               self%first(r) = i
+               self%place(r) = self%points
+               in_run = .true.
+            end if
+            self%last(r) = i
          end do
       end do
-      self%run(n + 1) = r + 1
-      self%chunk = [self%chunk(:self%chunks), self%points + 1]
-      self%chunk_run = [self%chunk_run(:self%chunks), r + 1]
-      self%strip(strips + 1) = self%points + 1
+      self%chunk(self%chunks + 1) = self%points + 1
+      self%chunk_run(self%chunks + 1) = r + 1
       self%strip_chunk(strips + 1) = self%chunks + 1
-
-   contains
-
-      !> Adds the points begin to finish of column j, to the last chunk if there is room and it is of the same strip.
-      subroutine add_run()
-         logical :: fits
-
-         r = r + 1
-         self%first(r) = begin
-         self%last(r) = finish
-         self%offset(r) = self%points - begin + 1
-         fits = self%strip_chunk((j - 1)/strip_columns + 1) <= self%chunks
-         if (fits) fits = self%points + finish - begin + 2 - self%chunk(self%chunks) <= longest_chunk
-         if (.not. fits) then
-            self%chunks = self%chunks + 1
-            self%chunk(self%chunks) = self%points + 1
-            self%chunk_run(self%chunks) = r
-            self%chunk_column(self%chunks) = j
-         end if
-         self%points = self%points + finish - begin + 1
-      end subroutine add_run
-
    end subroutine start
-
-   !> The values of a field at the points of the region.
-   subroutine gather(self, field, vector)
-      class(contact_region), intent(in) :: self
-      real(sp), intent(in) :: field(:, :)                 !! shape (M, N)
-      real(sp), intent(inout), contiguous :: vector(:)    !! shape (points)
-
-      integer :: c
-
-      !$omp parallel do num_threads(self%threads)
-      do c = 1, self%chunks
-         call self%take_chunk(c, field, vector(self%chunk(c):self%chunk(c + 1) - 1))
-      end do
-   end subroutine gather
 
    !> The values of a field in double precision at the points of the region, divided by a scale.
    subroutine gather_scaled(self, field, scale, vector)
@@ -148,31 +112,15 @@ contains
       real(dp), intent(in) :: scale           !! > 0
       real(sp), intent(out) :: vector(:)      !! shape (points)
 
-      integer :: j, r
-
-      !$omp parallel do num_threads(self%threads) private(r)
-      do j = 1, size(field, 2)
-         do r = self%run(j), self%run(j + 1) - 1
-            associate (a => self%first(r), b => self%last(r), o => self%offset(r))
-               vector(a + o:b + o) = real(field(a:b, j)/scale, sp)
-            end associate
-         end do
-      end do
-   end subroutine gather_scaled
-
-   !> Writes values to the points of the region. Other points keep theirs.
-   subroutine scatter(self, vector, field)
-      class(contact_region), intent(in) :: self
-      real(sp), intent(in), contiguous :: vector(:)   !! shape (points)
-      real(sp), intent(inout) :: field(:, :)          !! shape (M, N)
-
-      integer :: c
+      integer :: r
 
       !$omp parallel do num_threads(self%threads)
-      do c = 1, self%chunks
-         call self%put_chunk(c, vector(self%chunk(c):self%chunk(c + 1) - 1), field)
+      do r = 1, self%chunk_run(self%chunks + 1) - 1
+         associate (a => self%first(r), b => self%last(r), k => self%place(r))
+            vector(k:k + b - a) = real(field(a:b, self%column(r))/scale, sp)
+         end associate
       end do
-   end subroutine scatter
+   end subroutine gather_scaled
 
    !> The values of a field at the points of a chunk.
    pure subroutine take_chunk(self, c, field, values)
@@ -181,16 +129,13 @@ contains
       real(sp), intent(in) :: field(:, :)                 !! shape (M, N)
       real(sp), intent(inout), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
 
-      integer :: i, j, o, r
+      integer :: i, j, r, shift
 
-      j = self%chunk_column(c)
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         do while (self%run(j + 1) <= r)
-            j = j + 1
-         end do
-         o = self%offset(r) - self%chunk(c) + 1
+         j = self%column(r)
+         shift = self%place(r) - self%chunk(c) + 1 - self%first(r)
          do i = self%first(r), self%last(r)
-            values(i + o) = field(i, j)
+            values(i + shift) = field(i, j)
          end do
       end do
    end subroutine take_chunk
@@ -202,25 +147,55 @@ contains
       real(sp), intent(in), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
       real(sp), intent(inout) :: field(:, :)           !! shape (M, N)
 
-      integer :: i, j, o, r
+      integer :: i, j, r, shift
 
-      j = self%chunk_column(c)
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         do while (self%run(j + 1) <= r)
-            j = j + 1
-         end do
-         o = self%offset(r) - self%chunk(c) + 1
+         j = self%column(r)
+         shift = self%place(r) - self%chunk(c) + 1 - self%first(r)
          do i = self%first(r), self%last(r)
-            field(i, j) = values(i + o)
+            field(i, j) = values(i + shift)
          end do
       end do
    end subroutine put_chunk
+
+   !> Sums over the neighbours of each point of a chunk, with weights: of point (i, j) the sum of weights(k, l)
+   !> field(i + k, j + l).
+   pure subroutine convolve_chunk(self, c, weights, field, values)
+      class(contact_region), intent(in) :: self
+      integer, intent(in) :: c                            !! the chunk
+      real(sp), intent(in) :: weights(:, :)               !! shape (2R + 1, 2R + 1)
+      real(sp), intent(in), contiguous :: field(:, :)     !! with its neighbours beyond the grid, shape (M + 2R, N + 2R)
+      real(sp), intent(inout), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
+
+      integer :: i, k, l, r, shift
+
+      do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
+         shift = self%place(r) - self%chunk(c) + 1 - self%first(r)
+         values(self%first(r) + shift:self%last(r) + shift) = 0.0_sp
+         do l = 1, size(weights, 2)
+            do k = 1, size(weights, 1)
+               if (abs(weights(k, l)) <= 0.0_sp) cycle
+               do i = self%first(r), self%last(r)
+                  values(i + shift) = values(i + shift) + weights(k, l)*field(i + k - 1, self%column(r) + l - 1)
+               end do
+            end do
+         end do
+      end do
+   end subroutine convolve_chunk
+
+   !> The places in vectors where each strip begins, and one more than the last of all, shape (strips + 1).
+   pure function strip_places(self) result(places)
+      class(contact_region), intent(in) :: self
+      integer :: places(size(self%strip_chunk))
+
+      places = self%chunk(self%strip_chunk)
+   end function strip_places
 
    !> The sums of each strip from those of the chunks, as `grid_slab%strip_totals` takes them.
    pure function strip_sums(self, sums) result(parts)
       class(contact_region), intent(in) :: self
       real(dp), intent(in) :: sums(:, :)    !! shape (any, chunks)
-      real(dp) :: parts(size(sums, 1), size(self%strip) - 1)
+      real(dp) :: parts(size(sums, 1), size(self%strip_chunk) - 1)
 
       integer :: s
 
@@ -234,73 +209,74 @@ contains
    subroutine correct(self, change, contact, at_bound, scale, bound, pressure)
       class(contact_region), intent(in) :: self
       real(sp), intent(in) :: change(:)            !! shape (points)
-      integer(int8), intent(in) :: contact(:)      !! 1 at free points, 0 at others, shape (points)
+      real(sp), intent(in) :: contact(:)           !! 1 at free points, 0 at others, shape (points)
       logical(c_bool), intent(in) :: at_bound(:)   !! of the other points: whether at the upper bound, shape (points)
       real(dp), intent(in) :: scale
       real(dp), intent(in) :: bound                !! of the pressure, > 0
       real(dp), intent(inout) :: pressure(:, :)    !! shape (M, N)
 
-      integer :: i, j, r
+      integer :: i, k, r
 
-      !$omp parallel do num_threads(self%threads) private(i, r)
-      do j = 1, size(pressure, 2)
-         do r = self%run(j), self%run(j + 1) - 1
+      !$omp parallel do num_threads(self%threads) private(i, k)
+      do r = 1, self%chunk_run(self%chunks + 1) - 1
+         associate (p => pressure(:, self%column(r)))
             do i = self%first(r), self%last(r)
-               associate (k => i + self%offset(r))
-                  pressure(i, j) = merge(min(bound, max(0.0_dp, pressure(i, j) + scale*change(k))), &
-                                         merge(bound, 0.0_dp, at_bound(k)), contact(k) > 0)
-               end associate
+               k = self%place(r) + i - self%first(r)
+               p(i) = merge(min(bound, max(0.0_dp, p(i) + scale*change(k))), merge(bound, 0.0_dp, at_bound(k)), &
+                            contact(k) > 0.0_sp)
             end do
-         end do
+         end associate
       end do
    end subroutine correct
 
    !> In columns with points of the region, sets the field to zero at the other points.
-   subroutine clear_outside(self, field)
+   pure subroutine clear_outside(self, field)
       class(contact_region), intent(in) :: self
       real(sp), intent(inout) :: field(:, :)   !! shape (M, N)
 
-      integer :: j, last, r
+      integer :: column, last, r
 
-      !$omp parallel do num_threads(threads_for(size(field))) private(last, r)
-      do j = 1, size(field, 2)
-         if (.not. self%columns(j)) cycle
-         last = 0
-         do r = self%run(j), self%run(j + 1) - 1
-            field(last + 1:self%first(r) - 1, j) = 0.0_sp
-            last = self%last(r)
-         end do
-         field(last + 1:, j) = 0.0_sp
+      column = 0
+      last = 0
+      do r = 1, self%chunk_run(self%chunks + 1) - 1
+         if (self%column(r) /= column) then
+            if (column > 0) field(last + 1:, column) = 0.0_sp
+            column = self%column(r)
+            last = 0
+         end if
+         field(last + 1:self%first(r) - 1, column) = 0.0_sp
+         last = self%last(r)
       end do
+      if (column > 0) field(last + 1:, column) = 0.0_sp
    end subroutine clear_outside
 
-   !> Sums over the neighbours of each point of the region, with weights: vector(i, j) = sum of weights(k, l)
-   !> field(i + k, j + l).
-   subroutine convolve(self, weights, reach, field, vector)
-      class(contact_region), intent(in) :: self
-      integer, intent(in) :: reach                      !! R >= 0
-      real(sp), intent(in) :: weights(-reach:, -reach:) !! shape (2R + 1, 2R + 1)
-      real(sp), intent(in) :: field(1 - reach:, 1 - reach:)   !! with its neighbours beyond the grid, shape (M+2R, N+2R)
-      real(sp), intent(out) :: vector(:)                !! shape (points)
+   !> Adds to a field at each point the sum over its four neighbours, in 1-D its two.
+   subroutine add_neighbours(slab, even, field)
+      type(grid_slab), intent(in) :: slab
+      logical, intent(in) :: even              !! whether mirror images continue the grid, or periods
+      real(sp), intent(inout) :: field(:, :)   !! own columns, shape (M, slab%columns())
 
-      integer :: i, j, k, l, r
+      real(sp), dimension(size(field, 1), 1) :: high, low
+      real(sp) :: beside(size(field, 1)), here(0:size(field, 1) + 1)
+      integer :: j, m
 
-      !$omp parallel do num_threads(self%threads) private(i, k, l, r) schedule(dynamic, 16)
-      do j = 1, size(self%columns)
-         do r = self%run(j), self%run(j + 1) - 1
-            associate (a => self%first(r), b => self%last(r), o => self%offset(r))
-               vector(a + o:b + o) = 0.0_sp
-               do l = -reach, reach
-                  do k = -reach, reach
-                     if (abs(weights(k, l)) <= 0.0_sp) cycle
-                     do i = a, b
-                        vector(i + o) = vector(i + o) + weights(k, l)*field(i + k, j + l)
-                     end do
-                  end do
-               end do
-            end associate
-         end do
+      m = size(field, 1)
+      low = 0.0_sp
+      high = 0.0_sp
+      if (slab%points(2) > 1) call slab%halo(field, even, low, high)
+      beside = low(:, 1)
+      do j = 1, size(field, 2)
+         here(1:m) = field(:, j)
+         here(0) = merge(here(1), here(m), even)
+         here(m + 1) = merge(here(m), here(1), even)
+         if (j < size(field, 2)) then
+            beside = beside + field(:, j + 1)
+         else
+            beside = beside + high(:, 1)
+         end if
+         field(:, j) = here(1:m) + beside + (here(:m - 1) + here(2:))
+         beside = here(1:m)
       end do
-   end subroutine convolve
+   end subroutine add_neighbours
 
 end module wavycon_contact_region

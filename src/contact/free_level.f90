@@ -7,9 +7,9 @@ module wavycon_free_level
    use wavycon_contact_tuning, only: approach_margin
    use wavycon_free_kernel, only: integral_to_corner
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_grid_solver, only: grid_state, rounding, size_of_gaps, solve_on_grid
+   use wavycon_grid_solver, only: rounding, solve_on_grid
+   use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
-   use wavycon_local_stiffness, only: local_stiffness
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -25,11 +25,10 @@ module wavycon_free_level
 contains
 
    !> Solves (C1) on a grid. The gap outside the rectangle is h - approach, less than the true one: see complete_gap.
-   subroutine solve_free_level(surface, stencil, undeformed_gap, residual, most_iterations, state, transform_pairs, &
+   subroutine solve_free_level(surface, undeformed_gap, residual, most_iterations, state, transform_pairs, &
       progress)
       type(surface_type), intent(in) :: surface      !! with free edges
-      type(local_stiffness), intent(in) :: stencil   !! these as of solve_on_grid
-      real(dp), intent(in) :: undeformed_gap(:, :), residual
+      real(dp), intent(in) :: undeformed_gap(:, :), residual   !! these as of solve_on_grid
       integer, intent(in) :: most_iterations
       !> The approach on entry is that of the coarser grid, or 0.
       type(grid_state), intent(inout) :: state
@@ -54,7 +53,7 @@ contains
             allocate (state%pressure, source=inner)
             call state%slab%start(points, whole=.true.)
             call half_space%start(surface, whole%points, points)
-            call solve_on_grid(half_space, stencil, undeformed_gap(low(1):high(1), low(2):high(2)), residual, &
+            call solve_on_grid(half_space, undeformed_gap(low(1):high(1), low(2):high(2)), residual, &
                                most_iterations, state, progress)
             inner = state%pressure
             part = product(real(points, dp)/whole%points)
@@ -64,11 +63,11 @@ contains
          transform_pairs = transform_pairs + part*(half_space%transform_pairs + half_space%single_pairs)
          if (state%interrupted) return
          ! Means over the whole grid, on which they are told.
-         violation = sqrt(part)*state%residual*max(size_of_gaps(state), rounding)
+         violation = sqrt(part)*state%residual*max(state%size_of_gaps(), rounding)
          state%residual_indentation = part*state%residual_indentation
          if (surface%dimension == 2) &
             state%mean_gap = mean_gap_of(surface, undeformed_gap, state%approach, state%pressure)
-         state%residual = violation/max(size_of_gaps(state), rounding)
+         state%residual = violation/max(state%size_of_gaps(), rounding)
          call move_alloc(state%gap, pressure)
          allocate (state%gap, source=undeformed_gap - state%approach)
          state%gap(low(1):high(1), low(2):high(2)) = pressure

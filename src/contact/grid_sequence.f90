@@ -15,9 +15,9 @@ module wavycon_grid_sequence
    use wavycon_grid_plan, only: fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_grid_solver, only: grid_state, solve_on_grid
+   use wavycon_grid_solver, only: solve_on_grid
+   use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
-   use wavycon_local_stiffness, only: local_stiffness
    use wavycon_pressure_load, only: set_load, sum_of_field
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
@@ -142,7 +142,6 @@ contains
       class(solver_progress), intent(in), optional :: progress
 
       type(compliance_operator) :: half_space
-      type(local_stiffness) :: stencil
       integer :: most
       real(dp) :: highest(1), load
 
@@ -156,15 +155,14 @@ contains
             call slab%largest(highest)
             if (highest(1) >= surface%hardness) call set_load(slab, pressure, load, surface%hardness)
          end if
-         call stencil%start(surface, slab%points)
          most = most_iterations(surface, slab%points)
       end associate
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension
       if (surface%has_free_edges) then
-         call solve_free_level(surface, stencil, h, residual, most, answer%state, answer%transform_pairs, progress)
+         call solve_free_level(surface, h, residual, most, answer%state, answer%transform_pairs, progress)
       else
          call half_space%start(surface, answer%state%slab%points)
-         call solve_on_grid(half_space, stencil, h, residual, most, answer%state, progress)
+         call solve_on_grid(half_space, h, residual, most, answer%state, progress)
          answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs + half_space%single_pairs
       end if
       if (.not. answer%state%interrupted) answer%measures%elastic_energy = energy_of(answer%state, h)

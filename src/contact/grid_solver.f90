@@ -9,51 +9,30 @@
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_solver
-   use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_compliance_operator, only: compliance_operator
+   use wavycon_contact_region, only: add_neighbours
    use wavycon_contact_tuning, only: approach_tolerance, correction_limit, correction_margin, correction_part, &
       edge_tolerance, halo
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
-   use wavycon_local_stiffness, only: local_stiffness
-   use wavycon_pressure_correction, only: pressure_correction
+   use wavycon_pressure_correction, only: correct_pressure
    use wavycon_solver_progress, only: solver_progress
    use wavycon_threads, only: threads_for
    implicit none (type, external)
    private
 
-   public :: grid_state, rounding, size_of_gaps, solve_on_grid
+   public :: rounding, solve_on_grid
 
    !> Residuals below the first, over Delta, are rounding. Those below the second are rounding if a step does not halve
    !> them: the rounding of gaps depends on the depth of the surface and on its longest wave.
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
 
-   type :: grid_state
-      type(grid_slab) :: slab                   !! of the grid
-      real(dp), allocatable :: pressure(:, :)   !! p/p*, 0 <= p <= H, shape (M, slab%columns())
-      !> gap/Delta, negative where the surfaces overlap: at free points its deviation from zero; own columns
-      real(dp), allocatable :: gap(:, :)
-      real(dp) :: hardness = huge(1.0_dp)       !! H/p*, huge if there is none
-      real(dp) :: approach = 0.0_dp             !! the multiplier of the mean pressure [Delta]
-      !> Mean over the map, overlaps negative [Delta]: without a hardness G. On a periodic surface 1 - approach.
-      real(dp) :: mean_gap = 1.0_dp
-      real(dp) :: residual_indentation = 0.0_dp   !! mean over the cell of the overlap where p = H [Delta] (C22)
-      real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
-      integer :: corrections = 0                !! steps
-      integer :: iterations = 0                 !! of all corrections
-      logical :: converged = .false.
-      logical :: interrupted = .false.          !! by `progress`: the gap is not allocated
-      logical, private :: is_open = .true.      !! whether any point has no pressure; only with a hardness
-   contains
-      procedure :: open_gap
-   end type grid_state
-
 contains
 
    !> Solves (C1) on a grid. If it does not converge in most_iterations, state%converged is false.
-   subroutine solve_on_grid(half_space, stencil, undeformed_gap, residual, most_iterations, state, progress)
+   subroutine solve_on_grid(half_space, undeformed_gap, residual, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
-      type(local_stiffness), intent(in) :: stencil   !! S^-1 up to some steps, started on the grid
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (M, state%slab%columns())
       real(dp), intent(in) :: residual               !! the largest allowed (C9), > 0; 0: that of (C10)
       integer, intent(in) :: most_iterations
@@ -64,6 +43,7 @@ contains
 
       logical :: touched(size(undeformed_gap, 2))
       real(dp) :: allowed, last_residual
+      real(sp), allocatable :: inside(:, :)
 
       last_residual = huge(1.0_dp)
       state%corrections = 0
@@ -71,9 +51,9 @@ contains
       do
          touched = any(state%pressure > 0.0_dp, dim=1)
          call compute_gap(half_space, undeformed_gap, touched, state)
-         allowed = residual*size_of_gaps(state)
+         allowed = residual*state%size_of_gaps()
          if (residual <= 0.0_dp) then
-            allowed = edge_tolerance*gap_at_edge(state, touched)
+            allowed = edge_tolerance*gap_at_edge(half_space%even, state, touched)
             if (half_space%is_free) allowed = min(allowed, approach_tolerance*approach_in_contact(state))
          end if
          allowed = max(allowed, rounding)
@@ -81,53 +61,13 @@ contains
                            (state%residual <= most_rounding .and. 2*state%residual > last_residual)
          last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit
-         call correct_pressure(half_space, stencil, &
-                               max(correction_part, correction_margin*allowed/state%residual), &
+         call find_region(half_space%even, state, inside)
+         call correct_pressure(half_space, inside, max(correction_part, correction_margin*allowed/state%residual), &
                                min(correction_limit, most_iterations - state%iterations), state, progress)
          if (state%interrupted) return
       end do
-      state%residual = state%residual/max(size_of_gaps(state), rounding)
+      state%residual = state%residual/max(state%size_of_gaps(), rounding)
    end subroutine solve_on_grid
-
-   !> Corrects the pressure until the residual has fallen to a given part.
-   subroutine correct_pressure(half_space, stencil, part, most_iterations, state, progress)
-      type(compliance_operator), intent(inout) :: half_space
-      type(local_stiffness), intent(in) :: stencil
-      real(dp), intent(in) :: part
-      integer, intent(in) :: most_iterations
-      type(grid_state), intent(inout) :: state   !! `gap` is not allocated afterwards
-      class(solver_progress), intent(in), optional :: progress
-
-      type(pressure_correction) :: correction
-      logical(c_bool), allocatable :: inside(:, :)
-
-      call find_region(state, inside)
-      call correction%start(state%slab, inside, stencil, state%pressure, state%gap, state%residual, state%hardness)
-      ! The correction needs their memory; the next step computes the gap anew.
-      deallocate (inside, state%gap)
-      call correction%improve(half_space, part, most_iterations, progress)
-      call correction%add_to(state%pressure)
-      state%interrupted = correction%is_interrupted
-      state%corrections = state%corrections + 1
-      ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
-      state%iterations = state%iterations + max(1, correction%iterations)
-   end subroutine correct_pressure
-
-   !> The mean gap G [Delta], where overlaps count as zero; zero if no point is open.
-   pure real(dp) function open_gap(self)
-      class(grid_state), intent(in) :: self   !! solved
-
-      open_gap = self%mean_gap + self%residual_indentation
-      if (self%hardness >= huge(self%hardness)) return
-      if (.not. self%is_open) open_gap = 0.0_dp
-   end function open_gap
-
-   !> The mean of |gap| [Delta]: G without a hardness.
-   pure real(dp) function size_of_gaps(state)
-      type(grid_state), intent(in) :: state
-
-      size_of_gaps = abs(state%open_gap() + state%residual_indentation)
-   end function size_of_gaps
 
    !> Whether a pressure lies between its bounds: the gap is zero there.
    elemental logical function is_free(pressure, hardness)
@@ -244,35 +184,27 @@ contains
 
    !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points
    !> that are free [Delta], (C10); zero if all points are.
-   real(dp) function gap_at_edge(state, touched) result(gap)
+   real(dp) function gap_at_edge(even, state, touched) result(gap)
+      logical, intent(in) :: even
       type(grid_state), intent(in) :: state
       logical, intent(in) :: touched(:)
 
       real(dp) :: parts(3, size(touched)), sums(3)
-      real(sp), allocatable :: free(:, :), high(:, :), low(:, :)
-      logical :: beside(size(state%gap, 1))
-      integer :: j, m, n
+      real(sp), allocatable :: near(:, :)
+      integer :: j
 
-      m = size(state%gap, 1)
-      n = size(state%gap, 2)
-      allocate (free(m, n), low(m, 1), high(m, 1))
-      do j = 1, n
-         free(:, j) = 0.0_sp
-         if (touched(j)) free(:, j) = merge(1.0_sp, 0.0_sp, is_free(state%pressure(:, j), state%hardness))
+      allocate (near(size(state%gap, 1), size(state%gap, 2)))
+      do j = 1, size(near, 2)
+         near(:, j) = 0.0_sp
+         if (touched(j)) near(:, j) = merge(1.0_sp, 0.0_sp, is_free(state%pressure(:, j), state%hardness))
       end do
-      ! The edge across the border of a whole cell is left out, because mirror images at the border are no neighbours.
-      call state%slab%halo(free, .true., low, high)
-      do j = 1, n
-         beside = .false.
-         if (j > 1) beside = free(:, j - 1) > 0.0_sp
-         if (j == 1) beside = low(:, 1) > 0.0_sp
-         if (j < n) beside = beside .or. free(:, j + 1) > 0.0_sp
-         if (j == n) beside = beside .or. high(:, 1) > 0.0_sp
-         beside(2:) = beside(2:) .or. free(:m - 1, j) > 0.0_sp
-         beside(:m - 1) = beside(:m - 1) .or. free(2:, j) > 0.0_sp
-         beside = beside .and. free(:, j) <= 0.0_sp
-         parts(:, j) = [sum(merge(state%gap(:, j)**2, 0.0_dp, beside)), real(count(beside), dp), &
-                        real(count(free(:, j) > 0.0_sp), dp)]
+      call add_neighbours(state%slab, even, near)
+      do j = 1, size(near, 2)
+         associate (free => is_free(state%pressure(:, j), state%hardness))
+            associate (beside => near(:, j) > 0.0_sp .and. .not. free)
+               parts(:, j) = [sum(state%gap(:, j)**2, beside), real(count(beside), dp), real(count(free), dp)]
+            end associate
+         end associate
       end do
       sums = state%slab%column_totals(parts)
       gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
@@ -294,44 +226,22 @@ contains
 
    !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign, and
    !> points within some steps of these.
-   subroutine find_region(state, inside)
+   subroutine find_region(even, state, inside)
+      logical, intent(in) :: even
       type(grid_state), intent(in) :: state
-      logical(c_bool), allocatable, intent(out) :: inside(:, :)   !! shape (M, slab%columns())
+      real(sp), allocatable, intent(out) :: inside(:, :)   !! > 0 at these points, shape (M, slab%columns())
 
-      real(sp), allocatable :: near(:, :)
-      logical, allocatable :: occupied(:)
-      logical(c_bool) :: column(size(state%gap, 1)), start(size(state%gap, 1))
-      logical :: has_hardness
-      integer :: j, k, m, n, reach
+      integer :: j, step
 
-      m = size(state%gap, 1)
-      n = size(state%gap, 2)
-      reach = min(halo, state%slab%points(2) - 1)
-      has_hardness = state%hardness < huge(state%hardness)
-      allocate (near(m, 1 - reach:n + reach), source=0.0_sp)
-      allocate (occupied(1 - reach:n + reach))
-      do j = 1, n
-         start = state%pressure(:, j) > 0.0_dp .or. state%gap(:, j) < 0.0_dp
-         if (has_hardness) then
-            where (state%pressure(:, j) >= state%hardness) start = state%gap(:, j) > 0.0_dp
-         end if
-         if (.not. any(start)) cycle
-         column = start
-         do k = 1, min(halo, m - 1)
-            column = column .or. cshift(start, k) .or. cshift(start, -k)
-         end do
-         near(:, j) = merge(1.0_sp, 0.0_sp, column)
+      allocate (inside(size(state%gap, 1), size(state%gap, 2)))
+      do j = 1, size(inside, 2)
+         associate (p => state%pressure(:, j), gap => state%gap(:, j))
+            inside(:, j) = merge(1.0_sp, 0.0_sp, (p > 0.0_dp .or. gap < 0.0_dp) .and. &
+                                 (p < state%hardness .or. gap > 0.0_dp))
+         end associate
       end do
-      call state%slab%halo(near(:, 1:n), .false., near(:, 1 - reach:0), near(:, n + 1:n + reach))
-      do j = 1 - reach, n + reach
-         occupied(j) = any(near(:, j) > 0.0_sp)
-      end do
-      allocate (inside(m, n))
-      do j = 1, n
-         inside(:, j) = .false.
-         do k = j - reach, j + reach
-            if (occupied(k)) inside(:, j) = inside(:, j) .or. near(:, k) > 0.0_sp
-         end do
+      do step = 1, halo
+         call add_neighbours(state%slab, even, inside)
       end do
    end subroutine find_region
 

@@ -2,13 +2,13 @@
 !>
 !> S^-1 is |k|. Its kernel falls with the third power of the distance, so that the next neighbours have most of it.
 module wavycon_local_stiffness
+   use wavycon_compliance_operator, only: compliance_operator
    use wavycon_constants, only: pi
-   use wavycon_contact_region, only: contact_region
+   use wavycon_contact_region, only: contact_region, longest_chunk
    use wavycon_contact_tuning, only: stencil_reach
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
-   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
@@ -21,9 +21,11 @@ module wavycon_local_stiffness
 
    type :: local_stiffness
       logical :: exists = .false.        !! whether the grid has one: its steps are nearly equal and it is large enough
-      logical :: even = .false.
+      !> Displacements of the own columns, and images of them beyond the grid; zero outside the region.
+      real(sp), allocatable :: field(:, :)
+      logical, private :: even = .false.
       real(sp), private :: weights(-stencil_reach:stencil_reach, -stencil_reach:stencil_reach) = 0.0_sp
-      real(sp), allocatable, private :: field(:, :)   !! with its neighbours beyond the grid
+      logical :: is_started = .false.
    contains
       procedure :: start
       procedure :: apply
@@ -31,63 +33,62 @@ module wavycon_local_stiffness
 
 contains
 
-   subroutine start(self, surface, points)
+   subroutine start(self, half_space, slab)
       class(local_stiffness), intent(out) :: self
-      type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)      !! M, N, on a quarter of an even surface's cell
+      type(compliance_operator), intent(in) :: half_space   !! S, started on the grid
+      type(grid_slab), intent(in) :: slab                   !! of the grid
 
-      real(dp) :: step(2), symbol(0:kernel_points - 1, 0:kernel_points - 1), x, y
-      integer :: i, j, k, last(2), wave(2)
+      real(dp) :: cosines(0:kernel_points - 1, 0:stencil_reach), symbol(0:kernel_points - 1, 0:kernel_points - 1)
+      real(dp) :: per_step(2)
+      integer :: i, j
 
-      self%even = surface%shape%is_even()
-      step = surface%length/(points*merge(2, 1, self%even))
-      if (points(2) == 1) step(2) = step(1)
-      self%exists = maxval(step) <= largest_step_ratio*minval(step) .and. &
-                    all(points >= 2*stencil_reach .or. (points == 1 .and. [.false., .true.]))
+      self%is_started = .true.
+      self%even = half_space%even
+      per_step = half_space%stiffness_per_step
+      if (slab%points(2) == 1) per_step(2) = per_step(1)
+      self%exists = maxval(per_step) <= largest_step_ratio*minval(per_step) .and. &
+                    all(slab%points >= 2*stencil_reach .or. (slab%points == 1 .and. [.false., .true.]))
       if (.not. self%exists) return
-      last = merge(stencil_reach, 0, points > 1)
+      associate (m => slab%points(1), n => slab%columns(), r => stencil_reach)
+         allocate (self%field(1 - r:m + r, 1 - r:n + r), source=0.0_sp)
+      end associate
       do j = 0, kernel_points - 1
+         cosines(j, :) = cos(2*pi*j*[(i, i=0, stencil_reach)]/kernel_points)/kernel_points
          do i = 0, kernel_points - 1
-            wave = [min(i, kernel_points - i), merge(min(j, kernel_points - j), 0, points(2) > 1)]
-            symbol(i, j) = surface%stiffness*norm2(wave/(kernel_points*step))
+            symbol(i, j) = norm2(per_step*[min(i, kernel_points - i), &
+                                           merge(min(j, kernel_points - j), 0, slab%points(2) > 1)])/kernel_points
          end do
       end do
-      do j = 0, last(2)
-         do i = 0, last(1)
+      do j = 0, merge(stencil_reach, 0, slab%points(2) > 1)
+         do i = 0, stencil_reach
             if (i**2 + j**2 > stencil_reach**2) cycle
-            x = 2*pi*i/kernel_points
-            y = 2*pi*j/kernel_points
-            self%weights(i, j) = real(dot_product(cos(x*[(k, k=0, kernel_points - 1)]), &
-               matmul(symbol, cos(y*[(k, k=0, kernel_points - 1)])))/kernel_points**2, sp)
-            self%weights(-i, j) = self%weights(i, j)
-            self%weights(i, -j) = self%weights(i, j)
-            self%weights(-i, -j) = self%weights(i, j)
+            self%weights([-i, i], [-j, j]) = real(dot_product(cosines(:, i), matmul(symbol, cosines(:, j))), sp)
          end do
       end do
    end subroutine start
 
-   !> From displacements in a region, zero outside it, to their pressures there; in the units of the surface.
-   subroutine apply(self, region, points, vector)
-      class(local_stiffness), intent(inout) :: self   !! which exists
-      type(contact_region), intent(in) :: region      !! of the own columns
-      integer, intent(in) :: points(2)                !! M, N of the whole grid, those of `start`
-      real(sp), intent(inout), contiguous :: vector(:)   !! shape (region%points)
+   !> Replaces displacements by their pressures at the points of a region.
+   subroutine apply(self, slab, region, pressure)
+      class(local_stiffness), intent(inout) :: self      !! which exists, with the displacements in `field`
+      type(grid_slab), intent(in) :: slab                !! that of `start`
+      type(contact_region), intent(in) :: region         !! of its points
+      real(sp), intent(inout) :: pressure(:, :)          !! own columns; not changed outside the region
 
       integer, parameter :: r = stencil_reach
-      type(grid_slab) :: slab
-      integer :: k
+      real(sp) :: values(longest_chunk)
+      integer :: c, k
 
-      call slab%start(points)
-      associate (m => points(1), n => slab%columns())
-         if (.not. allocated(self%field)) allocate (self%field(1 - r:m + r, 1 - r:n + r), source=0.0_sp)
-         call region%scatter(vector, self%field(1:m, 1:n))
+      associate (m => slab%points(1), n => slab%columns(), field => self%field)
          do k = 1, r
-            self%field(1 - k, 1:n) = self%field(image_of_point(1 - k, m, self%even), 1:n)
-            self%field(m + k, 1:n) = self%field(image_of_point(m + k, m, self%even), 1:n)
+            field(1 - k, 1:n) = field(image_of_point(1 - k, m, self%even), 1:n)
+            field(m + k, 1:n) = field(image_of_point(m + k, m, self%even), 1:n)
          end do
-         if (points(2) > 1) &
-            call slab%halo(self%field(:, 1:n), self%even, self%field(:, 1 - r:0), self%field(:, n + 1:n + r))
-         call region%convolve(self%weights, r, self%field, vector)
+         if (slab%points(2) > 1) call slab%halo(field(:, 1:n), self%even, field(:, 1 - r:0), field(:, n + 1:n + r))
+         !$omp parallel do num_threads(region%threads) private(values)
+         do c = 1, region%chunks
+            call region%convolve_chunk(c, self%weights, field, values)
+            call region%put_chunk(c, values, pressure)
+         end do
       end associate
    end subroutine apply
 

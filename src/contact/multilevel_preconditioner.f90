@@ -20,28 +20,29 @@ module wavycon_multilevel_preconditioner
    integer, parameter :: least_points = 4
 
    type :: coarse_grid
+      type(grid_slab) :: finer                 !! the columns of the finer grid
+      type(grid_slab) :: part                  !! the columns whose means are taken from these: all or some
       type(grid_slab) :: slab                  !! the columns of the arrays
-      type(grid_slab) :: part                  !! the columns whose means are taken from the finer slab: all or some
       real(sp), allocatable :: contact(:, :)   !! part of a point's area that is in contact, 0 to 1
       real(sp), allocatable :: values(:, :)
    end type coarse_grid
 
    type :: multilevel_preconditioner
-      private
-      logical :: even = .false.                !! whether the field is mirrored at the borders; otherwise it is periodic
-      real(sp) :: decay = 1.0_sp               !! factor of a value for each doubling of the distance from the contact
-      type(grid_slab) :: slab
-      type(coarse_grid), allocatable :: grids(:)
+      logical, private :: even = .false.       !! whether the field is mirrored at the borders; otherwise it is periodic
+      real(sp), private :: decay = 1.0_sp      !! factor of a value for each doubling of the distance from the contact
+      !> 1 in contact, 0 outside, own columns of the grid, shape (M, columns); allocated by `start`.
+      real(sp), allocatable :: contact(:, :)
+      type(coarse_grid), allocatable, private :: grids(:)
    contains
       procedure :: start
-      procedure :: set_contact
+      procedure :: average_contact
       procedure :: extend
       procedure :: collect
    end type multilevel_preconditioner
 
 contains
 
-   !> Allocates the coarser grids of a grid.
+   !> Allocates the coarser grids of a grid; no point is in contact.
    subroutine start(self, points, even)
       class(multilevel_preconditioner), intent(out) :: self
       integer, intent(in) :: points(2)   !! M, N of the whole grid; N = 1 in 1-D
@@ -51,7 +52,8 @@ contains
       integer :: grid(2), k, levels
 
       self%even = even
-      call self%slab%start(points)
+      call finer%start(points)
+      allocate (self%contact(points(1), finer%columns()), source=0.0_sp)
       grid = points
       levels = 0
       do while (all((mod(grid, 2) == 0 .and. grid >= 2*least_points) .or. grid == 1))
@@ -59,9 +61,9 @@ contains
          levels = levels + 1
       end do
       allocate (self%grids(levels))
-      finer = self%slab
       do k = 1, levels
          associate (grid_k => self%grids(k))
+            grid_k%finer = finer
             grid_k%part = finer%coarser()
             grid_k%slab = distributed_or_whole(grid_k%part)
             allocate (grid_k%contact(grid_k%slab%points(1), grid_k%slab%columns()))
@@ -81,17 +83,16 @@ contains
          slab = grid_slab(points=part%points, width=part%points(2), last=part%points(2))
    end function distributed_or_whole
 
-   !> Sets the points in contact.
-   subroutine set_contact(self, contact)
+   !> Takes over a change of the points in contact.
+   subroutine average_contact(self)
       class(multilevel_preconditioner), intent(inout) :: self
-      real(sp), intent(in), contiguous :: contact(:, :)   !! 1 in contact, 0 outside, own columns, shape (M, columns)
 
       real(dp) :: total(1)
       integer :: k, levels
 
       levels = size(self%grids)
       if (levels == 0) return
-      call average(contact, self%grids(1)%part, self%grids(1)%slab, self%grids(1)%contact)
+      call average(self%contact, self%grids(1)%part, self%grids(1)%slab, self%grids(1)%contact)
       do k = 2, levels
          call average(self%grids(k - 1)%contact, self%grids(k)%part, self%grids(k)%slab, self%grids(k)%contact)
       end do
@@ -101,60 +102,67 @@ contains
          self%decay = real(min(1.0_dp, decay_alone &
                                        + decay_growth*sqrt(total(1)/product(real(coarsest%slab%points, dp)))), sp)
       end associate
-   end subroutine set_contact
+   end subroutine average_contact
 
    !> Continues a field to the points outside the contact.
-   subroutine extend(self, contact, field)
+   subroutine extend(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
-      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
       real(sp), intent(inout), contiguous :: field(:, :)   !! zero outside the contact, own columns, shape (M, columns)
 
-      integer :: k, levels
-
-      levels = size(self%grids)
-      if (levels == 0) return
-      call average(field, self%grids(1)%part, self%grids(1)%slab, self%grids(1)%values)
-      do k = 2, levels
-         call average(self%grids(k - 1)%values, self%grids(k)%part, self%grids(k)%slab, self%grids(k)%values)
-      end do
-      call normalise(self%grids(levels))
-      do k = levels - 1, 1, -1
-         call fill(self, self%grids(k + 1), self%grids(k)%contact, self%grids(k)%values)
-      end do
-      call fill(self, self%grids(1), contact, field)
+      call extend_on(self%grids, self%even, self%decay, self%contact, field)
    end subroutine extend
 
+   !> `extend` on a grid and all coarser ones: a point without contact about it has the value of the next coarser grid.
+   recursive subroutine extend_on(grids, even, decay, contact, values)
+      type(coarse_grid), intent(inout) :: grids(:)            !! the coarser ones
+      logical, intent(in) :: even
+      real(sp), intent(in) :: decay
+      real(sp), intent(in), contiguous :: contact(:, :)       !! own columns
+      real(sp), intent(inout), contiguous :: values(:, :)     !! own columns: means over the area in contact times it
+
+      if (size(grids) == 0) then
+         call normalise(contact, values)
+         return
+      end if
+      call average(values, grids(1)%part, grids(1)%slab, grids(1)%values)
+      call extend_on(grids(2:), even, decay, grids(1)%contact, grids(1)%values)
+      call fill(grids(1), even, decay, contact, values)
+   end subroutine extend_on
+
    !> The adjoint of `extend`: adds to the values in contact the values outside, with the weights that `extend` uses.
-   subroutine collect(self, contact, field)
+   subroutine collect(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
-      real(sp), intent(in), contiguous :: contact(:, :)    !! that of `set_contact`
       real(sp), intent(inout), contiguous :: field(:, :)   !! own columns, shape (M, columns); its values outside the
                                                            !! contact are of no use afterwards
 
-      integer :: k, levels
-
-      levels = size(self%grids)
-      if (levels == 0) return
-      call adjoint_fill(self, self%slab, field, contact, self%grids(1))
-      do k = 2, levels
-         call adjoint_fill(self, self%grids(k - 1)%slab, self%grids(k - 1)%values, self%grids(k - 1)%contact, &
-                           self%grids(k))
-      end do
-      call normalise(self%grids(levels))
-      do k = levels - 1, 1, -1
-         call adjoint_average(self%grids(k + 1), self%grids(k)%values)
-      end do
-      call adjoint_average(self%grids(1), field)
+      call collect_on(self%grids, self%even, self%decay, self%contact, field)
    end subroutine collect
 
-   !> Divides each value by the part of its area in contact; points without contact get zero.
-   pure subroutine normalise(grid)
-      type(coarse_grid), intent(inout) :: grid
+   recursive subroutine collect_on(grids, even, decay, contact, values)
+      type(coarse_grid), intent(inout) :: grids(:)            !! these as of `extend_on`
+      logical, intent(in) :: even
+      real(sp), intent(in) :: decay
+      real(sp), intent(in), contiguous :: contact(:, :)
+      real(sp), intent(inout), contiguous :: values(:, :)
 
-      where (grid%contact > 0.0_sp)
-         grid%values = grid%values/grid%contact
+      if (size(grids) == 0) then
+         call normalise(contact, values)
+         return
+      end if
+      call adjoint_fill(grids(1), even, decay, contact, values)
+      call collect_on(grids(2:), even, decay, grids(1)%contact, grids(1)%values)
+      call adjoint_average(grids(1), values)
+   end subroutine collect_on
+
+   !> Divides each value by the part of its area in contact; points without contact get zero.
+   pure subroutine normalise(contact, values)
+      real(sp), intent(in), contiguous :: contact(:, :)
+      real(sp), intent(inout), contiguous :: values(:, :)
+
+      where (contact > 0.0_sp)
+         values = values/contact
       elsewhere
-         grid%values = 0.0_sp
+         values = 0.0_sp
       end where
    end subroutine normalise
 
@@ -211,101 +219,86 @@ contains
    end subroutine adjoint_average
 
    !> Adds to a field, outside the contact, the decayed values of the coarser grid, linear between its points.
-   subroutine fill(self, coarse, contact, fine)
-      type(multilevel_preconditioner), intent(in) :: self
+   subroutine fill(coarse, even, decay, contact, fine)
       type(coarse_grid), intent(in) :: coarse
+      logical, intent(in) :: even
+      real(sp), intent(in) :: decay
       real(sp), intent(in), contiguous :: contact(:, :)   !! own columns
       real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
 
-      real(sp) :: column(0:size(coarse%values, 1) + 1)
-      real(sp) :: beside(size(coarse%values, 1), 2)   !! the columns before and after those of the coarser grid
-      real(sp) :: a, b
+      real(sp) :: line(0:size(coarse%values, 1) + 1)
+      real(sp), dimension(size(coarse%values, 1), 1) :: high, low   !! the columns beside those of the coarser grid
       integer :: before, i, j, m
 
       m = size(coarse%values, 1)
       before = coarse%part%first - coarse%slab%first
-      a = 0.75_sp*self%decay
-      b = 0.25_sp*self%decay
-      call coarse%slab%halo(coarse%values, self%even, beside(:, :1), beside(:, 2:))
-      !$omp parallel do num_threads(threads_for(size(fine))) private(column, i)
+      call coarse%slab%halo(coarse%values, even, low, high)
+      !$omp parallel do num_threads(threads_for(size(fine))) private(i, line)
       do j = 1, size(fine, 2)
-         associate (near => before + (j + 1)/2, other => before + (j + 1)/2 + merge(-1, 1, mod(j, 2) == 1))
+         associate (values => coarse%values, near => before + (j + 1)/2, other => before + (j + 1)/2 + 1 - 2*mod(j, 2))
             if (coarse%slab%points(2) == 1) then
-               column(1:m) = self%decay*coarse%values(:, near)
+               line(1:m) = decay*values(:, near)
             else if (other < 1) then
-               column(1:m) = a*coarse%values(:, near) + b*beside(:, 1)
-            else if (other > size(coarse%values, 2)) then
-               column(1:m) = a*coarse%values(:, near) + b*beside(:, 2)
+               line(1:m) = decay*(0.75_sp*values(:, near) + 0.25_sp*low(:, 1))
+            else if (other > size(values, 2)) then
+               line(1:m) = decay*(0.75_sp*values(:, near) + 0.25_sp*high(:, 1))
             else
-               column(1:m) = a*coarse%values(:, near) + b*coarse%values(:, other)
+               line(1:m) = decay*(0.75_sp*values(:, near) + 0.25_sp*values(:, other))
             end if
          end associate
-         column(0) = column(image_of_point(0, m, self%even))
-         column(m + 1) = column(image_of_point(m + 1, m, self%even))
+         line(0) = line(image_of_point(0, m, even))
+         line(m + 1) = line(image_of_point(m + 1, m, even))
          do i = 1, m
-            fine(2*i - 1, j) = fine(2*i - 1, j) + (1.0_sp - contact(2*i - 1, j)) &
-               *(0.75_sp*column(i) + 0.25_sp*column(i - 1))
-            fine(2*i, j) = fine(2*i, j) + (1.0_sp - contact(2*i, j))*(0.75_sp*column(i) + 0.25_sp*column(i + 1))
+            fine(2*i - 1, j) = fine(2*i - 1, j) + (1.0_sp - contact(2*i - 1, j))*(0.75_sp*line(i) + 0.25_sp*line(i - 1))
+            fine(2*i, j) = fine(2*i, j) + (1.0_sp - contact(2*i, j))*(0.75_sp*line(i) + 0.25_sp*line(i + 1))
          end do
       end do
    end subroutine fill
 
    !> The adjoint of `fill` without the field itself.
-   subroutine adjoint_fill(self, slab, fine, contact, coarse)
-      type(multilevel_preconditioner), intent(in) :: self
-      type(grid_slab), intent(in) :: slab                             !! of the finer grid
-      real(sp), intent(in), contiguous :: fine(:, :), contact(:, :)   !! own columns
+   subroutine adjoint_fill(coarse, even, decay, contact, fine)
       type(coarse_grid), intent(inout) :: coarse
+      logical, intent(in) :: even
+      real(sp), intent(in) :: decay
+      real(sp), intent(in), contiguous :: contact(:, :), fine(:, :)   !! own columns
 
-      !> The columns before and after the own ones.
-      real(sp), dimension(size(fine, 1), 2) :: contact_beside, fine_beside
-      real(sp) :: open_part(0:size(fine, 1) + 1)
-      real(sp) :: near, far
-      integer :: before, i, j, m, n
+      !> The columns beside the own ones.
+      real(sp), dimension(size(fine, 1), 1) :: contact_high, contact_low, high, low
+      real(sp) :: line(0:size(fine, 1) + 1)
+      !> Parts of the columns before, of and after a column of the coarser grid.
+      real(sp), parameter :: parts(4) = [0.25_sp, 0.75_sp, 0.75_sp, 0.25_sp]
+      integer :: before, i, j, k, m
 
-      m = size(fine, 1)/2
-      n = coarse%part%columns()
+      m = size(fine, 1)
       before = coarse%part%first - coarse%slab%first
-      near = 0.75_sp*self%decay
-      far = 0.25_sp*self%decay
-      call slab%halo(fine, self%even, fine_beside(:, :1), fine_beside(:, 2:))
-      call slab%halo(contact, self%even, contact_beside(:, :1), contact_beside(:, 2:))
-      !$omp parallel do num_threads(threads_for(size(fine))) private(open_part, i)
-      do j = 1, n
-         open_part = 0.0_sp
-         if (slab%points(2) == 1) then
-            call add_open(self%decay, contact(:, j), fine(:, j), open_part(1:2*m))
+      call coarse%finer%halo(fine, even, low, high)
+      call coarse%finer%halo(contact, even, contact_low, contact_high)
+      !$omp parallel do num_threads(threads_for(size(fine))) private(i, k, line)
+      do j = 1, coarse%part%columns()
+         if (coarse%slab%points(2) == 1) then
+            line(1:m) = (1.0_sp - contact(:, 1))*fine(:, 1)
          else
-            call add_open(near, contact(:, 2*j - 1), fine(:, 2*j - 1), open_part(1:2*m))
-            call add_open(near, contact(:, 2*j), fine(:, 2*j), open_part(1:2*m))
-            if (j > 1) then
-               call add_open(far, contact(:, 2*j - 2), fine(:, 2*j - 2), open_part(1:2*m))
-            else
-               call add_open(far, contact_beside(:, 1), fine_beside(:, 1), open_part(1:2*m))
-            end if
-            if (j < n) then
-               call add_open(far, contact(:, 2*j + 1), fine(:, 2*j + 1), open_part(1:2*m))
-            else
-               call add_open(far, contact_beside(:, 2), fine_beside(:, 2), open_part(1:2*m))
-            end if
+            line = 0.0_sp
+            do k = 2*j - 2, 2*j + 1
+               associate (part => parts(k - 2*j + 3))
+                  if (k < 1) then
+                     line(1:m) = line(1:m) + part*(1.0_sp - contact_low(:, 1))*low(:, 1)
+                  else if (k > size(fine, 2)) then
+                     line(1:m) = line(1:m) + part*(1.0_sp - contact_high(:, 1))*high(:, 1)
+                  else
+                     line(1:m) = line(1:m) + part*(1.0_sp - contact(:, k))*fine(:, k)
+                  end if
+               end associate
+            end do
          end if
-         open_part(0) = open_part(image_of_point(0, 2*m, self%even))
-         open_part(2*m + 1) = open_part(image_of_point(2*m + 1, 2*m, self%even))
-         do i = 1, m
-            coarse%values(i, before + j) = 0.75_sp*(open_part(2*i - 1) + open_part(2*i)) &
-               + 0.25_sp*(open_part(2*i - 2) + open_part(2*i + 1))
+         line(0) = line(image_of_point(0, m, even))
+         line(m + 1) = line(image_of_point(m + 1, m, even))
+         do i = 1, m/2
+            coarse%values(i, before + j) = decay*(0.75_sp*(line(2*i - 1) + line(2*i)) &
+                                                  + 0.25_sp*(line(2*i - 2) + line(2*i + 1)))
          end do
       end do
       call complete(coarse%part, coarse%slab, coarse%values)
    end subroutine adjoint_fill
-
-   !> Adds the open part of a column times a factor.
-   pure subroutine add_open(factor, contact, column, total)
-      real(sp), intent(in) :: factor
-      real(sp), intent(in), contiguous :: contact(:), column(:)
-      real(sp), intent(inout), contiguous :: total(:)
-
-      total = total + factor*(1.0_sp - contact)*column
-   end subroutine add_open
 
 end module wavycon_multilevel_preconditioner

@@ -32,11 +32,11 @@ contains
       allocate (changes, source=pressure > 0.0_dp .and. pressure < hardness)
       room = sum_of_field(slab, merge(merge(hardness - pressure, pressure, lack > 0.0_dp), 0.0_dp, changes))
       if (abs(lack) >= room) changes = .true.
-      first(1) = 1
-      do s = 1, slab%strips()
-         first(s + 1) = first(s) + count(changes(:, (s - 1)*strip_columns + 1:min(s*strip_columns, slab%columns())))
+      do s = 1, slab%strips() + 1
+         first(s) = 1 + size(pressure, 1)*min((s - 1)*strip_columns, size(pressure, 2))
       end do
-      shift = bounded_shift(slab, first, pack(pressure, changes), pack(hardness - pressure, changes), lack)
+      shift = bounded_shift(slab, first, pack(merge(pressure, 0.0_dp, changes), .true.), &
+                            pack(merge(hardness - pressure, 0.0_dp, changes), .true.), lack)
       where (changes) pressure = min(max(pressure + shift, 0.0_dp), hardness)
    end subroutine set_load
 
@@ -59,7 +59,7 @@ contains
       type(grid_slab), intent(in) :: slab
       integer, intent(in) :: first(:)              !! places at which the numbers of each own strip begin, and one more
                                                    !! than the last of all, shape (slab%strips() + 1)
-      real(dp), intent(in) :: above(:), below(:)   !! of points of the own columns; above + below > 0, of the same size
+      real(dp), intent(in) :: above(:), below(:)   !! of points of the own columns, both 0 where nothing changes
       real(dp), intent(in) :: total                !! between the sums of -above and of below over the grid
 
       !> Newton's method ends in a few steps. Those by bisection end at the last digit.
@@ -70,8 +70,7 @@ contains
       shift = 0.0_dp
       extremes = [maxval(above), maxval(below)]
       call slab%largest(extremes)
-      ! There are no numbers.
-      if (all(extremes <= -huge(extremes))) return
+      if (all(extremes <= 0.0_dp)) return
       low = min(0.0_dp, -extremes(1))
       high = max(0.0_dp, extremes(2))
       do step = 1, most_steps

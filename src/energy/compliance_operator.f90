@@ -20,6 +20,10 @@ module wavycon_compliance_operator
       integer :: transform_pairs = 0               !! number of applications so far to fields in double precision
       integer :: single_pairs = 0                  !! the same in single precision
       integer :: points(2) = 0                     !! of the grid that it was started on
+      !> Whether the points are those of a quarter of an even surface's cell.
+      logical :: even = .true.
+      !> Stiffness of a harmonic whose wavelength is a step in x or y [p*/Delta].
+      real(dp) :: stiffness_per_step(2) = 0.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
       type(convolution_dp), private :: in_double
       type(convolution_sp), private :: in_single
@@ -48,21 +52,21 @@ contains
       real(dp), allocatable :: kernel(:, :), square_x(:), square_y(:)
       real(dp) :: frequency(2), step(2)
       integer :: i
-      logical :: even
 
-      even = surface%shape%is_even()
+      self%even = surface%shape%is_even()
       self%points = points
       if (present(part)) self%points = part
       self%is_free = surface%has_free_edges
-      step = surface%length/(merge(2, 1, even)*points)
+      step = surface%length/(merge(2, 1, self%even)*points)
       if (points(2) == 1) step(2) = surface%length(2)
+      self%stiffness_per_step = surface%stiffness/step
       associate (points => self%points, stiffness => surface%stiffness)
          ! Stiffness over wavelength, squared: of the order of one in any unit of length.
-         frequency = stiffness/(merge(2, 1, even .and. points > 1)*points*step)
+         frequency = stiffness/(merge(2, 1, self%even .and. points > 1)*points*step)
          square_x = (frequency(1)*[(wave(i, points(1)), i=0, points(1) - 1)])**2
          square_y = (frequency(2)*[(wave(i, points(2)), i=0, points(2) - 1)])**2
-         call self%in_double%start(even, square_x, square_y)
-         call self%in_single%start(even, square_x, square_y)
+         call self%in_double%start(self%even, square_x, square_y)
+         call self%in_single%start(self%even, square_x, square_y)
          if (.not. self%is_free) return
          call free_kernel(points, step, kernel)
          kernel = kernel/stiffness
@@ -78,7 +82,7 @@ contains
          integer, intent(in) :: index    !! from 0
          integer, intent(in) :: length
 
-         wave = merge(index, min(index, length - index), even)
+         wave = merge(index, min(index, length - index), self%even)
       end function wave
 
    end subroutine start
