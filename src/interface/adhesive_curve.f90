@@ -16,6 +16,8 @@ module wavycon_adhesive_curve
 
    !> Points of the curve, but its ends.
    integer, parameter :: curve_points = 95
+   !> Of the parameter t, 0 < t < 1, from one point to the next.
+   real(dp), parameter :: t_step = 1.0_dp/(curve_points + 1)
 
    !> What a point is.
    integer, parameter, public :: unstable_point = 0, stable_point = 1, pull_off_point = 2, jump_point = 3, &
@@ -71,7 +73,7 @@ contains
       end if
       allocate (curve%points(curve_points))
       do i = 1, curve_points
-         call solve_point(solver, work, load_at(curve, solver, place(i)), curve%points(i))
+         call solve_point(solver, work, load_at(curve, solver, i*t_step), curve%points(i))
       end do
       allocate (curve%critical(0), curve%at_loads(0))
       do i = 2, curve_points
@@ -83,7 +85,7 @@ contains
             point = here
             point%kind = not_reliable
             if (all(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) <= most_release)) &
-               call find_extreme(curve, solver, work, place(i), point)
+               call find_extreme(curve, solver, work, i*t_step, point)
             curve%critical = [curve%critical, point]
          end associate
       end do
@@ -129,13 +131,6 @@ contains
       end associate
       curve%at_loads = [curve%at_loads, point]
    end subroutine add_load
-
-   !> The parameter t of a point, 0 < t < 1.
-   pure real(dp) function place(i)
-      integer, intent(in) :: i
-
-      place = real(i, dp)/(curve_points + 1)
-   end function place
 
    !> P1 [p*] of a parameter t: in equal steps of ln(P1/(1 - P1)), of a ball of ln P1.
    pure real(dp) function load_at(curve, solver, t) result(p1)
@@ -222,7 +217,7 @@ contains
       integer :: i, kind
 
       here = t
-      width = place(1)
+      width = t_step
       kind = unstable_point
       do i = 1, steps
          call solve_point(solver, work, load_at(curve, solver, here - width), before)
@@ -251,7 +246,7 @@ contains
       real(dp) :: miss(2), t(2), t_new
       integer :: step
 
-      t = [place(i), place(i + 1)]
+      t = t_step*[i, i + 1]
       miss = [curve%points(i)%load, curve%points(i + 1)%load] - load
       do step = 1, most_steps
          t_new = t(2) - miss(2)*(t(2) - t(1))/(miss(2) - miss(1))

@@ -264,7 +264,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: names, trouble
-      logical :: is_requested, of_stresses
+      logical :: of_stresses
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
@@ -274,11 +274,9 @@ contains
          return
       end if
       of_stresses = writer%group == 'stress'
-      is_requested = writer%is_requested(self%results%scene)
-      trouble = ''
       if (of_stresses .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
-      else if (writer%group == 'interface' .and. .not. is_requested) then
+      else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then
          trouble = 'the deck has no group &interface that asks for it'
       else if ((of_stresses .or. writer%needs_fields) .and. .not. self%keeps_fields) then
          trouble = 'the session was opened without fields'

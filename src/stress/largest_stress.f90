@@ -38,9 +38,11 @@ contains
       type(largest_stress), intent(out), optional :: yielding, shear
 
       real(dp), allocatable :: places(:, :), stresses(:, :), widths(:)
+      real(dp) :: none
 
-      if (present(yielding)) yielding = no_stress()
-      if (present(shear)) shear = no_stress()
+      none = ieee_value(none, ieee_quiet_nan)
+      if (present(yielding)) yielding = largest_stress(none, none, none)
+      if (present(shear)) shear = largest_stress(none, none, none)
       if (.not. fields%exist) return
       call fields%start_places(body, places, widths, stresses)
       if (present(yielding)) call search(fields, body, by_von_mises, places, widths, stresses, yielding)
@@ -61,18 +63,10 @@ contains
       ! Comparisons with a NaN raise an exception, which Debug builds trap.
       if (ieee_is_nan(self%value)) return
       place(:2) = modulo(place(:2) + rounding, 2*pi) - rounding
-      if (abs(place(1)) <= rounding) place(1) = 0.0_dp
-      if (abs(place(2)) <= rounding) place(2) = 0.0_dp
+      where (abs(place(:2)) <= rounding) place(:2) = 0.0_dp
       place = place/(2*pi)
       where (parts > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function place_in_cell
-
-   !> What stands for the largest stress of a load without a solution.
-   pure type(largest_stress) function no_stress()
-      no_stress%value = ieee_value(1.0_dp, ieee_quiet_nan)
-      no_stress%error = no_stress%value
-      no_stress%place = no_stress%value
-   end function no_stress
 
    !> Refines the best of the places, each farther from those before it than twice the width of the stress.
    subroutine search(fields, body, quantity, places, widths, stresses, answer)

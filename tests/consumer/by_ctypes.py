@@ -1,28 +1,23 @@
 """The C interface of the library by ctypes: errors are exceptions, tables dictionaries of columns."""
-from ctypes import CDLL, CFUNCTYPE, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
+from ctypes import CDLL, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 
-PROGRESS = CFUNCTYPE(c_int, c_void_p, c_int, c_double)
 POINTER, TEXT = c_void_p, c_char_p
 FUNCTIONS = {
     "new_error": (POINTER, []),
     "get_message": (c_size_t, [POINTER, POINTER, c_size_t]),
     "new_scene": (POINTER, [POINTER, TEXT, TEXT, c_int, c_int, c_int, POINTER]),
-    "set_progress": (c_int, [POINTER, POINTER, PROGRESS, POINTER]),
     "solve": (POINTER, [POINTER, POINTER, TEXT, c_double]),
-    "solve_load": (POINTER, [POINTER, POINTER, c_int]),
     "get": (c_int, [POINTER, POINTER, TEXT, POINTER]),
     "get_text": (c_size_t, [POINTER, POINTER, TEXT, POINTER, c_size_t]),
     "new_table": (POINTER, [POINTER, POINTER, TEXT]),
     "get_column": (c_int, [POINTER, POINTER, TEXT, c_int, POINTER]),
     "get_grid": (c_int, [POINTER, POINTER, c_int, c_int] + [POINTER]*4),
-    "get_stresses": (c_int, [POINTER, POINTER, c_int] + [POINTER]*3 + [c_double, TEXT] + [POINTER]*2),
     "get_stress_plane": (c_int, [POINTER, POINTER, c_int, c_int, POINTER, c_double, c_double, TEXT] + [POINTER]*2),
-    "get_invariants": (c_int, [POINTER, c_int] + [POINTER]*4),
 }
 
 
 class Library:
-    """Every function of wavycon.h by its name without 'wavycon_' and without its first argument."""
+    """Functions of wavycon.h by their names without 'wavycon_' and without their first argument."""
 
     def __init__(self, path):
         self.lib = CDLL(str(path))

@@ -95,8 +95,8 @@ static int stop(void *calls, int iterations, double residual)
     return ++*(int *)calls >= 10 && iterations > 0 && residual <= 1;
 }
 
-/* The digits do not depend on what the callback does, also if it stopped the load before, nor does the lock: others come
-   in afterwards. */
+/* The digits do not depend on what the callback does, also if it stopped the load before, nor does the lock: others
+   come in afterwards. */
 static int calls_in_a_callback(void)
 {
     const char deck[] = "&surface kind = 'wave_2d' / &method solver = 'grid', accuracy = 1e-2 /";
