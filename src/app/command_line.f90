@@ -37,10 +37,10 @@ module wavycon_command_line
    type(key_type), parameter :: option_keys(*) = [ &
       key_type(logical_value, '--check', '.false.', '', 'validate the decks, say what a run would do, and stop'), &
       key_type(text_value, '--set', '', 'GROUP.KEY=VALUE', &
-         'set a key in place of those of the decks, such as surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,0.2; '// &
-         'may be repeated. Keys of the deck that contradict it are left out: other ways to give the loads or the '// &
-         'stiffness, accuracy or grid_points, keys of another kind of surface or solver. The name of the case gets '// &
-         'key and value, unless scene.case is set too'), &
+         'set a key in place of those of the decks, such as surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,'// &
+         '0.2; may be repeated. Keys of the deck that contradict it are left out: other ways to give the loads or '// &
+         'the stiffness, accuracy or grid_points, keys of another kind of surface or solver. The name of the case '// &
+         'gets key and value, unless scene.case is set too'), &
       key_type(text_value, '--sweep', '', 'GROUP.KEY=VALUE,...', &
          'run each deck once for each value, as with --set; several sweeps: for all combinations'), &
       key_type(text_value, '--output', '', 'DIR', 'write the results to DIR, not to the directory of &output', &
@@ -155,8 +155,8 @@ contains
       type(setting_type) :: setting
 
       call read_setting(word, setting, trouble)
-      if (allocated(trouble) .and. option == '--sweep') trouble = '--sweep needs group.key=value,value,..., such as '// &
-         "surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'"
+      if (allocated(trouble) .and. option == '--sweep') trouble = '--sweep needs group.key=value,value,..., '// &
+         "such as surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'"
       if (allocated(trouble)) return
       commas = [0]
       quote = ' '

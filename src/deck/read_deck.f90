@@ -70,7 +70,7 @@ contains
       type(problem_list_type) :: problems
       type(token_type) :: token
       type(deck_text_type) :: text
-      integer :: i
+      integer :: before, i
       logical :: is_file
 
       is_file = .true.
@@ -100,7 +100,14 @@ contains
       call check_scene_group(scene%scene_values, problems, is_file)
       if (present(settings)) call name_case(scene%scene_values, settings, problems)
       call read_surface(scene, problems, error, heights)
-      call check_material_and_loads(scene, problems)
+      before = problems%number
+      call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star, problems)
+      call check_load_group(scene%load, scene%interface%has('work_of_adhesion'), problems)
+      if (problems%number == before .and. .not. (scene%material%any_bad() .or. scene%load%any_bad()) .and. &
+          scene%load%place > 0 .and. allocated(scene%surface)) &
+         call check_loads_of_surface(scene%load, scene%surface, scene%p_star, problems, &
+                                     has_own_sides=scene%surface_values%text('kind') /= 'ball' .or. &
+                                                   scene%surface_values%has('length_x'))
       call check_stress_group(scene%stress, scene%material, scene%load, problems, scene%surface)
       call check_method_group(scene%method, scene%surface_values%text('kind'), scene%surface, problems)
       call check_interface_group(scene%interface, scene%material, scene%method, problems, scene%surface)
@@ -124,17 +131,19 @@ contains
 
       integer :: before
 
-      before = problems%number
-      call check_surface_group(scene%surface_values, problems)
-      if (problems%number > before .or. scene%surface_values%any_bad()) return
-      call set_sides_of_loads(scene, problems)
-      if (problems%number > before) return
-      if (scene%scene_values%has('length_unit')) scene%surface_values%length_unit = scene%scene_values%text('length_unit')
-      call make_surface(scene%surface_values, scene%surface, scene%map, error, heights)
-      if (allocated(error)) return
-      if (allocated(scene%surface)) call check_sides(scene%surface_values, scene%surface, problems)
-      if (.not. allocated(scene%map)) return
-      if (allocated(scene%map%length_unit)) call scene%scene_values%set('length_unit', text=scene%map%length_unit)
+      associate (values => scene%surface_values, labels => scene%scene_values)
+         before = problems%number
+         call check_surface_group(values, problems)
+         if (problems%number > before .or. values%any_bad()) return
+         if (values%text('kind') == 'ball') call set_sides_of_loads(scene, problems)
+         if (problems%number > before) return
+         if (labels%has('length_unit')) values%length_unit = labels%text('length_unit')
+         call make_surface(values, scene%surface, scene%map, error, heights)
+         if (allocated(error)) return
+         if (allocated(scene%surface)) call check_sides(values, scene%surface, problems)
+         if (.not. allocated(scene%map)) return
+         if (allocated(scene%map%length_unit)) call labels%set('length_unit', text=scene%map%length_unit)
+      end associate
    end subroutine read_surface
 
    !> Sets the default sides of a ball, which follow from its loads. If &material or &load has problems, which are
@@ -148,41 +157,26 @@ contains
       real(dp) :: hardness
       real(dp), allocatable :: loads(:)
 
-      if (scene%surface_values%text('kind') /= 'ball') return
       if (scene%material%any_bad() .or. scene%load%any_bad()) return
-      allocate (loads(0))
-      if (scene%load%place > 0) call given_loads(scene%load, key, loads_by, loads)
-      if (size(loads) == 0) then
-         key = ''
-         loads = [0.0_dp]
-         if (scene%load%place == 0 .and. .not. scene%surface_values%has('length_x')) call scene%surface_values%complain( &
-            problems, 'kind', "without loads kind = 'ball' needs length_x")
-      end if
-      hardness = huge(hardness)
-      if (scene%material%has('hardness')) hardness = scene%material%real('hardness')
-      ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
-      if (key == 'yield' .and. .not. scene%stress%any_bad()) &
-         loads = 2*loads*max(0.0_dp, scene%stress%real('yield_stress'))
-      call set_ball_sides(scene%surface_values, plane_strain_modulus(scene%material), hardness, key, maxval(abs(loads)))
+      associate (ball => scene%surface_values)
+         allocate (loads(0))
+         if (scene%load%place > 0) then
+            call given_loads(scene%load, key, loads_by, loads)
+         else if (.not. ball%has('length_x')) then
+            call ball%complain(problems, 'kind', "without loads kind = 'ball' needs length_x")
+         end if
+         if (size(loads) == 0) then
+            key = ''
+            loads = [0.0_dp]
+         end if
+         hardness = huge(hardness)
+         if (scene%material%has('hardness')) hardness = scene%material%real('hardness')
+         ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
+         if (key == 'yield' .and. .not. scene%stress%any_bad()) &
+            loads = 2*loads*max(0.0_dp, scene%stress%real('yield_stress'))
+         call set_ball_sides(ball, plane_strain_modulus(scene%material), hardness, key, maxval(abs(loads)))
+      end associate
    end subroutine set_sides_of_loads
-
-   !> Checks &material, which gives p* and the hardness of the surface, and &load and, where these and the surface have
-   !> no problems, the loads against p* and Delta.
-   subroutine check_material_and_loads(scene, problems)
-      type(scene_type), intent(inout) :: scene   !! after read_surface
-      type(problem_list_type), intent(inout) :: problems
-
-      integer :: before
-
-      before = problems%number
-      call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star, problems)
-      call check_load_group(scene%load, scene%interface%has('work_of_adhesion'), problems)
-      if (problems%number > before .or. scene%material%any_bad() .or. scene%load%any_bad()) return
-      if (scene%load%place == 0 .or. .not. allocated(scene%surface)) return
-      call check_loads_of_surface(scene%load, scene%surface, scene%p_star, problems, &
-                                  has_own_sides=scene%surface_values%text('kind') /= 'ball' .or. &
-                                                scene%surface_values%has('length_x'))
-   end subroutine check_material_and_loads
 
    !> Sets what follows from the values of a deck without problems: loads, labels, settings, the resolved deck.
    subroutine complete(scene)
@@ -203,24 +197,26 @@ contains
       call make_stress_setting(scene%stress, scene%material, scene%p_star, scene%stress_setting)
       call make_interface_setting(scene%interface, scene%material, scene%surface, scene%p_star, &
                                   scene%interface_setting)
-      scene%title = scene%scene_values%text('title')
-      scene%case = scene%scene_values%text('case')
-      scene%pressure_unit = scene%scene_values%text('pressure_unit')
-      scene%length_unit = scene%scene_values%text('length_unit')
-      scene%directory = scene%output%text('directory')
-      scene%surface_kind = scene%surface_values%text('kind')
-      call scene%output%set('directory', text='')
-      scene%fingerprint = resolved_deck_text(scene)
-      ! The first line has the path of the deck.
-      scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
-      call scene%output%set('directory', text=scene%directory)
-      ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
-      file = scene%surface_values%text('file')
-      if (allocated(scene%map)) then
-         if (scene%map%path /= '') call scene%surface_values%set('file', text=scene%map%path)
-      end if
-      scene%resolved_deck = resolved_deck_text(scene)
-      if (file /= '') call scene%surface_values%set('file', text=file)
+      associate (labels => scene%scene_values, surface => scene%surface_values)
+         scene%title = labels%text('title')
+         scene%case = labels%text('case')
+         scene%pressure_unit = labels%text('pressure_unit')
+         scene%length_unit = labels%text('length_unit')
+         scene%directory = scene%output%text('directory')
+         scene%surface_kind = surface%text('kind')
+         call scene%output%set('directory', text='')
+         scene%fingerprint = resolved_deck_text(scene)
+         ! The first line has the path of the deck.
+         scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
+         call scene%output%set('directory', text=scene%directory)
+         ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
+         file = surface%text('file')
+         if (allocated(scene%map)) then
+            if (scene%map%path /= '') call surface%set('file', text=scene%map%path)
+         end if
+         scene%resolved_deck = resolved_deck_text(scene)
+         if (file /= '') call surface%set('file', text=file)
+      end associate
    end subroutine complete
 
 end module wavycon_read_deck

@@ -62,7 +62,7 @@ contains
             first = findloc(family .and. is_given, .true., dim=1)
             needs = words_of(keys(k)%needs)
             lacks = [(.not. stands_beside(trim(needs(i))), i=1, size(needs))]
-            if (any(lacks) .or. (first > 0 .and. .not. is_given(k))) call values%leave_out(key)
+            if (any(lacks) .or. any(family .and. is_given .and. keys%way /= keys(k)%way)) call values%leave_out(key)
             if (.not. is_given(k)) cycle
             if (keys(k)%way /= keys(first)%way .and. &
                 .not. any(family(:k - 1) .and. is_given(:k - 1) .and. keys(:k - 1)%way /= keys(first)%way)) &

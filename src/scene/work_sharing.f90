@@ -121,8 +121,8 @@ contains
 
    !> Gives all ranks what each has of its own loads.
    !>
-   !> It travels as 8-byte words: sums of words of which all but one are zero are exact, of real numbers those of NaN and
-   !> of -0 are not.
+   !> It travels as 8-byte words: sums of words of which all but one are zero are exact, of real numbers those of NaN
+   !> and of -0 are not.
    subroutine share_loads(self, words)
       class(work_sharing), intent(in) :: self   !! after deal_loads, with distributed loads
       integer(int64), intent(inout), contiguous :: words(:)   !! equally many of each load
