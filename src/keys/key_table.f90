@@ -23,7 +23,7 @@ module wavycon_key_table
       character(name_length) :: name = ''
       !> As in a deck; in words if it depends on other keys: the group's check then sets it. Empty: no default.
       character(40) :: default = ''
-      character(24) :: unit = ''                         !! '-' if dimensionless; empty for texts, flags and counts
+      character(32) :: unit = ''                         !! '-' if dimensionless; empty for texts, flags and counts
       character(meaning_length) :: meaning = ''
       real(dp) :: least = -no_bound, most = no_bound     !! bounds of a number, themselves allowed
       real(dp) :: above = -no_bound, below = no_bound    !! bounds, themselves excluded
