@@ -150,8 +150,8 @@ contains
       end if
    end subroutine sample
 
-   !> The values of a series at X = 2 pi (k + offset_x)/(parts_x N_x), k = 0 .. N_x - 1, and the same in Y, exact for any
-   !> number of points.
+   !> The values of a series at X = 2 pi (k + offset_x)/(parts_x N_x), k = 0 .. N_x - 1, and the same in Y, exact for
+   !> any number of points.
    subroutine sample_series(series, points, offset, values, parts)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: points(2)                     !! N_x, N_y >= 1; N_y = 1 in 1-D

@@ -77,8 +77,8 @@ contains
       end do
    end subroutine give_cosines
 
-   !> The inverse of `take_waves`; the number of points may differ. With `offset` the points are displaced, and waves that
-   !> they cannot tell from slower ones are added to those; without it such waves are left out.
+   !> The inverse of `take_waves`; the number of points may differ. With `offset` the points are displaced, and waves
+   !> that they cannot tell from slower ones are added to those; without it such waves are left out.
    pure subroutine give_waves(points, from, spectrum, power, per_wave, offset)
       integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
