@@ -41,17 +41,15 @@ contains
          do l = 0, n/2
             do r = 1, size(spectrum, 2)
                k = lbound(answer%c, 1) + r - 1
-               ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
+               ! Of e^(i(kX + lY)) and e^(i(kX - lY)): half each if both are the same wave.
                weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
+               if (modulo(2*l, n) == 0) weight = 0.5_dp*weight
                up = weight*cmplx(spectrum(1, r, l + 1), spectrum(2, r, l + 1), dp)
-               down = 0.0_dp
-               if (l > 0 .and. 2*l < n) down = weight*cmplx(spectrum(1, r, n - l + 1), spectrum(2, r, n - l + 1), dp)
+               down = weight*cmplx(spectrum(1, r, modulo(-l, n) + 1), spectrum(2, r, modulo(-l, n) + 1), dp)
                answer%c(k, l) = real(up + down)
+               answer%cs(k, l) = aimag(down - up)
                answer%sc(k, l) = -aimag(up + down)
-               if (l > 0 .and. 2*l < n) then
-                  answer%cs(k, l) = aimag(down - up)
-                  answer%ss(k, l) = real(down - up)
-               end if
+               answer%ss(k, l) = real(down - up)
             end do
          end do
       end associate

@@ -117,7 +117,7 @@ contains
          if (.not. by_columns) map%height(:, k) = line
       end do
       call slab%share_error(error)
-      if (slab%is_distributed .and. .not. allocated(error)) call map%distribute_over(slab)
+      if (slab%is_distributed .and. .not. allocated(error)) map%slab = slab
    end subroutine read_heights
 
    !> Reads numbers. Callers must switch off traps of invalid operations, which signalling NaNs are. Errors:
