@@ -39,17 +39,18 @@ contains
       is_distributed = self%distributed_waves > 0
    end function is_distributed
 
-   !> The complex amplitudes of the terms of two wave numbers: Re[up e^(i(kX + lY)) + down e^(i(kX - lY))].
-   pure subroutine amplitudes(self, k, l, up, down)
+   !> The complex amplitudes of the terms of one wave number l in Y and all k in X of the series:
+   !> Re[up e^(i(kX + lY)) + down e^(i(kX - lY))].
+   pure subroutine amplitudes(self, l, up, down)
       class(fourier_series), intent(in) :: self
-      integer, intent(in) :: k, l
-      complex(dp), intent(out) :: up, down
+      integer, intent(in) :: l
+      complex(dp), intent(out), contiguous :: up(:), down(:)   !! shape of the first index of the series
 
-      up = 0.5_dp*self%c(k, l)
+      up = 0.5_dp*self%c(:, l)
       down = up
       if (self%is_even()) return
-      up = up - 0.5_dp*cmplx(self%ss(k, l), self%sc(k, l) + self%cs(k, l), dp)
-      down = down + 0.5_dp*cmplx(self%ss(k, l), self%cs(k, l) - self%sc(k, l), dp)
+      up = up - 0.5_dp*cmplx(self%ss(:, l), self%sc(:, l) + self%cs(:, l), dp)
+      down = down + 0.5_dp*cmplx(self%ss(:, l), self%cs(:, l) - self%sc(:, l), dp)
    end subroutine amplitudes
 
    !> The field at a point. The series is whole.
@@ -81,7 +82,8 @@ contains
       real(dp) :: values(size(t))
 
       complex(dp), allocatable :: along(:)
-      complex(dp) :: down, phase, turn, turn_x(0:ubound(self%c, 1)), turn_y, up
+      complex(dp), dimension(0:ubound(self%c, 1)) :: down, turn_x, up
+      complex(dp) :: phase, turn, turn_y
       integer :: i, j, last(2), n
 
       last = direction*ubound(self%c)
@@ -89,12 +91,12 @@ contains
       turn_x = [(exp(cmplx(0.0_dp, i*start(1), dp)), i=0, ubound(self%c, 1))]
       do j = 0, ubound(self%c, 2)
          turn_y = exp(cmplx(0.0_dp, j*start(2), dp))
+         call self%amplitudes(j, up, down)
          do i = 0, ubound(self%c, 1)
-            call self%amplitudes(i, j, up, down)
             n = direction(1)*i
             associate (m => direction(2)*j)
-               along(n + m) = along(n + m) + up*turn_x(i)*turn_y
-               along(n - m) = along(n - m) + down*turn_x(i)*conjg(turn_y)
+               along(n + m) = along(n + m) + up(i)*turn_x(i)*turn_y
+               along(n - m) = along(n - m) + down(i)*turn_x(i)*conjg(turn_y)
             end associate
          end do
       end do

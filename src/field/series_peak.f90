@@ -87,7 +87,8 @@ contains
       real(dp), intent(in) :: place(2)
       real(dp), intent(out) :: height, gradient(2), hessian(3)
 
-      complex(dp) :: down, turn_x(0:ubound(self%series%c, 1)), turn_y, up
+      complex(dp), dimension(0:ubound(self%series%c, 1)) :: down, turn_x, up
+      complex(dp) :: turn_y
       integer :: i, j
 
       height = 0.0_dp
@@ -96,14 +97,14 @@ contains
       turn_x = [(exp(cmplx(0.0_dp, i*place(1), dp)), i=0, ubound(turn_x, 1))]
       do j = 0, ubound(self%series%c, 2)
          turn_y = exp(cmplx(0.0_dp, j*place(2), dp))
+         call self%series%amplitudes(j, up, down)
+         up = up*turn_x*turn_y
+         down = down*turn_x*conjg(turn_y)
          do i = 0, ubound(turn_x, 1)
-            call self%series%amplitudes(i, j, up, down)
-            up = up*turn_x(i)*turn_y
-            down = down*turn_x(i)*conjg(turn_y)
-            height = height + up%re + down%re
-            gradient = gradient - [i*(up%im + down%im), j*(up%im - down%im)]
+            height = height + up(i)%re + down(i)%re
+            gradient = gradient - [i*(up(i)%im + down(i)%im), j*(up(i)%im - down(i)%im)]
             hessian = hessian - [real(i, dp)**2, real(i*j, dp), real(j, dp)**2]* &
-                      [up%re + down%re, up%re - down%re, up%re + down%re]
+                      [up(i)%re + down(i)%re, up(i)%re - down(i)%re, up(i)%re + down(i)%re]
          end do
       end do
       if (ubound(self%series%c, 2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]

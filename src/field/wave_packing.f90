@@ -84,38 +84,58 @@ contains
       integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2), offset(2)
 
+      complex(dp), dimension(lbound(from%c, 1):ubound(from%c, 1)) :: down, up
       complex(dp), allocatable :: turn(:)   ! of e^(ikX) between a point of the grid and the displaced one
-      complex(dp) :: both(2), turn_y
-      real(dp) :: weight
-      integer :: first, k, l, last(2), r, wave
+      complex(dp) :: turn_y
+      real(dp), dimension(lbound(from%c, 1):ubound(from%c, 1)) :: halves, weight
+      integer :: first, k, l, last(2), minus, plus, r
 
       first = lbound(from%c, 1)
+      ! One half where k and -k are two waves.
+      halves = [(merge(1.0_dp, 0.5_dp, modulo(2*k, points(1)) == 0), k=first, ubound(from%c, 1))]
       last = min([first + size(spectrum, 2) - 1, points(2)/2], ubound(from%c))
       if (present(offset)) then
          last = ubound(from%c)
-         turn = [(turned(wave*offset(1)/points(1)), wave=first, last(1))]
+         turn = [(turned(k*offset(1)/points(1)), k=first, last(1))]
       end if
-      spectrum = 0.0_dp
-      do l = 0, last(2)
-         if (present(offset)) turn_y = turned(l*offset(2)/points(2))
-         associate (up => modulo(l, points(2)) + 1, down => modulo(-l, points(2)) + 1)
-            do wave = first, last(1)
-               call from%amplitudes(wave, l, both(1), both(2))
-               if (present(offset)) both = turn(wave - first + 1)*[turn_y, conjg(turn_y)]*both
-               k = wave
-               if (2*k > points(1)) then
-                  k = modulo(wave, points(1))
-                  ! The transform derives the other half of the spectrum from this one.
-                  if (2*k > points(1)) both = conjg(both(2:1:-1))
-                  k = min(k, points(1) - k)
-               end if
-               ! One half where k and -k are two waves.
-               weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == points(1))*factor(wave, l, power, per_wave)
-               r = k - first + 1
-               spectrum(:, r, up) = spectrum(:, r, up) + weight*[both(1)%re, both(1)%im]
-               spectrum(:, r, down) = spectrum(:, r, down) + weight*[both(2)%re, both(2)%im]
+      do l = 0, max(last(2), points(2)/2)
+         plus = modulo(l, points(2)) + 1
+         minus = modulo(-l, points(2)) + 1
+         if (2*l <= points(2)) then
+            spectrum(:, :, plus) = 0.0_dp
+            spectrum(:, :, minus) = 0.0_dp
+         end if
+         if (l > last(2)) cycle
+         weight = halves
+         if (present(power)) weight = weight*[(factor(k, l, power, per_wave), k=first, ubound(from%c, 1))]
+         call from%amplitudes(l, up, down)
+         up = weight*up
+         down = weight*down
+         if (present(offset)) then
+            turn_y = turned(l*offset(2)/points(2))
+            up = turn*turn_y*up
+            down = turn*conjg(turn_y)*down
+         end if
+         associate (a => spectrum(:, :, plus), b => spectrum(:, :, minus))
+            do k = first, min(last(1), points(1)/2)
+               a(1, k - first + 1) = a(1, k - first + 1) + up(k)%re
+               a(2, k - first + 1) = a(2, k - first + 1) + up(k)%im
+               b(1, k - first + 1) = b(1, k - first + 1) + down(k)%re
+               b(2, k - first + 1) = b(2, k - first + 1) + down(k)%im
             end do
          end associate
+         do k = max(first, points(1)/2 + 1), last(1)
+            r = modulo(k, points(1)) + 1
+            if (2*(r - 1) > points(1)) then
+               ! The transform derives this half of the spectrum from the other: e^(ikX) and e^(-ikX) are conjugate.
+               r = points(1) - r + 2
+               spectrum(:, r, plus) = spectrum(:, r, plus) + [down(k)%re, -down(k)%im]
+               spectrum(:, r, minus) = spectrum(:, r, minus) + [up(k)%re, -up(k)%im]
+            else
+               spectrum(:, r, plus) = spectrum(:, r, plus) + [up(k)%re, up(k)%im]
+               spectrum(:, r, minus) = spectrum(:, r, minus) + [down(k)%re, down(k)%im]
+            end if
+         end do
       end do
 
    contains
