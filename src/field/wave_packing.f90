@@ -84,8 +84,8 @@ contains
       integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2), offset(2)
 
-      complex(dp), dimension(lbound(from%c, 1):ubound(from%c, 1)) :: down, up
-      complex(dp), allocatable :: turn(:)   ! of e^(ikX) between a point of the grid and the displaced one
+      !> Amplitudes, and how far e^(ikX) turns between a point of the grid and the displaced one.
+      complex(dp), dimension(lbound(from%c, 1):ubound(from%c, 1)) :: down, turn, up
       complex(dp) :: turn_y
       real(dp), dimension(lbound(from%c, 1):ubound(from%c, 1)) :: halves, weight
       integer :: first, k, l, last(2), minus, plus, r
