@@ -19,7 +19,6 @@ module wavycon_fourier_series
    contains
       procedure :: is_even
       procedure :: is_distributed
-      procedure :: amplitudes
       procedure :: at
       procedure :: on_line
       procedure :: evaluate_on_grid
@@ -38,20 +37,6 @@ contains
 
       is_distributed = self%distributed_waves > 0
    end function is_distributed
-
-   !> The complex amplitudes of the terms of one wave number l in Y and all k in X of the series:
-   !> Re[up e^(i(kX + lY)) + down e^(i(kX - lY))].
-   pure subroutine amplitudes(self, l, up, down)
-      class(fourier_series), intent(in) :: self
-      integer, intent(in) :: l
-      complex(dp), intent(out), contiguous :: up(:), down(:)   !! shape of the first index of the series
-
-      up = 0.5_dp*self%c(:, l)
-      down = up
-      if (self%is_even()) return
-      up = up - 0.5_dp*cmplx(self%ss(:, l), self%sc(:, l) + self%cs(:, l), dp)
-      down = down + 0.5_dp*cmplx(self%ss(:, l), self%cs(:, l) - self%sc(:, l), dp)
-   end subroutine amplitudes
 
    !> The field at a point. The series is whole.
    pure real(dp) function at(self, x, y)
@@ -82,8 +67,7 @@ contains
       real(dp) :: values(size(t))
 
       complex(dp), allocatable :: along(:)
-      complex(dp), dimension(0:ubound(self%c, 1)) :: down, turn_x, up
-      complex(dp) :: phase, turn, turn_y
+      complex(dp) :: down, phase, turn, turn_x(0:ubound(self%c, 1)), turn_y, up
       integer :: i, j, last(2), n
 
       last = direction*ubound(self%c)
@@ -91,12 +75,18 @@ contains
       turn_x = [(exp(cmplx(0.0_dp, i*start(1), dp)), i=0, ubound(self%c, 1))]
       do j = 0, ubound(self%c, 2)
          turn_y = exp(cmplx(0.0_dp, j*start(2), dp))
-         call self%amplitudes(j, up, down)
          do i = 0, ubound(self%c, 1)
+            ! The amplitudes of exp(i (iX + jY)) and exp(i (iX - jY)).
+            up = 0.5_dp*self%c(i, j)
+            down = up
+            if (.not. self%is_even()) then
+               up = up - 0.5_dp*cmplx(self%ss(i, j), self%sc(i, j) + self%cs(i, j), dp)
+               down = down + 0.5_dp*cmplx(self%ss(i, j), self%cs(i, j) - self%sc(i, j), dp)
+            end if
             n = direction(1)*i
             associate (m => direction(2)*j)
-               along(n + m) = along(n + m) + up(i)*turn_x(i)*turn_y
-               along(n - m) = along(n - m) + down(i)*turn_x(i)*conjg(turn_y)
+               along(n + m) = along(n + m) + up*turn_x(i)*turn_y
+               along(n - m) = along(n - m) + down*turn_x(i)*conjg(turn_y)
             end associate
          end do
       end do
@@ -117,18 +107,26 @@ contains
       integer, intent(in) :: intervals                     !! N >= 1
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
 
-      real(dp) :: half_way(0:intervals, 0:ubound(self%c, 2)), x(0:intervals, 0:ubound(self%c, 1))
-      real(dp), allocatable :: y(:, :)
+      integer :: last
 
-      x = cosine_table(intervals, ubound(self%c, 1))
-      y = cosine_table(intervals, ubound(self%c, 2))
-      if (ubound(self%c, 2) == 0) y = y(:1, :)
-      allocate (values(0:intervals, 0:size(y, 1) - 1))
-      associate (m => size(self%c, 1), n => size(self%c, 2), points => intervals + 1)
-         call dgemm('N', 'N', points, n, m, 1.0_dp, x, points, self%c, m, 0.0_dp, half_way, points)
-         call dgemm('N', 'T', points, size(y, 1), n, 1.0_dp, half_way, points, y, size(y, 1), 0.0_dp, values, points)
-      end associate
+      last = merge(intervals, 0, ubound(self%c, 2) > 0)
+      allocate (values(0:intervals, 0:last), source=0.0_dp)
+      call add_products(self%c, cosine_table(intervals, ubound(self%c, 1)), &
+                        cosine_table(intervals, ubound(self%c, 2)), values)
    end subroutine evaluate_on_grid
+
+   !> values(k, l) = values(k, l) + sum_ij x(k, i) c(i, j) y(l, j)
+   pure subroutine add_products(c, x, y, values)
+      real(dp), intent(in) :: c(0:, 0:), x(0:, 0:), y(0:, 0:)
+      real(dp), intent(inout) :: values(0:, 0:)
+
+      real(dp) :: half_way(size(x, 1), size(c, 2))
+
+      call dgemm('N', 'N', size(x, 1), size(c, 2), size(c, 1), 1.0_dp, x, size(x, 1), c, size(c, 1), &
+                 0.0_dp, half_way, size(x, 1))
+      call dgemm('N', 'T', size(x, 1), size(values, 2), size(c, 2), 1.0_dp, half_way, size(x, 1), &
+                 y, size(y, 1), 1.0_dp, values, size(x, 1))
+   end subroutine add_products
 
    !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in integers, so that the symmetries of the cosine hold to
    !> the last bit and high harmonics are as accurate as low ones.
