@@ -40,13 +40,6 @@ module wavycon_lapack
          integer, intent(out) :: info
       end subroutine dpotrf
 
-      pure function dasum(n, x, incx)
-         import :: dp
-         integer, intent(in) :: n, incx
-         real(dp), intent(in) :: x(*)
-         real(dp) :: dasum
-      end function dasum
-
       pure function ddot(n, x, incx, y, incy)
          import :: dp
          integer, intent(in) :: n, incx, incy

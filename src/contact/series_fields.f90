@@ -7,7 +7,7 @@ module wavycon_series_fields
    use wavycon_contact_status, only: full_contact, no_load
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
-   use wavycon_grid_transform, only: sample_series
+   use wavycon_series_samples, only: sample_series
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -19,7 +19,6 @@ module wavycon_fourier_series
    contains
       procedure :: is_even
       procedure :: is_distributed
-      procedure :: amplitudes
       procedure :: at
       procedure :: on_line
       procedure :: evaluate_on_grid
@@ -38,19 +37,6 @@ contains
 
       is_distributed = self%distributed_waves > 0
    end function is_distributed
-
-   !> The complex amplitudes of the terms of two wave numbers: Re[up e^(i(kX + lY)) + down e^(i(kX - lY))].
-   pure subroutine amplitudes(self, k, l, up, down)
-      class(fourier_series), intent(in) :: self
-      integer, intent(in) :: k, l
-      complex(dp), intent(out) :: up, down
-
-      up = 0.5_dp*self%c(k, l)
-      down = up
-      if (self%is_even()) return
-      up = up - 0.5_dp*cmplx(self%ss(k, l), self%sc(k, l) + self%cs(k, l), dp)
-      down = down + 0.5_dp*cmplx(self%ss(k, l), self%cs(k, l) - self%sc(k, l), dp)
-   end subroutine amplitudes
 
    !> The field at a point. The series is whole.
    pure real(dp) function at(self, x, y)
@@ -90,7 +76,13 @@ contains
       do j = 0, ubound(self%c, 2)
          turn_y = exp(cmplx(0.0_dp, j*start(2), dp))
          do i = 0, ubound(self%c, 1)
-            call self%amplitudes(i, j, up, down)
+            ! The amplitudes of exp(i (iX + jY)) and exp(i (iX - jY)).
+            up = 0.5_dp*self%c(i, j)
+            down = up
+            if (.not. self%is_even()) then
+               up = up - 0.5_dp*cmplx(self%ss(i, j), self%sc(i, j) + self%cs(i, j), dp)
+               down = down + 0.5_dp*cmplx(self%ss(i, j), self%cs(i, j) - self%sc(i, j), dp)
+            end if
             n = direction(1)*i
             associate (m => direction(2)*j)
                along(n + m) = along(n + m) + up*turn_x(i)*turn_y

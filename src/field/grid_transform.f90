@@ -20,7 +20,7 @@ module wavycon_grid_transform
    implicit none (type, external)
    private
 
-   public :: grid_transform, sample_series
+   public :: grid_transform
 
    type :: grid_transform
       integer :: points(2) = 0       !! M, N
@@ -107,16 +107,12 @@ contains
    !>
    !> With `power` each harmonic is first multiplied by that power of its frequency, the root of the sum of the squares
    !> of its wave numbers times `per_wave`, and the mean becomes 0.
-   !>
-   !> With `offset` the points are displaced, and waves beyond the grid's highest wave number, which the points cannot
-   !> tell from slower ones, are added to those: the values are exact for any number of points.
-   subroutine sample(self, from, field, power, per_wave, offset)
+   subroutine sample(self, from, field, power, per_wave)
       class(grid_transform), intent(in) :: self
       type(fourier_series), intent(in) :: from                !! even, if the points are those of a quarter
       real(dp), intent(out), contiguous :: field(:, :)        !! shape (M, slab%columns())
       integer, intent(in), optional :: power                  !! not 0
       real(dp), intent(in), optional :: per_wave(2)           !! with power
-      real(dp), intent(in), optional :: offset(2)             !! in steps; only for a whole cell that is not distributed
 
       real(c_double), allocatable :: own_columns(:, :, :), spectrum(:, :, :)
       real(dp), allocatable :: own_values(:, :)
@@ -130,7 +126,7 @@ contains
       if (self%even) then
          call give_cosines(self%points, from, spectrum(:, :carried, :), power, per_wave)
       else
-         call give_waves(self%points, from, spectrum(:, :carried, :), power, per_wave, offset)
+         call give_waves(self%points, from, spectrum(:, :carried, :), power, per_wave)
       end if
       call transform_rows(self%even, spectrum(:, :carried, :), forwards=.false.)
       if (.not. from%is_distributed()) then
@@ -149,24 +145,6 @@ contains
          call kept%gather(8*self%points(1), own_values, field, first_only=.false.)
       end if
    end subroutine sample
-
-   !> The values of a series at X = 2 pi (k + offset_x)/(parts_x N_x), k = 0 .. N_x - 1, and the same in Y, exact for any
-   !> number of points.
-   subroutine sample_series(series, points, offset, values, parts)
-      type(fourier_series), intent(in) :: series
-      integer, intent(in) :: points(2)                     !! N_x, N_y >= 1; N_y = 1 in 1-D
-      real(dp), intent(in) :: offset(2)                    !! of the first point, in steps
-      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
-      !> How often the points fit into the cell along x and y, 1 or 2.
-      integer, intent(in) :: parts(2)
-
-      type(grid_transform) :: transform
-
-      call transform%start(parts*points, even=.false., whole=.true.)
-      allocate (values(transform%points(1), transform%points(2)))
-      call transform%sample(series, values, offset=offset)
-      if (any(parts > 1)) values = values(:points(1), :points(2))
-   end subroutine sample_series
 
    !> The values of waves at the points of a whole cell, in a grid that is not distributed:
    !> f = sum_kl w_kl e^(i(kX + lY)), k = -M/2 .. M/2, l = 0 .. N - 1, where w_-k,N-l is the conjugate of w_kl.
@@ -281,9 +259,6 @@ contains
             else
                waves(:last) = cmplx(spectrum(1, :last + 1, j), spectrum(2, :last + 1, j), dp)
                waves(last + 1:) = 0.0_dp
-               ! The sines of these waves are zero at the points.
-               waves(0)%im = 0.0_dp
-               if (modulo(m, 2) == 0) waves(m/2)%im = 0.0_dp
                call fftw_execute_dft_c2r(plan, waves, values)
             end if
             field(:, j) = values

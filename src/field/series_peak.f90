@@ -87,26 +87,36 @@ contains
       real(dp), intent(in) :: place(2)
       real(dp), intent(out) :: height, gradient(2), hessian(3)
 
-      complex(dp) :: down, turn_x(0:ubound(self%series%c, 1)), turn_y, up
+      real(dp) :: cx, cy, sx, sy, f, f_x, f_y, f_xy
       integer :: i, j
 
       height = 0.0_dp
       gradient = 0.0_dp
       hessian = 0.0_dp
-      turn_x = [(exp(cmplx(0.0_dp, i*place(1), dp)), i=0, ubound(turn_x, 1))]
-      do j = 0, ubound(self%series%c, 2)
-         turn_y = exp(cmplx(0.0_dp, j*place(2), dp))
-         do i = 0, ubound(turn_x, 1)
-            call self%series%amplitudes(i, j, up, down)
-            up = up*turn_x(i)*turn_y
-            down = down*turn_x(i)*conjg(turn_y)
-            height = height + up%re + down%re
-            gradient = gradient - [i*(up%im + down%im), j*(up%im - down%im)]
-            hessian = hessian - [real(i, dp)**2, real(i*j, dp), real(j, dp)**2]* &
-                      [up%re + down%re, up%re - down%re, up%re + down%re]
+      associate (series => self%series)
+         do j = 0, ubound(series%c, 2)
+            cy = cos(j*place(2))
+            sy = sin(j*place(2))
+            do i = 0, ubound(series%c, 1)
+               cx = cos(i*place(1))
+               sx = sin(i*place(1))
+               f = series%c(i, j)*cx*cy
+               f_x = -series%c(i, j)*sx*cy
+               f_y = -series%c(i, j)*cx*sy
+               f_xy = series%c(i, j)*sx*sy
+               if (.not. series%is_even()) then
+                  f = f + series%cs(i, j)*cx*sy + series%sc(i, j)*sx*cy + series%ss(i, j)*sx*sy
+                  f_x = f_x - series%cs(i, j)*sx*sy + series%sc(i, j)*cx*cy + series%ss(i, j)*cx*sy
+                  f_y = f_y + series%cs(i, j)*cx*cy - series%sc(i, j)*sx*sy + series%ss(i, j)*sx*cy
+                  f_xy = f_xy - series%cs(i, j)*sx*cy - series%sc(i, j)*cx*sy + series%ss(i, j)*cx*cy
+               end if
+               height = height + f
+               gradient = gradient + [i*f_x, j*f_y]
+               hessian = hessian + [-real(i, dp)**2*f, i*j*f_xy, -real(j, dp)**2*f]
+            end do
          end do
-      end do
-      if (ubound(self%series%c, 2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]
+         if (ubound(series%c, 2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]
+      end associate
    end subroutine expand
 
 end module wavycon_series_peak

@@ -1,7 +1,6 @@
 !> Converts between the coefficients of a Fourier series and the spectrum of its values on a grid of
 !> wavycon_grid_points. The rows of the spectrum are cosines for an even field, waves for any other.
 module wavycon_wave_packing
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -77,58 +76,52 @@ contains
       end do
    end subroutine give_cosines
 
-   !> The inverse of `take_waves`; the number of points may differ. With `offset` the points are displaced, and waves that
-   !> they cannot tell from slower ones are added to those; without it such waves are left out.
-   pure subroutine give_waves(points, from, spectrum, power, per_wave, offset)
+   !> The inverse of `take_waves`; the number of points may differ.
+   pure subroutine give_waves(points, from, spectrum, power, per_wave)
       integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
       real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
       integer, intent(in), optional :: power              !! as of `grid_transform%sample`
-      real(dp), intent(in), optional :: per_wave(2), offset(2)
+      real(dp), intent(in), optional :: per_wave(2)
 
-      complex(dp), allocatable :: turn(:)   ! of e^(ikX) between a point of the grid and the displaced one
-      complex(dp) :: both(2), turn_y
+      !> One half where k and -k are two waves, and whether they have sines.
+      real(dp), dimension(size(spectrum, 2)) :: halves, sines
       real(dp) :: weight
-      integer :: first, k, l, last(2), r, wave
+      real(dp) :: of_c, of_cs, of_sc, of_ss
+      integer :: k, l, last, r
+      logical :: even
 
-      first = lbound(from%c, 1)
-      last = min([first + size(spectrum, 2) - 1, points(2)/2], ubound(from%c))
-      if (present(offset)) then
-         last = ubound(from%c)
-         turn = [(turned(wave*offset(1)/points(1)), wave=first, last(1))]
-      end if
-      spectrum = 0.0_dp
-      do l = 0, last(2)
-         if (present(offset)) turn_y = turned(l*offset(2)/points(2))
-         associate (up => modulo(l, points(2)) + 1, down => modulo(-l, points(2)) + 1)
-            do wave = first, last(1)
-               call from%amplitudes(wave, l, both(1), both(2))
-               if (present(offset)) both = turn(wave - first + 1)*[turn_y, conjg(turn_y)]*both
-               k = wave
-               if (2*k > points(1)) then
-                  k = modulo(wave, points(1))
-                  ! The transform derives the other half of the spectrum from this one.
-                  if (2*k > points(1)) both = conjg(both(2:1:-1))
-                  k = min(k, points(1) - k)
+      even = from%is_even()
+      of_cs = 0.0_dp
+      of_sc = 0.0_dp
+      of_ss = 0.0_dp
+      associate (m => points(1), n => points(2))
+         last = min(n/2, ubound(from%c, 2))
+         spectrum(:, :, last + 2:n - last) = 0.0_dp
+         do r = 1, size(spectrum, 2)
+            k = lbound(from%c, 1) + r - 1
+            halves(r) = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)
+            sines(r) = merge(0.0_dp, 1.0_dp, halves(r) > 0.5_dp)
+         end do
+         do l = 0, last
+            do r = 1, size(spectrum, 2)
+               k = lbound(from%c, 1) + r - 1
+               weight = halves(r)*factor(k, l, power, per_wave)
+               of_c = weight*from%c(k, l)
+               if (.not. even) then
+                  of_cs = weight*from%cs(k, l)
+                  of_sc = weight*sines(r)*from%sc(k, l)
+                  of_ss = weight*sines(r)*from%ss(k, l)
                end if
-               ! One half where k and -k are two waves.
-               weight = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == points(1))*factor(wave, l, power, per_wave)
-               r = k - first + 1
-               spectrum(:, r, up) = spectrum(:, r, up) + weight*[both(1)%re, both(1)%im]
-               spectrum(:, r, down) = spectrum(:, r, down) + weight*[both(2)%re, both(2)%im]
+               if (l == 0 .or. 2*l == n) then
+                  spectrum(:, r, l + 1) = [of_c, -of_sc]
+               else
+                  spectrum(:, r, l + 1) = 0.5_dp*[of_c - of_ss, -of_sc - of_cs]
+                  spectrum(:, r, n - l + 1) = 0.5_dp*[of_c + of_ss, of_cs - of_sc]
+               end if
             end do
-         end associate
-      end do
-
-   contains
-
-      !> e^(2 pi i t)
-      pure complex(dp) function turned(t)
-         real(dp), intent(in) :: t
-
-         turned = exp(cmplx(0.0_dp, 2*pi*modulo(t, 1.0_dp), dp))
-      end function turned
-
+         end do
+      end associate
    end subroutine give_waves
 
    !> A power of the frequency of a harmonic: 1 without a power, and 0 for the mean.

@@ -1,6 +1,5 @@
 !> A binary file: its first bytes, and its numbers of single or double precision in either byte order.
 module wavycon_binary_file
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: open_file
@@ -23,8 +22,7 @@ module wavycon_binary_file
       integer :: number_bytes = 4          !! of a number: 4 or 8
       logical :: big_end_first = .false.   !! the byte order of the numbers
       logical :: in_slabs = .false.        !! whether a large map is read in slabs
-      integer, private :: unit = -1
-      logical, private :: is_open = .false.
+      integer, private :: unit = -1        !! -1: it is not open
    contains
       procedure :: open => open_binary_file
       procedure :: read_heights
@@ -47,7 +45,6 @@ contains
       self%path = path
       call open_file(path, self%unit, error)
       if (allocated(error)) return
-      self%is_open = .true.
       inquire (unit=self%unit, size=self%bytes)
       allocate (character(int(max(0_int64, min(self%bytes, int(longest_head, int64))))) :: self%head)
       if (len(self%head) == 0) return
@@ -59,8 +56,8 @@ contains
    subroutine close_binary_file(self)
       class(binary_file), intent(inout) :: self
 
-      if (self%is_open) close (self%unit)
-      self%is_open = .false.
+      if (self%unit /= -1) close (self%unit)
+      self%unit = -1
    end subroutine close_binary_file
 
    !> Reports a read statement that failed. Errors: exit_file_trouble.
@@ -107,8 +104,9 @@ contains
          place = merge([k, slab%first], [1, slab%first - 1 + k], by_columns)
          before = merge((place(1) - 1)*int(points(2), int64) + place(2) - 1, &
                         (place(2) - 1)*int(points(1), int64), by_columns)
-         call read_numbers(self, start + self%number_bytes*before, line, infinite, error)
+         call read_numbers(self, start + self%number_bytes*before, line, error)
          if (allocated(error)) exit
+         infinite = findloc(abs(line) > huge(line), .true., dim=1)
          if (infinite > 0) then
             place = place + (infinite - 1)*merge([0, 1], [1, 0], by_columns)
             call self%refuse('the height in row '//integer_text(place(2))//', column '//integer_text(place(1))// &
@@ -119,50 +117,31 @@ contains
          if (.not. by_columns) map%height(:, k) = line
       end do
       call slab%share_error(error)
-      if (slab%is_distributed .and. .not. allocated(error)) call map%distribute_over(slab)
+      if (slab%is_distributed .and. .not. allocated(error)) map%slab = slab
    end subroutine read_heights
 
-   !> Reads numbers. A NaN of any kind becomes a quiet one, and so does an infinity. Errors: exit_file_trouble.
-   !>
-   !> N.B. Signalling NaNs stop programs that trap invalid operations: bits are tested before they become numbers.
-   subroutine read_numbers(self, start, numbers, infinite, error)
+   !> Reads numbers. Callers must switch off traps of invalid operations, which signalling NaNs are. Errors:
+   !> exit_file_trouble.
+   subroutine read_numbers(self, start, numbers, error)
       type(binary_file), intent(in) :: self
       integer(int64), intent(in) :: start   !! bytes before the first
       real(dp), intent(out) :: numbers(:)
-      integer, intent(out) :: infinite      !! index of the first infinite number; 0 if there is none
       type(error_type), allocatable, intent(out) :: error
 
-      !> Bits of the exponent: all are 1 in a NaN and in an infinity, whose other bits but the sign are 0.
-      integer(int32), parameter :: exponent_sp = int(z'7F800000', int32)
-      integer(int64), parameter :: exponent_dp = int(z'7FF0000000000000', int64)
       integer(int8), allocatable :: bytes(:, :)   ! of each number, in the order of this machine
       character(200) :: message
-      integer(int32) :: single
-      integer(int64) :: double
-      integer :: i, status
-      logical :: is_infinite, is_number
+      integer :: status
 
-      infinite = 0
-      numbers = ieee_value(0.0_dp, ieee_quiet_nan)
       allocate (bytes(self%number_bytes, size(numbers)))
       read (self%unit, pos=start + 1, iostat=status, iomsg=message) bytes
       call self%check(status, message, error)
       if (allocated(error)) return
       if (self%big_end_first .eqv. transfer(1_int32, 1_int8) == 1_int8) bytes = bytes(self%number_bytes:1:-1, :)
-      do i = 1, size(numbers)
-         if (self%number_bytes == 4) then
-            single = transfer(bytes(:4, i), single)
-            is_number = iand(single, exponent_sp) /= exponent_sp
-            is_infinite = ibclr(single, 31) == exponent_sp
-            if (is_number) numbers(i) = real(transfer(single, 0.0_sp), dp)
-         else
-            double = transfer(bytes(:8, i), double)
-            is_number = iand(double, exponent_dp) /= exponent_dp
-            is_infinite = ibclr(double, 63) == exponent_dp
-            if (is_number) numbers(i) = transfer(double, 0.0_dp)
-         end if
-         if (is_infinite .and. infinite == 0) infinite = i
-      end do
+      if (self%number_bytes == 4) then
+         numbers = real(transfer(bytes, 0.0_sp, size(numbers)), dp)
+      else
+         numbers = transfer(bytes, 0.0_dp, size(numbers))
+      end if
    end subroutine read_numbers
 
    !> Makes an error with the name of the file and the status exit_bad_input.

@@ -1,8 +1,8 @@
 !> Reads height maps from files, in any of six formats.
 module wavycon_map_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, &
-      ieee_set_status, ieee_status_type
+   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_invalid, ieee_overflow, &
+      ieee_set_halting_mode, ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_head, only: entry_of, take_text_head
@@ -42,12 +42,13 @@ contains
       logical, intent(in), optional :: in_slabs
 
       type(binary_file) :: file
+      character(:), allocatable :: ending
       type(grid_slab) :: slab
       type(ieee_status_type) :: floating_point
 
-      ! 1e999 must be reported as bad input in builds that trap overflow too.
+      ! 1e999 must be reported as bad input, and a signalling NaN be missing, in builds that trap them too.
       call ieee_get_status(floating_point)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode([ieee_invalid, ieee_overflow], .false.)
       ! A pipe may block, a device may never end, and a run of the resolved deck could not read either again.
       if (path_kind(path) == path_device) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
@@ -58,7 +59,12 @@ contains
       call share_error(error)
       if (.not. allocated(error)) then
          map%format = format
-         if (format == 'auto') map%format = format_of(file)
+         if (format == 'auto') then
+            ! By its content or, if that does not tell, by its name.
+            ending = lower_case(path(index(path, '.', back=.true.) + 1:))
+            if (is_gsf(file%head) .or. ending == 'gsf') map%format = 'gsf'
+            if (is_npy(file%head) .or. ending == 'npy') map%format = 'npy'
+         end if
          select case (map%format)
          case ('npy')
             call read_npy_map(file, map, error)
@@ -71,31 +77,14 @@ contains
          end select
       end if
       call file%close()
-      call ieee_set_status(floating_point)
       if (.not. allocated(error)) call mark_missing(map, missing_value)
+      call ieee_set_status(floating_point)
       if (allocated(map%x) .and. .not. allocated(error)) call resample_profile(path, map, error)
       call share_error(error)
       if (allocated(error)) return
       slab = map%columns()
       map%has_missing_value = slab%any(map%has_missing_value)
    end subroutine read_height_map
-
-   !> The format of a file by its content or, if that does not tell, by its name: a text is 'auto'.
-   function format_of(file) result(format)
-      type(binary_file), intent(inout) :: file
-      character(:), allocatable :: format
-
-      character(:), allocatable :: ending
-
-      ending = lower_case(file%path(index(file%path, '.', back=.true.) + 1:))
-      if (is_npy(file%head) .or. ending == 'npy') then
-         format = 'npy'
-      else if (is_gsf(file%head) .or. ending == 'gsf') then
-         format = 'gsf'
-      else
-         format = 'auto'
-      end if
-   end function format_of
 
    !> Reads a map of lines of numbers. Errors: as of read_height_map.
    subroutine read_text(file, map, error)

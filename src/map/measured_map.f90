@@ -28,10 +28,9 @@ module wavycon_measured_map
       character(7) :: format = ''                  !! of the file, as of read_height_map, but not 'auto'
       character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
       character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
-      type(grid_slab), private :: slab             !! of the points of a map that is distributed
+      type(grid_slab) :: slab                      !! of the points of a map that is distributed
    contains
       procedure :: set_units
-      procedure :: distribute_over
       procedure :: columns
       procedure :: points
       procedure :: keep_own_columns
@@ -50,14 +49,6 @@ contains
       if (length_unit == '') self%length_unit = height_unit
       if (height_unit == '') self%height_unit = length_unit
    end subroutine set_units
-
-   !> Declares that `height` has, or will have, the own columns of a map.
-   pure subroutine distribute_over(self, slab)
-      class(measured_map), intent(inout) :: self
-      type(grid_slab), intent(in) :: slab
-
-      self%slab = slab
-   end subroutine distribute_over
 
    !> The columns that `height` has: the whole grid, unless the map is distributed.
    pure type(grid_slab) function columns(self)

@@ -41,40 +41,31 @@ contains
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
       integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
 
+      !> (M22) to (M25a), in the order of roughness_type, of the waves of each wave number in X.
+      real(dp) :: moments(4, lbound(series%c, 1):ubound(series%c, 1))
+      real(dp), dimension(lbound(series%c, 1):ubound(series%c, 1)) :: powers, q_squared, x_squared
       real(dp) :: sums(4), unit
+      integer :: k, l
       type(grid_slab) :: rows
 
       ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
       unit = minval(length)
-      rows = wave_slab(series)
-      sums = rows%column_totals(moments_of_rows(series, unit/length, points))
-      sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))
-      if (ubound(series%c, 2) > 0) sums(3) = 0.5_dp*sums(3)
-      roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit)
-   end function roughness_of
-
-   !> The sums of (M22) to (M25a) over the waves of each wave number in X, of height, slope, curvature and frequency, in
-   !> the order of roughness_type; wave numbers are in units of 2 pi/unit.
-   pure function moments_of_rows(series, over_length, points) result(moments)
-      type(fourier_series), intent(in) :: series
-      real(dp), intent(in) :: over_length(2)             !! unit/L_x, unit/L_y
-      integer, intent(in) :: points(2)                   !! as of roughness_of
-      real(dp), allocatable :: moments(:, :)             !! shape (4, that of the series' first index)
-
-      real(dp), dimension(lbound(series%c, 1):ubound(series%c, 1)) :: powers, q_squared, x_squared
-      integer :: k, l
-
-      x_squared = [((k*over_length(1))**2, k=lbound(series%c, 1), ubound(series%c, 1))]
-      allocate (moments(4, size(powers)), source=0.0_dp)
+      x_squared = [((k*(unit/length(1)))**2, k=lbound(series%c, 1), ubound(series%c, 1))]
+      moments = 0.0_dp
       do l = 0, ubound(series%c, 2)
          powers = wave_powers(series, points, l)
-         q_squared = x_squared + (l*over_length(2))**2
+         q_squared = x_squared + (l*(unit/length(2)))**2
          moments(1, :) = moments(1, :) + powers
          moments(2, :) = moments(2, :) + powers*q_squared
          moments(3, :) = moments(3, :) + powers*q_squared**2
          moments(4, :) = moments(4, :) + powers*sqrt(q_squared)
       end do
-   end function moments_of_rows
+      rows = wave_slab(series)
+      sums = rows%column_totals(moments)
+      sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))
+      if (ubound(series%c, 2) > 0) sums(3) = 0.5_dp*sums(3)
+      roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit)
+   end function roughness_of
 
    !> The isotropic spectrum of a surface, eqs (M26) and (M27). Bin b has the wave numbers from (b - 1/2) dq to
    !> (b + 1/2) dq, where dq is 2 pi over the longer side, or the largest wave number over most_bins if that is more;

@@ -4,10 +4,11 @@ module wavycon_surface
    use wavycon_constants, only: pi, sqrt2
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_points, only: point_angle
-   use wavycon_grid_transform, only: grid_transform, sample_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
+   use wavycon_series_samples, only: sample_series
    use wavycon_series_weights, only: divide_series, divided, weighted
    use wavycon_rotated_series, only: to_sum_angles
    implicit none (type, external)
