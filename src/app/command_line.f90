@@ -80,6 +80,7 @@ contains
       call command_line%options%start(table, '')
       decks = 0
       sweeps = 0
+      value = ''
       options_over = .false.
       i = 0
       do while (i < command_argument_count())
@@ -110,10 +111,11 @@ contains
             call command_line%options%set(key%name, [1.0_dp])
             cycle
          end if
-         value = word(min(equals, len(word)) + 1:)
          if (equals > len(word) .and. i < command_argument_count()) then
             i = i + 1
             value = argument(i)
+         else
+            value = word(min(equals, len(word)) + 1:)
          end if
          if (value == '' .or. index(value, '--') == 1) then
             trouble = trim(key%name)//' needs a value: '//trim(key%name)//' '//trim(key%unit)

@@ -21,7 +21,7 @@ contains
       type(group_values), intent(inout) :: values   !! the selector has its value, if it is not bad
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: choice, key, selector, what, who
+      character(:), allocatable :: choice, key, selector, who
       character(name_length), allocatable :: needs(:)
       integer :: first, i, k, place
       logical, allocatable :: lacks(:)
@@ -55,9 +55,11 @@ contains
             first = findloc(family, .true., dim=1)
             if (keys(k)%required .and. k == first .and. values%place > 0 .and. .not. any(family .and. is_given) .and. &
                 (keys(k)%of == '' .or. choice /= '')) then
-               what = ways_in_words(keys, k)
-               if (keys(k)%way == 0) what = what//' = '//allowed_values(keys(k))
-               call problems%add(place, who//' needs '//what)
+               if (keys(k)%way == 0) then
+                  call problems%add(place, who//' needs '//key//' = '//allowed_values(keys(k)))
+               else
+                  call problems%add(place, who//' needs '//ways_in_words(keys, k))
+               end if
             end if
             first = findloc(family .and. is_given, .true., dim=1)
             needs = words_of(keys(k)%needs)

@@ -113,7 +113,7 @@ contains
       integer :: load
       integer(int64), allocatable :: words(:)
 
-      words = [(words_of_record(results%loads(load)), load=1, size(results%loads))]
+      allocate (words, source=[(words_of_record(results%loads(load)), load=1, size(results%loads))])
       call results%sharing%share_loads(words)
       do load = 1, size(results%loads)
          if (.not. results%sharing%is_own_load(load)) &

@@ -154,7 +154,7 @@ contains
       character(name_length), allocatable :: solvers(:)
       integer :: i
 
-      solvers = words_of(names)
+      allocate (solvers, source=words_of(names))
       solvers = pack(solvers, [(refusal(trim(solvers(i)), surface) == '', i=1, size(solvers))])
       if (present(trait)) solvers = pack(solvers, [(has_trait(traits_of(solvers(i))), i=1, size(solvers))])
       words = ''
