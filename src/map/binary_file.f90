@@ -98,8 +98,8 @@ contains
       if (.not. allocated(error)) call check_room(self%path, points, error, slab)
       lines = 0
       if (.not. allocated(error) .and. slab%columns() > 0) lines = merge(points(1), slab%columns(), by_columns)
-      if (.not. allocated(error)) allocate (map%height(points(1), slab%columns()))
-      allocate (line(merge(slab%columns(), points(1), by_columns)))
+      if (.not. allocated(error)) &
+         allocate (map%height(points(1), slab%columns()), line(merge(slab%columns(), points(1), by_columns)))
       do k = 1, lines
          place = merge([k, slab%first], [1, slab%first - 1 + k], by_columns)
          before = merge((place(1) - 1)*int(points(2), int64) + place(2) - 1, &
