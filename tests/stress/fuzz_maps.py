@@ -196,8 +196,9 @@ def second_reading(content, form):
     reader, which is more lenient than the program."""
     text = content.decode(errors="replace").removeprefix("\ufeff")
     lines = [line.split("#")[0].strip(" \t,;") for line in re.split("\r\n|\r|\n", text)]
-    # Between semicolons a comma is decimal.
-    lines = [re.split(r"[ \t;]+", line.replace(",", ".")) if ";" in line else re.split(r"[ \t,]+", line) for line in lines]
+    # Between semicolons or tabs a comma is decimal.
+    lines = [re.split(r"[ \t;]+", line.replace(",", ".")) if re.search("[;\t]", line) else re.split(r"[ ,]+", line)
+             for line in lines]
     try:
         rows = [[float(word.lower().replace("d", "e")) for word in line] for line in lines if line != [""]]
     except ValueError:
