@@ -3,9 +3,8 @@ module wavycon_command_line
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_key_reference, only: add_wrapped, key_reference
-   use wavycon_key_table, only: allowed_values, integer_value, key_group_type, key_index, key_type, logical_value, &
-      text_value
-   use wavycon_key_values, only: read_value, word_value
+   use wavycon_key_table, only: integer_value, key_group_type, key_index, key_type, logical_value, text_value
+   use wavycon_key_values, only: must_be, read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_output_group, only: longest_directory
@@ -126,7 +125,7 @@ contains
          else
             if (key%kind == text_value) value = quoted(value)
             call read_value(key, value, read, trouble)
-            if (read%repeats > 1) trouble = trim(key%name)//' must be '//allowed_values(key)//", got '"//escaped(value)//"'"
+            if (read%repeats > 1) trouble = must_be(key, value)
             if (.not. allocated(trouble)) call command_line%options%take(key%name, 1, [read%number], read%text)
          end if
          if (allocated(trouble)) then

@@ -1,5 +1,5 @@
 !> Pressure, gap and contact of a correction at the points of a region: the approach (C3), the points that enter (C8)
-!> and the residual (C9), by the sums (C8b). Numbers (C..) are the equations of README.md in this directory.
+!> and the residual (C9), by the sums (C8c). Numbers (C..) are the equations of README.md in this directory.
 !>
 !> Vectors have the points of the own columns. A pass over them goes chunk by chunk (`contact_region`) and computes all
 !> its sums; one message then adds those of all slabs.
@@ -177,7 +177,7 @@ contains
 
    !> Takes a step, if one is given, that takes no point to a bound. Then adds to the free points those that overlap
    !> (C8), changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9)
-   !> times G: by the sums (C8b).
+   !> times G: by the sums (C8c).
    subroutine update_contact(self, mean, step, direction, image)
       class(correction_state), intent(inout) :: self
       real(sp), intent(in) :: mean                      !! of the gap over the free points, after the step

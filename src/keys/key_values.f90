@@ -12,7 +12,7 @@ module wavycon_key_values
    implicit none (type, external)
    private
 
-   public :: word_value, read_value
+   public :: must_be, word_value, read_value
 
    !> The value of a word: a number or a text, according to the type of the key.
    type :: word_value
@@ -154,7 +154,7 @@ contains
    !> "key must be ..., got ..."
    pure function must_be(key, value) result(words)
       type(key_type), intent(in) :: key
-      character(*), intent(in) :: value
+      character(*), intent(in) :: value   !! as it is written, a text with its quotes
       character(:), allocatable :: words
 
       type(key_type) :: one

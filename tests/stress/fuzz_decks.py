@@ -3,7 +3,8 @@ import random
 import re
 import sys
 
-from common import SECONDS, as_bytes, check_all, complaints_about, files_below, memory_limits, result_complaints, run, write
+from common import (SECONDS, as_bytes, check_all, complaints_about, files_below, memory_limits, result_complaints, run,
+                    write)
 
 MEGABYTE = 1000000
 ADDRESS_SPACE = 4000*MEGABYTE  # of a run [byte]: a deck of 10 MB must not need more
