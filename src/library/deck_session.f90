@@ -3,8 +3,7 @@ module wavycon_deck_session
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_deck_groups, only: read_group_text
-   use wavycon_deck_tables, only: load_number
+   use wavycon_deck_groups, only: load_number, read_group_text
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_find_interface, only: find_interface

@@ -7,9 +7,8 @@ module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
-   use wavycon_deck_groups, only: read_group_text
+   use wavycon_deck_groups, only: deck_tables, material_number, read_group_text, stress_number
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
-   use wavycon_deck_tables, only: deck_tables, material_number, stress_number
    use wavycon_deck_text, only: deck_text_type
    use wavycon_elastic_body, only: elastic_body
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
