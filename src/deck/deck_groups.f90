@@ -1,26 +1,58 @@
-!> Matches the groups and keys of a deck's text with the tables, and reads the values.
+!> The groups of a deck: their tables of keys, and their values, which are read from its text.
 module wavycon_deck_groups
-   use wavycon_deck_scanner, only: at_end, is_broken_word, is_group, is_word, next_part, next_token, &
-      part_type, read_entry, scan_type, token_type
-   use wavycon_deck_tables, only: deck_tables
+   use wavycon_deck_scanner, only: at_end, is_broken_word, is_comma, is_equals, is_group, is_slash, is_word, next_token, &
+      quotes, starts_entry, token_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: allowed_values, key_group_type, key_index, key_type
+   use wavycon_interface_group, only: interface_table
+   use wavycon_key_table, only: allowed_values, key_group_type, key_index
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
+   use wavycon_load_group, only: load_table
+   use wavycon_material_group, only: material_table
+   use wavycon_methods, only: method_table
    use wavycon_nearest_name, only: did_you_mean, nearest_name
+   use wavycon_output_group, only: output_table
    use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case, newline
    use wavycon_problems, only: problem_list_type
+   use wavycon_scene_group, only: scene_table
    use wavycon_settings, only: deck_value, replaces, setting_type
+   use wavycon_stress_group, only: stress_table
+   use wavycon_surface_group, only: surface_table
    implicit none (type, external)
    private
 
-   public :: read_group_text, take_groups
+   public :: deck_tables, read_group_text, take_groups
+
+   !> The groups of a deck, in the order in which they are documented and written.
+   integer, parameter, public :: scene_number = 1, material_number = 2, surface_number = 3, load_number = 4, &
+      stress_number = 5, interface_number = 6, method_number = 7, output_number = 8, number_of_groups = 8
 
 contains
 
-   !> Reads the values of all groups and checks them against the tables: names, types, bounds. Checks of keys against
-   !> each other follow in the modules of the groups.
+   !> The tables of keys of all groups, indexed by the numbers above. They are made once and stay.
+   function deck_tables() result(tables)
+      type(key_group_type), pointer :: tables(:)
+
+      type(key_group_type), allocatable, target, save :: made(:)
+
+      if (.not. allocated(made)) then
+         allocate (made(number_of_groups))
+         made(scene_number) = scene_table()
+         made(material_number) = material_table()
+         made(surface_number) = surface_table()
+         made(load_number) = load_table()
+         made(stress_number) = stress_table()
+         made(interface_number) = interface_table()
+         made(method_number) = method_table()
+         made(output_number) = output_table()
+      end if
+      tables => made
+   end function deck_tables
+
+   !> Reads the values of all groups, in one pass over the text, and checks them against the grammar and the tables:
+   !> names, types, bounds. Checks of keys against each other follow in the modules of the groups. What does not fit is
+   !> reported and ignored. The time is proportional to the length of the text, for any bytes.
    subroutine take_groups(text, tables, groups, problems, settings)
       type(deck_text_type), intent(inout) :: text              !! each setting is added as a line
       type(key_group_type), intent(in), target :: tables(:)    !! that stay as long as the values
@@ -28,38 +60,67 @@ contains
       type(problem_list_type), intent(inout) :: problems
       type(setting_type), intent(in), optional :: settings(:)  !! keys set in place of those of the deck
 
-      character(:), allocatable :: key
-      type(part_type) :: part
-      type(scan_type) :: scan
-      type(setting_type), allocatable :: own_settings(:)
+      integer :: g, s                       ! the number of the open group's table, 0: it has none; that of a setting
       logical :: is_guessed(size(tables))   ! of a misspelt name
-      integer :: i, s
+      logical :: is_lost                    ! since a token that does not fit, which was reported
+      logical :: quote_is_open              ! a quote in the open group is not closed
+      type(setting_type), allocatable :: own_settings(:)
+      type(token_type) :: group, token      ! the name of the open group, at_end: there is none; the next token
 
       allocate (own_settings(0))
       if (present(settings)) own_settings = settings
       is_guessed = .false.
-      do i = 1, size(tables)
-         call groups(i)%start(tables(i), text%path)
+      is_lost = .false.
+      quote_is_open = .false.
+      do g = 1, size(tables)
+         call groups(g)%start(tables(g), text%path)
       end do
       do s = 1, size(own_settings)
          call take_setting(own_settings(s))
       end do
-      i = 0
-      do
-         call next_part(text, scan, part, problems)
-         if (part%name%kind == at_end) exit
-         if (part%name%kind == is_group) then
-            call open_group(lower_case(text%content(part%name%first + 1:part%name%last)), part%name%first)
-         else if (i > 0) then
-            key = lower_case(text%content(part%name%first:part%name%last))
-            if (any([(replaces(own_settings(s), tables(i), key), s=1, size(own_settings))])) cycle
-            call take_key(text, part, key, tables, groups(i), problems)
+      g = 0
+      token = next_token(text%content(:text%own), 1)
+      do while (token%kind /= at_end .and. .not. problems%is_full())
+         if (token%kind == is_group) then
+            if (group%kind == is_group .and. .not. quote_is_open) call problems%add(token%first, &
+               "expected the '/' that closes "//shown(group)//' of line '//integer_text(text%line_of(group%first)))
+            group = token
+            quote_is_open = .false.
+            is_lost = .false.
+            call open_group(lower_case(text%content(token%first + 1:token%last)), token%first)
+         else if (group%kind == is_group .and. token%kind == is_slash) then
+            group%kind = at_end
+            is_lost = .false.
+         else if (group%kind == is_group .and. starts_entry(text%content(:text%own), token)) then
+            is_lost = .false.
+            call take_entry(text%own)
+            cycle
+         else if (.not. is_lost) then
+            is_lost = .true.
+            quote_is_open = quote_is_open .or. token%kind == is_broken_word
+            if (group%kind == is_group) then
+               call problems%add(token%first, "expected 'key = value', found '"//shown(token)//"'")
+            else
+               call problems%add(token%first, "'"//shown(token)//"' stands outside of any group: a group begins "// &
+                                 "with &name and ends with '/', which is text only between quotes")
+            end if
          end if
+         token = next_token(text%content(:text%own), token%last + 1)
       end do
+      ! If a quote is not closed, the '/' is likely within the quoted text: do not report it as missing.
+      if (group%kind == is_group .and. token%kind == at_end .and. .not. quote_is_open) call problems%add(group%first, &
+         shown(group)//" is not closed: no '/' up to the end of the deck")
 
    contains
 
-      !> Sets i to the number of a group's table; to 0 for an unknown group and for one that is given twice. The keys of
+      pure function shown(token) result(words)
+         type(token_type), intent(in) :: token
+         character(:), allocatable :: words
+
+         words = excerpt(text%content(token%first:token%last))
+      end function shown
+
+      !> Sets g to the number of a group's table; to 0 for an unknown group and for one that is given twice. The keys of
       !> a group whose name is misspelt are checked too, unless the deck has given the one that is meant.
       subroutine open_group(name, place)
          character(*), intent(in) :: name
@@ -67,21 +128,21 @@ contains
 
          logical :: is_known
 
-         i = findloc(tables%name == name, .true., dim=1)
-         is_known = i > 0
+         g = findloc(tables%name == name, .true., dim=1)
+         is_known = g > 0
          if (.not. is_known) then
             call problems%add(place, unknown_group(name, tables))
-            i = nearest_name(name, tables%name)
-            if (i == 0) return
+            g = nearest_name(name, tables%name)
+            if (g == 0) return
          end if
-         if (groups(i)%place > 0 .and. groups(i)%place <= text%own .and. .not. is_guessed(i)) then
+         if (groups(g)%place > 0 .and. groups(g)%place <= text%own .and. .not. is_guessed(g)) then
             if (is_known) call problems%add(place, '&'//name//' is given twice, first in line '// &
-                                            integer_text(text%line_of(groups(i)%place)))
-            i = 0
+                                            integer_text(text%line_of(groups(g)%place)))
+            g = 0
             return
          end if
-         groups(i)%place = place
-         is_guessed(i) = .not. is_known
+         groups(g)%place = place
+         is_guessed(g) = .not. is_known
       end subroutine open_group
 
       !> Takes a key that the command line sets.
@@ -90,35 +151,156 @@ contains
 
          character(:), allocatable :: value
          integer :: place
-         logical :: quote_is_open
-         type(token_type) :: token
 
-         i = findloc(tables%name == setting%group, .true., dim=1)
+         g = findloc(tables%name == setting%group, .true., dim=1)
          value = setting%value
-         if (i > 0) value = deck_value(setting, tables(i))
+         if (g > 0) value = deck_value(setting, tables(g))
          place = len(text%content) + len(' --set ') + 1
          call text%add_option('--set '//setting%group//'.'//setting%key//'='//value)
-         if (i == 0) then
+         if (g == 0) then
             call problems%add(place, unknown_group(setting%group, tables))
             return
          end if
-         if (groups(i)%place == 0) groups(i)%place = place
+         if (groups(g)%place == 0) groups(g)%place = place
          place = place + len(setting%group) + 1
          token = token_type(is_word, place, place + len(setting%key) - 1)
-         quote_is_open = .false.
-         call read_entry(text%content, token, part, quote_is_open, problems)
-         call take_key(text, part, setting%key, tables, groups(i), problems)
-         token = next_token(text%content, part%last + 1)
+         call take_entry(len(text%content))
          if (token%kind /= at_end) call problems%add(token%first, "--set takes one key and its value, found '"// &
-            excerpt(text%content(token%first:token%last))//"' behind them")
+                                                     shown(token)//"' behind them")
       end subroutine take_setting
 
+      !> Takes the key that is the next token and its values, up to the token that is then the next one.
+      subroutine take_entry(last)
+         integer, intent(in) :: last           !! of the text
+
+         character(:), allocatable :: name, trouble
+         integer :: k, most, place, used
+         logical :: is_bad, is_read, wants_value   ! is_read: whether words are read as values
+         real(dp), allocatable :: numbers(:)
+         type(token_type) :: before, equals
+         type(word_value) :: value
+
+         place = token%first
+         name = lower_case(text%content(place:token%last))
+         call find_key(name, place, k)
+         most = 0
+         if (k > 0) most = tables(g)%keys(k)%most_values
+         allocate (numbers(most))
+         used = 0
+         is_read = k > 0
+         is_bad = .false.
+         wants_value = .true.
+         equals = next_token(text%content(:last), token%last + 1)
+         token = equals
+         do
+            before = token
+            token = next_token(text%content(:last), before%last + 1)
+            select case (token%kind)
+            case (is_comma)
+               if (wants_value) call problems%add(token%first, 'no value before this comma')
+               wants_value = .true.
+            case (is_equals)
+               call problems%add(token%first, "'=' in place of a value")
+            case (is_broken_word)
+               call problems%add(token%first - 1 + scan(text%content(token%first:token%last), quotes), &
+                                 'this quote is not closed on its line; within a text a quote is doubled')
+               quote_is_open = .true.
+               wants_value = .false.
+               is_bad = .true.
+            case (is_word)
+               if (before%kind == is_word .and. before%last == token%first - 1) &
+                  call problems%add(token%first, 'expected a blank or a comma behind the quote')
+               if (starts_entry(text%content(:last), token)) exit
+               wants_value = .false.
+               if (.not. is_read) cycle
+               call read_word(text%content(token%first:token%last), tables(g), k, numbers, used, value, trouble)
+               if (.not. allocated(trouble)) cycle
+               call problems%add(token%first, trouble)
+               is_bad = .true.
+               is_read = used <= size(numbers) .and. size(numbers) > 1 .and. .not. problems%is_full()
+            case default
+               exit
+            end select
+         end do
+         if (k == 0) return
+         if (is_bad .or. used == 0) then
+            call groups(g)%take(name, place)
+         else
+            call groups(g)%take(name, place, numbers(:used), value%text)
+         end if
+         if (before%last == equals%last) call problems%add(place, &
+            name//' has no value: it must be '//allowed_values(tables(g)%keys(k)))
+      end subroutine take_entry
+
+      !> Sets k to the number of a key whose values are to be read; reports unknown keys and those given twice.
+      subroutine find_key(name, place, k)
+         character(*), intent(in) :: name   !! in lower case
+         integer, intent(in) :: place       !! in the text
+         integer, intent(out) :: k          !! 0: they are not, as where the group is unknown or an option sets the key
+
+         character(:), allocatable :: first
+         integer :: nearest
+
+         k = 0
+         if (g == 0) return
+         if (place <= text%own .and. any([(replaces(own_settings(s), tables(g), name), s=1, size(own_settings))])) return
+         k = key_index(tables(g)%keys, name)
+         associate (values => groups(g), names => tables(g)%keys%name)
+            if (k == 0) then
+               call problems%add(place, unknown_key(name, tables(g), tables))
+               ! A misspelt key is not reported as missing too, and the right one may follow.
+               nearest = nearest_name(name, names)
+               if (nearest == 0) return
+               if (.not. values%has(names(nearest))) call values%take(names(nearest), place)
+            else if (values%has(name) .and. .not. values%is_bad(name)) then
+               first = 'in line '//integer_text(text%line_of(values%place_of(name)))
+               if (values%place_of(name) > text%own) first = 'by '//excerpt(text%line_at(values%place_of(name)))
+               call problems%add(place, name//' is given twice, first '//first)
+               k = 0
+            end if
+         end associate
+      end subroutine find_key
+
    end subroutine take_groups
+
+   !> Reads a word of a deck as the next value of a key, or the next ones.
+   subroutine read_word(word, table, k, numbers, used, value, trouble)
+      character(*), intent(in) :: word
+      type(key_group_type), intent(in) :: table
+      integer, intent(in) :: k                            !! number of the key
+      real(dp), intent(inout) :: numbers(:)               !! of all values that the key may have
+      integer, intent(inout) :: used                      !! how many are given; more than may be: there are too many
+      type(word_value), intent(out) :: value
+      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
+
+      integer :: left
+
+      associate (key => table%keys(k))
+         left = size(numbers) - used
+         used = used + 1
+         if (left > 0) call read_value(key, word, value, trouble)
+         if (allocated(trouble)) return
+         if (value%repeats <= left) then
+            numbers(used:used + value%repeats - 1) = value%number
+            used = used + value%repeats - 1
+            return
+         end if
+         used = size(numbers) + 1
+         trouble = trim(key%name)//' takes one value'
+         if (key%most_values > 1) trouble = trim(key%name)//' takes at most '//integer_text(key%most_values)//' values'
+         if (left > 0) then
+            trouble = trouble//", got '"//excerpt(word)//"'"
+         else
+            trouble = trouble//", and here is one more: '"//excerpt(word)//"'"
+            if (key_index(table%keys, lower_case(word)) > 0) trouble = trouble//"; is a '=' missing behind it?"
+         end if
+      end associate
+   end subroutine read_word
 
    !> Reads the keys of one group from a text that holds nothing else, without '&name' and '/', and checks them against
    !> the table, as those of a deck.
    subroutine read_group_text(group, keys, values, text, problems)
-      integer, intent(in) :: group                         !! a number of wavycon_deck_tables
+      integer, intent(in) :: group                         !! its number
       character(*), intent(in) :: keys                     !! such as "solver = 'grid', accuracy = 1e-4"
       type(group_values), intent(out) :: values
       type(deck_text_type), intent(out) :: text            !! to which the places of the problems refer
@@ -147,35 +329,6 @@ contains
       if (name == '') words = "expected the name of a group right behind the '&'"
    end function unknown_group
 
-   !> Takes a key of a group; reports unknown keys and those given twice.
-   subroutine take_key(text, entry, key, tables, values, problems)
-      type(deck_text_type), intent(in) :: text
-      type(part_type), intent(in) :: entry
-      character(*), intent(in) :: key                !! its name in lower case
-      type(key_group_type), intent(in) :: tables(:)
-      type(group_values), intent(inout) :: values
-      type(problem_list_type), intent(inout) :: problems
-
-      character(:), allocatable :: first
-      integer :: k
-
-      k = key_index(values%table%keys, key)
-      if (k == 0) then
-         call problems%add(entry%name%first, unknown_key(key, values%table, tables))
-         ! A misspelt key is not reported as missing too, and the right one may follow.
-         k = nearest_name(key, values%table%keys%name)
-         if (k == 0) return
-         if (.not. values%has(values%table%keys(k)%name)) &
-            call values%take(values%table%keys(k)%name, entry%name%first)
-      else if (values%has(key) .and. .not. values%is_bad(key)) then
-         first = 'in line '//integer_text(text%line_of(values%place_of(key)))
-         if (values%place_of(key) > text%own) first = 'by '//excerpt(text%line_at(values%place_of(key)))
-         call problems%add(entry%name%first, key//' is given twice, first '//first)
-      else
-         call take_value(text, entry, values%table%keys(k), values, problems)
-      end if
-   end subroutine take_key
-
    !> The message for a key that the group does not have.
    pure function unknown_key(key, table, tables) result(words)
       character(*), intent(in) :: key
@@ -197,61 +350,5 @@ contains
                  did_you_mean(key, table%keys%name, "'", "'", '; its keys are '//listed(table%keys%name))
       end if
    end function unknown_key
-
-   !> Reads the value of a key, or reports what is wrong with it.
-   subroutine take_value(text, entry, key, values, problems)
-      type(deck_text_type), intent(in) :: text
-      type(part_type), intent(in) :: entry
-      type(key_type), intent(in) :: key
-      type(group_values), intent(inout) :: values
-      type(problem_list_type), intent(inout) :: problems
-
-      character(:), allocatable :: most, trouble
-      logical :: is_good
-      real(dp) :: numbers(key%most_values)
-      integer :: repeats, used
-      type(token_type) :: token
-      type(word_value) :: value
-
-      most = 'one value'
-      if (key%most_values > 1) most = 'at most '//integer_text(key%most_values)//' values'
-      is_good = .true.
-      used = 0
-      token%last = entry%values - 1
-      do
-         token = next_token(text%content(:entry%last), token%last + 1)
-         if (token%kind == at_end) exit
-         if (token%kind == is_broken_word) is_good = .false.
-         if (token%kind /= is_word) cycle
-         associate (word => text%content(token%first:token%last))
-            repeats = 1
-            if (used >= key%most_values) then
-               trouble = trim(key%name)//' takes '//most//", and here is one more: '"// &
-                         excerpt(word)//"'"
-               if (key_index(values%table%keys, lower_case(word)) > 0) &
-                  trouble = trouble//"; is a '=' missing behind it?"
-            else
-               call read_value(key, word, value, trouble)
-               if (.not. allocated(trouble)) repeats = value%repeats
-               if (repeats > key%most_values - used) &
-                  trouble = trim(key%name)//' takes '//most//", got '"//excerpt(word)//"'"
-            end if
-            if (allocated(trouble)) then
-               call problems%add(token%first, trouble)
-               is_good = .false.
-               if (problems%is_full() .or. repeats > key%most_values - used .or. key%most_values == 1) exit
-            end if
-            numbers(used + 1:used + repeats) = value%number
-            used = used + repeats
-         end associate
-      end do
-      if (is_good .and. used > 0) then
-         call values%take(key%name, entry%name%first, numbers(:used), value%text)
-      else
-         call values%take(key%name, entry%name%first)
-      end if
-      if (entry%last < entry%values) call problems%add(entry%name%first, trim(key%name)// &
-         ' has no value: it must be '//allowed_values(key))
-   end subroutine take_value
 
 end module wavycon_deck_groups

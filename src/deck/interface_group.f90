@@ -3,7 +3,6 @@ module wavycon_interface_group
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_group_values, only: group_values
    use wavycon_interface_setting, only: dundurs_beta, interface_setting, shear_factors
-   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: choice_value, key_group_type, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
@@ -64,7 +63,7 @@ contains
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
       if (values%place == 0) return
-      call check_relations(values, problems)
+      call values%check_relations(problems)
       if (values%has('friction')) then
          call take_ratios(values, material, problems)
          if (.not. (values%has('tangential_load') .or. values%has('tangential_over_normal'))) &

@@ -4,7 +4,7 @@
 !> read_by (for which values of the key that selects a kind or a solver it is read) and meaning. A default is written
 !> as in a deck.
 module wavycon_key_json
-   use wavycon_deck_tables, only: deck_tables
+   use wavycon_deck_groups, only: deck_tables
    use wavycon_key_table, only: full_meaning, integer_value, key_group_type, key_type, no_bound, real_value, &
       text_value, words_of
    use wavycon_kinds, only: dp

@@ -1,6 +1,6 @@
 !> The reference of all groups and keys for --help, generated from the same tables that decks are checked against.
 module wavycon_key_reference
-   use wavycon_deck_tables, only: deck_tables
+   use wavycon_deck_groups, only: deck_tables
    use wavycon_key_table, only: allowed_values, full_meaning, key_group_type, key_type
    use wavycon_plain_text, only: newline
    implicit none (type, external)

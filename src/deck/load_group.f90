@@ -2,7 +2,6 @@
 module wavycon_load_group
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use wavycon_group_values, only: group_values
-   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: integer_value, key_group_type, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
@@ -82,7 +81,7 @@ contains
       real(dp), allocatable :: loads(:)
 
       before = problems%number
-      call check_relations(values, problems)
+      call values%check_relations(problems)
       if (problems%number > before .or. values%place == 0 .or. values%any_bad()) return
       call given_loads(values, key, loads_by, loads)
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%complain(problems, key, &

@@ -1,7 +1,6 @@
 !> The &material group: the stiffness of the two bodies, and the pressure at which they yield.
 module wavycon_material_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: key_group_type, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
@@ -53,7 +52,7 @@ contains
       e_star = 0.0_dp
       p_star = 0.0_dp
       before = problems%number
-      call check_relations(values, problems)
+      call values%check_relations(problems)
       if (problems%number > before .or. values%any_bad() .or. .not. allocated(surface)) return
       e_star = plane_strain_modulus(values)
       p_star = surface%full_contact_pressure(e_star)

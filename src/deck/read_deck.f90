@@ -5,10 +5,9 @@
 !> NAMELIST.
 module wavycon_read_deck
    use wavycon_ball_kind, only: set_ball_sides
-   use wavycon_deck_groups, only: take_groups
+   use wavycon_deck_groups, only: deck_tables, interface_number, load_number, material_number, method_number, &
+      number_of_groups, output_number, scene_number, stress_number, surface_number, take_groups
    use wavycon_deck_scanner, only: at_end, next_token, token_type
-   use wavycon_deck_tables, only: deck_tables, interface_number, load_number, material_number, method_number, &
-      number_of_groups, output_number, scene_number, stress_number, surface_number
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values

@@ -2,7 +2,6 @@
 module wavycon_stress_group
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_group_values, only: group_values
-   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
@@ -77,7 +76,7 @@ contains
          call load%complain(problems, 'yield', 'yield needs yield_stress in &stress')
       end if
       if (values%place == 0) return
-      call check_relations(values, problems)
+      call values%check_relations(problems)
       has_range = values%has('depth_from') .or. values%has('depth_to') .or. values%has('depth_steps')
       if (.not. has_range .and. (values%has('depths') .or. values%has('depths_over_cell_x'))) then
          call values%leave_out('depth_from')

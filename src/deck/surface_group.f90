@@ -5,7 +5,6 @@ module wavycon_surface_group
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: surface_of_file, surface_of_heights
-   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, of, real_value, &
       text_value
    use wavycon_kinds, only: dp
@@ -165,7 +164,7 @@ contains
       character(:), allocatable :: x, y
       integer :: k
 
-      call check_relations(values, problems)
+      call values%check_relations(problems)
       select case (values%text('kind'))
       case ('sum')
          call check_sum(values, problems)

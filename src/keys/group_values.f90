@@ -1,10 +1,12 @@
-!> The values of one group of a deck: for each key of the group's table the value that the deck gives, or its default.
+!> The values of one group of a deck: for each key of the group's table the value that the deck gives, or its default,
+!> and the check of what keys need and exclude, as the table says.
 module wavycon_group_values
-   use wavycon_assertion, only: assert
-   use wavycon_key_table, only: integer_value, key_group_type, key_index, logical_value, real_value, words_of
+   use wavycon_key_table, only: allowed_values, integer_value, is_read, key_group_type, key_index, logical_value, &
+      name_length, real_value, ways_in_words, words_of
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_nearest_name, only: did_you_mean
+   use wavycon_plain_text, only: exact_number, in_quotes, integer_text, listed
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
@@ -21,14 +23,13 @@ module wavycon_group_values
       character(:), allocatable :: text        !! of texts and choices
    end type key_entry
 
-   !> To ask for a key that is not in the table is a programming error: a Debug build stops, any other build returns
-   !> false, 0, or an empty list or text.
+   !> To ask for a key that is not in the table is a programming error, which stops the program.
    type :: group_values
       type(key_group_type), pointer :: table => null()
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
       character(:), allocatable :: length_unit   !! the deck's label of lengths, for &surface; empty: it gives none
       integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
-      type(key_entry), allocatable, private :: entries(:)   !! of the keys of the table; 0 is the neutral one
+      type(key_entry), allocatable, private :: entries(:)   !! of the keys of the table
    contains
       procedure :: start
       procedure :: take
@@ -49,6 +50,7 @@ module wavycon_group_values
       procedure :: set
       procedure :: set_default
       procedure :: complain
+      procedure :: check_relations
       procedure, private :: find
    end type group_values
 
@@ -67,12 +69,10 @@ contains
       self%table => table
       self%deck_path = deck_path
       self%length_unit = ''
-      allocate (self%entries(0:size(table%keys)))
-      do k = 0, size(table%keys)
+      allocate (self%entries(size(table%keys)))
+      do k = 1, size(table%keys)
          allocate (self%entries(k)%numbers(0))
          self%entries(k)%text = ''
-      end do
-      do k = 1, size(table%keys)
          if (table%keys(k)%default == '') cycle
          call read_value(table%keys(k), trim(table%keys(k)%default), value, trouble)
          if (.not. allocated(trouble)) call self%set(table%keys(k)%name, [value%number], value%text)
@@ -87,12 +87,10 @@ contains
       real(dp), intent(in), optional :: numbers(:)            !! as of key_entry, repeats expanded
       character(*), intent(in), optional :: text              !! of texts and choices
 
-      integer :: k
-
-      k = self%find(key)
-      if (k == 0) return
-      self%entries(k)%place = place
-      self%entries(k)%is_bad = .not. present(numbers)
+      associate (entry => self%entries(self%find(key)))
+         entry%place = place
+         entry%is_bad = .not. present(numbers)
+      end associate
       if (present(numbers)) call self%set(key, numbers, text)
    end subroutine take
 
@@ -143,10 +141,7 @@ contains
       class(group_values), intent(inout) :: self
       character(*), intent(in) :: key
 
-      integer :: k
-
-      k = self%find(key)
-      if (k > 0) self%entries(k)%applies = .false.
+      self%entries(self%find(key))%applies = .false.
    end subroutine leave_out
 
    !> The values of a real or integer key, or that of a logical one, as of key_entry.
@@ -211,11 +206,7 @@ contains
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
-      integer :: k
-
-      k = self%find(key)
-      choice = 0
-      if (k > 0) choice = findloc(words_of(self%table%keys(k)%choices) == self%text(key), .true., dim=1)
+      choice = findloc(words_of(self%table%keys(self%find(key))%choices) == self%text(key), .true., dim=1)
    end function choice
 
    !> A value as a deck gives it, numbers to all digits and texts without quotes.
@@ -258,14 +249,11 @@ contains
       real(dp), intent(in), optional :: numbers(:)   !! as of key_entry
       character(*), intent(in), optional :: text     !! of texts and choices
 
-      integer :: k
-
-      k = self%find(key)
-      ! Entry 0, which stands for keys that do not exist, is not changed.
-      if (k == 0) return
-      self%entries(k)%has_value = .true.
-      if (present(numbers)) self%entries(k)%numbers = numbers
-      if (present(text)) self%entries(k)%text = trim(text)
+      associate (entry => self%entries(self%find(key)))
+         entry%has_value = .true.
+         if (present(numbers)) entry%numbers = numbers
+         if (present(text)) entry%text = trim(text)
+      end associate
    end subroutine set
 
    !> Sets a default that depends on other values. It has no effect if the deck gives the key a good value.
@@ -288,13 +276,96 @@ contains
       call problems%add(self%place_of(key), words)
    end subroutine complain
 
-   !> The number of a key in the table; 0 if it is not there.
+   !> The number of a key in the table.
    pure integer function find(self, key) result(k)
       class(group_values), intent(in) :: self
       character(*), intent(in) :: key
 
       k = key_index(self%table%keys, key)
-      if (k == 0) call assert(.false., 'no key '//key//' in &'//trim(self%table%name))
+      if (k == 0) error stop 'no such key in the table of a group: '//key
    end function find
+
+   !> Reports required keys that are missing, keys without those that they need, keys that give the same in two ways,
+   !> and keys that the selected alternative does not read. What has no effect is left out of the resolved deck: keys of
+   !> other alternatives, keys without those that they need, and defaults beside another way to give the same.
+   !>
+   !> A group with a selector has alternatives: &surface its kinds of surface, &method its solvers.
+   subroutine check_relations(self, problems)
+      class(group_values), intent(inout) :: self   !! the selector has its value, if it is not bad
+      type(problem_list_type), intent(inout) :: problems
+
+      character(:), allocatable :: choice, key, selector, who
+      character(name_length), allocatable :: needs(:)
+      integer :: first, i, k, place
+      logical, allocatable :: lacks(:)
+      logical, dimension(size(self%table%keys)) :: is_given, is_own, family
+
+      selector = trim(self%table%selector)
+      choice = ''
+      place = self%place
+      who = '&'//trim(self%table%name)
+      if (selector /= '') choice = self%text(selector)
+      associate (keys => self%table%keys)
+         is_own = .true.
+         if (choice /= '') then
+            who = selector//" = '"//choice//"'"
+            place = self%place_of(selector)
+            is_own = is_read(keys, choice)
+         end if
+         is_given = [(self%has(keys(k)%name), k=1, size(keys))]
+         do k = 1, size(keys)
+            key = trim(keys(k)%name)
+            if (.not. is_own(k)) then
+               call self%leave_out(key)
+               if (is_given(k)) call self%complain(problems, key, key//' is a key of '//selector//' = '// &
+                  listed(in_quotes(words_of(keys(k)%of)), ' and ')//", not of '"//choice//"'"// &
+                  did_you_mean(key, pack(keys%name, is_own .and. keys%of /= ''), "'", "'"))
+               cycle
+            end if
+            ! Those that give the same quantity: a key alone, or all ways.
+            family = is_own .and. keys%way/10 == keys(k)%way/10
+            if (keys(k)%way == 0) family = keys%name == key
+            first = findloc(family, .true., dim=1)
+            if (keys(k)%required .and. k == first .and. self%place > 0 .and. .not. any(family .and. is_given) .and. &
+                (keys(k)%of == '' .or. choice /= '')) then
+               if (keys(k)%way == 0) then
+                  call problems%add(place, who//' needs '//key//' = '//allowed_values(keys(k)))
+               else
+                  call problems%add(place, who//' needs '//ways_in_words(keys, k))
+               end if
+            end if
+            first = findloc(family .and. is_given, .true., dim=1)
+            needs = words_of(keys(k)%needs)
+            lacks = [(.not. stands_beside(trim(needs(i))), i=1, size(needs))]
+            if (any(lacks) .or. any(family .and. is_given .and. keys%way /= keys(k)%way)) call self%leave_out(key)
+            if (.not. is_given(k)) cycle
+            if (keys(k)%way /= keys(first)%way .and. &
+                .not. any(family(:k - 1) .and. is_given(:k - 1) .and. keys(:k - 1)%way /= keys(first)%way)) &
+               call problems%add(max(self%place_of(keys(first)%name), self%place_of(key)), &
+                  trim(keys(first)%name)//' and '//key//' contradict each other: give one of them')
+            if (keys(k)%kind == logical_value .and. .not. self%logical(key)) cycle
+            do i = 1, size(needs)
+               if (lacks(i)) call self%complain(problems, key, key//' needs '//trim(needs(i))//' beside it')
+            end do
+         end do
+      end associate
+
+   contains
+
+      !> Whether the deck gives a key or, of key='value', whether it has that value.
+      logical function stands_beside(word)
+         character(*), intent(in) :: word
+
+         integer :: equals
+
+         equals = index(word, '=')
+         if (equals == 0) then
+            stands_beside = self%has(word)
+         else
+            stands_beside = self%text(word(:equals - 1)) == word(equals + 2:len(word) - 1)
+         end if
+      end function stands_beside
+
+   end subroutine check_relations
 
 end module wavycon_group_values

@@ -129,17 +129,15 @@ contains
       end select
    end function allowed_values
 
-   !> The keys that give the same quantity as one of them: "a, b, or c and d", where c and d make one way.
+   !> The keys that give the same quantity: "a, b, or c and d", where c and d make one way.
    pure function ways_in_words(keys, k) result(words)
       type(key_type), intent(in) :: keys(:)
-      integer, intent(in) :: k   !! one of them; itself if there is no other
+      integer, intent(in) :: k   !! one of them
       character(:), allocatable :: words
 
       character(80) :: ways(0:9)
       integer :: i
 
-      words = trim(keys(k)%name)
-      if (keys(k)%way == 0) return
       ways = ''
       do i = 0, 9
          associate (is_one => keys%way == 10*(keys(k)%way/10) + i)

@@ -12,7 +12,6 @@ module wavycon_methods
    use wavycon_grid_contact, only: grid_contact
    use wavycon_grid_keys, only: check_grid_keys, grid_in_words, options_of_grid
    use wavycon_group_values, only: group_values
-   use wavycon_key_relations, only: check_relations
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
       words_of
    use wavycon_kinds, only: dp
@@ -90,7 +89,7 @@ contains
       character(:), allocatable :: solver, words
 
       if (allocated(surface)) call values%set_default('solver', text=default_solver(surface, kind))
-      call check_relations(values, problems)
+      call values%check_relations(problems)
       ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface) .or. values%is_bad('solver')) return
       solver = values%text('solver')
