@@ -8,7 +8,7 @@ module wavycon_read_deck
    use wavycon_deck_groups, only: deck_tables, interface_number, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, stress_number, surface_number, take_groups
    use wavycon_deck_scanner, only: at_end, next_token, token_type
-   use wavycon_deck_text, only: deck_text_type, read_deck_text
+   use wavycon_deck_text, only: deck_text_type, problem_report, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_interface_group, only: check_interface_group, make_interface_setting
@@ -19,7 +19,6 @@ module wavycon_read_deck
    use wavycon_methods, only: check_method_group
    use wavycon_output_group, only: check_output_group
    use wavycon_plain_text, only: escaped, newline
-   use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_resolved_deck, only: resolved_deck_text
    use wavycon_scene, only: scene_type

@@ -4,7 +4,7 @@ module wavycon_deck_session
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_deck_groups, only: load_number, read_group_text
-   use wavycon_deck_text, only: deck_text_type, read_deck_text
+   use wavycon_deck_text, only: deck_text_type, problem_report, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_find_interface, only: find_interface
    use wavycon_find_stresses, only: find_stresses
@@ -14,7 +14,6 @@ module wavycon_deck_session
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen
    use wavycon_plain_text, only: exact_number, integer_text, newline
-   use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type

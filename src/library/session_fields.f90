@@ -9,14 +9,13 @@ module wavycon_session_fields
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_groups, only: deck_tables, material_number, read_group_text, stress_number
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
-   use wavycon_deck_text, only: deck_text_type
+   use wavycon_deck_text, only: deck_text_type, problem_report
    use wavycon_elastic_body, only: elastic_body
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_group_type
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text, quoted
-   use wavycon_problem_report, only: problem_report
    use wavycon_problems, only: problem_list_type
    use wavycon_stress_group, only: make_stress_setting
    use wavycon_stress_setting, only: stress_setting
