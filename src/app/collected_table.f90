@@ -1,11 +1,13 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary. Its rows are read from the
 !> summaries that the runs have written.
 module wavycon_collected_table
-   use wavycon_deck_keys, only: deck_key, without_blanks
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: integer_value, key_type, real_value
    use wavycon_memory_table, only: column_list, column_name, column_unit
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, system_words
+   use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
    use wavycon_summary_tables, only: summary_columns
    use wavycon_system, only: make_directories, path_directory, path_kind
@@ -13,95 +15,132 @@ module wavycon_collected_table
    implicit none (type, external)
    private
 
-   public :: collected_table
+   public :: check_table_file, collected_deck, list_keys, write_collected_table
 
    !> Width of the narrowest column, as in other tables; length of the longest line of a summary.
    integer, parameter :: narrowest = 25, longest_line = 4096
 
-   !> A deck that was run.
-   type :: collected_deck
-      character(:), allocatable :: deck, case
-      character(:), allocatable :: summary     !! path of its summary table
-      type(deck_key), allocatable :: keys(:)   !! the same of each deck
-      character(:), allocatable :: units       !! line of the units of the summary
-   end type collected_deck
+   integer, parameter :: longest_key_name = 49
 
-   type :: collected_table
-      private
-      type(collected_deck), allocatable :: decks(:)
-      integer :: number = 0                    !! of decks that have been added
-      character(:), allocatable :: failed      !! lines of the head, for the decks that were not run
-   contains
-      procedure :: start
-      procedure :: add
-      procedure :: note_failure
-      procedure :: write => write_table
-   end type collected_table
+   !> A key of a deck and its value.
+   type :: deck_key
+      character(longest_key_name) :: name = ''   !! 'group_key'
+      !> The value in effect, without blanks; '-' for an empty text. Without an effect 'NaN' of a number, '-' of a word.
+      character(:), allocatable :: word
+      logical :: in_effect = .false.
+      logical :: given = .false.          !! whether the deck or the command line gives it
+   end type deck_key
+
+   !> What the table has of a deck.
+   type :: collected_deck
+      character(:), allocatable :: path, case    !! of the deck; its name
+      character(:), allocatable :: summary       !! path of its summary table
+      logical :: is_written = .false.            !! whether that has been written by this run
+      type(deck_key), allocatable :: keys(:)     !! the same of each deck
+      character(:), allocatable :: units         !! line of the units of the summary
+   end type collected_deck
 
 contains
 
-   !> Starts an empty table. Its directory is made, so that a bad name is reported before decks are run. Errors:
-   !> exit_file_trouble.
-   subroutine start(self, path, most_decks, error)
-      class(collected_table), intent(out) :: self
-      character(*), intent(in) :: path         !! of the file
-      integer, intent(in) :: most_decks
+   !> Makes the directory of a table, so that a bad name is reported before decks are run. Errors: exit_file_trouble.
+   subroutine check_table_file(path, error)
+      character(*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: failure
 
-      allocate (self%decks(most_decks))
-      self%failed = ''
       call make_directories(directory_of(path), failure)
       if (allocated(failure)) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(failure))
       else if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': the table cannot be written: this is a directory')
       end if
-   end subroutine start
+   end subroutine check_table_file
 
-   !> Adds a deck whose summary has been written.
-   subroutine add(self, deck, case, summary, keys)
-      class(collected_table), intent(inout) :: self
-      character(*), intent(in) :: deck, case      !! its path; the name of its case
-      character(*), intent(in) :: summary         !! path of its summary table
-      type(deck_key), intent(in) :: keys(:)       !! of the deck
+   !> Lists the keys of &material, &surface, &load, &stress and &method, the same for all decks. Lists of loads have no
+   !> effect here: a table has a row for each.
+   subroutine list_keys(scene, keys)
+      type(scene_type), intent(in) :: scene
+      type(deck_key), allocatable, intent(out) :: keys(:)
 
-      self%number = self%number + 1
-      associate (added => self%decks(self%number))
-         added%deck = without_blanks(deck)
-         added%case = case
-         added%summary = summary
-         added%keys = keys
-      end associate
-   end subroutine add
+      type(group_values) :: groups(5)
+      logical :: is_asked_for
+      integer :: i, k, number
 
-   !> Notes a deck that was not run to its end, for the head of the table.
-   pure subroutine note_failure(self, deck)
-      class(collected_table), intent(inout) :: self
-      character(*), intent(in) :: deck   !! its path
+      groups(1) = scene%material
+      groups(2) = scene%surface_values
+      groups(3) = scene%load
+      groups(4) = scene%stress
+      groups(5) = scene%method
+      allocate (keys(sum([(size(groups(i)%table%keys), i=1, size(groups))])))
+      number = 0
+      do i = 1, size(groups)
+         associate (values => groups(i))
+            is_asked_for = values%table%name /= 'stress' .or. values%place > 0
+            do k = 1, size(values%table%keys)
+               number = number + 1
+               associate (key => values%table%keys(k), listed => keys(number))
+                  listed%name = trim(values%table%name)//'_'//key%name
+                  listed%given = values%has(key%name)
+                  listed%in_effect = is_asked_for .and. values%in_effect(key%name) .and. &
+                                     .not. (values%table%name == 'load' .and. key%most_values > 1)
+                  listed%word = '-'
+                  if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
+                  if (listed%in_effect) listed%word = word_of(values, key)
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine list_keys
 
-      self%failed = self%failed//new_line('a')//'# failed: '//escaped(deck)
-   end subroutine note_failure
+   !> The value of a key: the numbers of a list with commas between them, one number if they are equal.
+   pure function word_of(values, key) result(word)
+      type(group_values), intent(in) :: values
+      type(key_type), intent(in) :: key
+      character(:), allocatable :: word
+
+      word = values%words(trim(key%name), ',')
+      if (any(key%kind == [real_value, integer_value])) then
+         associate (numbers => values%reals(trim(key%name)))
+            if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
+         end associate
+      end if
+      word = without_blanks(word)
+      if (word == '') word = '-'
+   end function word_of
+
+   !> A text as one word of a table.
+   pure function without_blanks(text) result(word)
+      character(*), intent(in) :: text
+      character(:), allocatable :: word
+
+      integer :: i
+
+      word = escaped(text)
+      do i = 1, len(word)
+         if (word(i:i) == ' ') word(i:i) = '_'
+      end do
+   end function without_blanks
 
    !> Writes the table. Columns of keys are those that are set on the command line, and those that a deck gives and that
    !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word. Units are those of the
    !> summaries if these agree, otherwise 'length' or the like.
    !>
    !> Errors: exit_file_trouble, also for a summary that cannot be read.
-   subroutine write_table(self, path, settings, error)
-      class(collected_table), intent(inout) :: self
-      character(*), intent(in) :: path
+   subroutine write_collected_table(path, decks, settings, error)
+      character(*), intent(in) :: path                !! of the file
+      type(collected_deck), intent(inout) :: decks(:)
       type(setting_type), intent(in) :: settings(:)   !! of the command line
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: line, names, units
-      integer, allocatable :: columns(:), width(:)
+      integer, allocatable :: columns(:), solved(:), width(:)   ! solved: decks with a summary
       type(output_file) :: file
       integer :: d, k
       logical :: agree
 
-      call choose_columns(self, settings, columns)
+      solved = pack([(d, d=1, size(decks))], decks%is_written)
+      call choose_columns(decks, solved, settings, columns)
       allocate (width(2 + size(columns)), source=narrowest)
       names = ''
       units = ''
@@ -111,22 +150,25 @@ contains
             units = units//' ['//trim(column_unit(summary(k)))//']'
          end do
       end associate
-      agree = self%number > 0
-      do d = 1, self%number
-         associate (deck => self%decks(d))
+      agree = size(solved) > 0
+      do d = 1, size(solved)
+         associate (deck => decks(solved(d)))
             call read_summary(deck, names, error)
             if (allocated(error)) return
-            agree = agree .and. deck%units == self%decks(1)%units
-            width(:2) = max(width(:2), [len(deck%deck), len(deck%case)] + 1)
+            agree = agree .and. deck%units == decks(solved(1))%units
+            width(:2) = max(width(:2), [len(without_blanks(deck%path)), len(deck%case)] + 1)
             do k = 1, size(columns)
                width(2 + k) = max(width(2 + k), len(deck%keys(columns(k))%word) + 1, &
                                   len_trim(deck%keys(columns(k))%name) + 1)
             end do
          end associate
       end do
-      if (agree) units = self%decks(1)%units
+      if (agree) units = decks(solved(1))%units
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
-      call file%put('# wavycon '//version//' ('//revision//')'//self%failed)
+      call file%put('# wavycon '//version//' ('//revision//')')
+      do d = 1, size(decks)
+         if (.not. decks(d)%is_written) call file%put('# failed: '//escaped(decks(d)%path))
+      end do
       line = ''
       do k = 1, size(width)
          line = line//cell(k, '[-]')
@@ -134,12 +176,12 @@ contains
       call file%put('#'//line(2:)//' '//units)
       line = cell(1, 'deck')//cell(2, 'case')
       do k = 1, size(columns)
-         line = line//cell(2 + k, trim(self%decks(1)%keys(columns(k))%name))
+         line = line//cell(2 + k, trim(decks(solved(1))%keys(columns(k))%name))
       end do
       call file%put(line//names)
-      do d = 1, self%number
-         associate (deck => self%decks(d))
-            line = cell(1, deck%deck)//cell(2, deck%case)
+      do d = 1, size(solved)
+         associate (deck => decks(solved(d)))
+            line = cell(1, without_blanks(deck%path))//cell(2, deck%case)
             do k = 1, size(columns)
                line = line//cell(2 + k, deck%keys(columns(k))%word)
             end do
@@ -160,7 +202,7 @@ contains
          text = repeat(' ', width(column) - len(word))//word
       end function cell
 
-   end subroutine write_table
+   end subroutine write_collected_table
 
    !> Reads the lines of the units and the names of a summary, or adds its rows to the table. Errors: exit_file_trouble.
    subroutine read_summary(deck, names, error, file, before)
@@ -198,22 +240,28 @@ contains
    end subroutine read_summary
 
    !> The keys that have a column, in the order of the first deck in which they have an effect.
-   subroutine choose_columns(table, settings, columns)
-      type(collected_table), intent(in) :: table
+   subroutine choose_columns(decks, solved, settings, columns)
+      type(collected_deck), intent(in) :: decks(:)
+      integer, intent(in) :: solved(:)                !! those in the table
       type(setting_type), intent(in) :: settings(:)
       integer, allocatable, intent(out) :: columns(:)
 
       integer :: d, i, k
-      logical :: differs, is_set
+      logical, allocatable :: differs(:)   ! of each key
+      logical :: is_set
 
       allocate (columns(0))
-      do d = 1, table%number
-         do k = 1, size(table%decks(d)%keys)
-            associate (key => table%decks(d)%keys(k))
+      if (size(solved) == 0) return
+      differs = [(.false., k=1, size(decks(solved(1))%keys))]
+      do d = 2, size(solved)
+         differs = differs .or. [(decks(solved(d))%keys(k)%word /= decks(solved(1))%keys(k)%word, k=1, size(differs))]
+      end do
+      do d = 1, size(solved)
+         do k = 1, size(differs)
+            associate (key => decks(solved(d))%keys(k))
                if (any(columns == k) .or. .not. key%in_effect) cycle
                is_set = any([(settings(i)%group//'_'//settings(i)%key == key%name, i=1, size(settings))])
-               differs = any([(table%decks(i)%keys(k)%word /= table%decks(1)%keys(k)%word, i=2, table%number)])
-               if (is_set .or. (key%given .and. differs)) columns = [columns, k]
+               if (is_set .or. (key%given .and. differs(k))) columns = [columns, k]
             end associate
          end do
       end do

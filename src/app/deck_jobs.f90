@@ -1,8 +1,7 @@
-!> Processes that each run a deck, those of the option --jobs: an interface to jobs.c. Jobs are numbered from 1.
+!> Processes that each run a deck, those of the option --jobs: an interface to jobs.c. Jobs are numbered from 1. What
+!> Fortran has in its buffers must be flushed before a job is begun or shown.
 module wavycon_deck_jobs
    use, intrinsic :: iso_c_binding, only: c_bool, c_int
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    implicit none (type, external)
    private
 
@@ -14,10 +13,11 @@ module wavycon_deck_jobs
    integer, parameter, public :: most_waiting = 100
 
    interface
-      integer(c_int) function c_begin_job(job) bind(c, name='wavycon_begin_job')
+      !> Starts a process, a copy of this one, for a job: 1 in it, 0 in this one, -1 if there is none.
+      integer(c_int) function begin_job(job) bind(c, name='wavycon_begin_job')
          import :: c_int
          integer(c_int), value :: job
-      end function c_begin_job
+      end function begin_job
 
       logical(c_bool) function job_has_ended(job) bind(c, name='wavycon_job_has_ended')
          import :: c_bool, c_int
@@ -28,36 +28,11 @@ module wavycon_deck_jobs
       subroutine await_job() bind(c, name='wavycon_await_job')
       end subroutine await_job
 
-      integer(c_int) function c_show_job(job) bind(c, name='wavycon_show_job')
+      !> Prints what a job that has ended has printed: its exit status, or signal_status and more.
+      integer(c_int) function show_job(job) bind(c, name='wavycon_show_job')
          import :: c_int
          integer(c_int), value :: job
-      end function c_show_job
+      end function show_job
    end interface
-
-contains
-
-   !> Starts a process, a copy of this one, for a job. Errors: exit_file_trouble.
-   subroutine begin_job(job, is_here, error)
-      integer, intent(in) :: job
-      logical, intent(out) :: is_here   !! in the process of the job
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: answer
-
-      flush (output_unit)
-      flush (error_unit)
-      answer = int(c_begin_job(int(job, c_int)))
-      is_here = answer > 0
-      if (answer < 0) call fatal_error(error, exit_file_trouble, 'a process or a temporary file for it cannot be made')
-   end subroutine begin_job
-
-   !> Prints what a job that has ended has printed.
-   subroutine show_job(job, status)
-      integer, intent(in) :: job
-      integer, intent(out) :: status   !! its exit status, or signal_status and more
-
-      flush (output_unit)
-      status = int(c_show_job(int(job, c_int)))
-   end subroutine show_job
 
 end module wavycon_deck_jobs

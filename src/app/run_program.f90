@@ -5,10 +5,9 @@ module wavycon_run_program
    use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
-   use wavycon_collected_table, only: collected_table
+   use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_deck_jobs, only: await_job, begin_job, job_has_ended, most_waiting, show_job, signal_status
-   use wavycon_deck_keys, only: deck_key, list_keys
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_ranks, only: end_ranks, is_first_rank, rank_count, rank_library, share_error
@@ -24,18 +23,8 @@ module wavycon_run_program
 
    public :: run_program
 
-   interface
-      subroutine c_exit(status) bind(c, name='exit')
-         use, intrinsic :: iso_c_binding, only: c_int
-         implicit none (type, external)
-         integer(c_int), value :: status
-      end subroutine c_exit
-   end interface
-
-   type :: scene_item
+   type, extends(collected_deck) :: scene_item
       type(scene_type), allocatable :: scene      !! not allocated for a bad deck
-      type(deck_key), allocatable :: keys(:)      !! of the deck, for --table
-      character(:), allocatable :: case, summary  !! of a good deck: its name, the path of its summary table
    end type scene_item
 
 contains
@@ -97,8 +86,9 @@ contains
       allocate (scenes(size(command_line%runs)))
       worst = exit_fine
       do i = 1, size(scenes)
+         scenes(i)%path = command_line%runs(i)%path
          allocate (scenes(i)%scene)
-         call read_deck(command_line%runs(i)%path, scenes(i)%scene, error, command_line%runs(i)%settings)
+         call read_deck(scenes(i)%path, scenes(i)%scene, error, command_line%runs(i)%settings)
          if (allocated(error)) then
             if (is_first_rank()) write (error_unit, '(a)') error%message
             worst = max(worst, error%status)
@@ -137,7 +127,6 @@ contains
       type(scene_item), intent(inout) :: scenes(:)
       integer, intent(inout) :: worst   !! the worst exit status
 
-      type(collected_table) :: collected
       type(error_type), allocatable :: error
       integer :: begun, failed, i, jobs, not_solved, running, status
       logical :: is_good(size(scenes)), keep_going, with_table
@@ -147,7 +136,7 @@ contains
       call set_threads(command_line%options%integer('--threads'))
       with_table = .false.
       if (is_first_rank()) with_table = command_line%options%has('--table')
-      if (with_table) call collected%start(command_line%options%text('--table'), size(scenes), error)
+      if (with_table) call check_table_file(command_line%options%text('--table'), error)
       call share_error(error)
       call stop_on(error)
       is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
@@ -167,15 +156,14 @@ contains
          worst = max(worst, status)
          if (any(status == [exit_fine, exit_not_converged])) then
             if (status == exit_not_converged) not_solved = not_solved + 1
-            if (with_table) call collected%add(command_line%runs(i)%path, scenes(i)%case, scenes(i)%summary, &
-                                               scenes(i)%keys)
+            scenes(i)%is_written = .true.
          else
             failed = failed + 1
-            if (with_table) call collected%note_failure(command_line%runs(i)%path)
          end if
       end do
       if (allocated(error)) deallocate (error)
-      if (with_table) call collected%write(command_line%options%text('--table'), command_line%runs(1)%settings, error)
+      if (with_table) call write_collected_table(command_line%options%text('--table'), scenes%collected_deck, &
+                                                 command_line%runs(1)%settings, error)
       call share_error(error)
       if (allocated(error)) worst = max(worst, error%status)
       call show(error)
@@ -208,15 +196,19 @@ contains
          integer, intent(out) :: status
 
          type(error_type), allocatable :: error
-         logical :: is_here
+         integer :: here   ! as of begin_job
 
          do
             do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
                begun = begun + 1
                if (.not. is_good(begun)) cycle
-               call begin_job(begun, is_here, error)
+               flush (output_unit)
+               flush (error_unit)
+               here = begin_job(begun)
+               if (here < 0) call fatal_error(error, exit_file_trouble, &
+                                              'a process or a temporary file for it cannot be made')
                call stop_on(error)
-               if (is_here) then
+               if (here > 0) then
                   call run_one(begun, status, error)
                   call show(error)
                   call finish(status)
@@ -228,9 +220,10 @@ contains
             call await_job()
             running = running - 1
          end do
-         call show_job(i, status)
+         flush (output_unit)
+         status = show_job(i)
          if (status < signal_status) return
-         call fatal_error(error, exit_file_trouble, escaped(command_line%runs(i)%path)// &
+         call fatal_error(error, exit_file_trouble, escaped(scenes(i)%path)// &
                           ': its process was ended by signal '//integer_text(status - signal_status))
          call show(error)
          status = error%status
@@ -271,14 +264,13 @@ contains
       if (is_first_rank()) write (error_unit, '(a)') 'wavycon: '//error%message
    end subroutine show
 
-   !> Ends the program with an exit status. `stop` would write a message with some compilers.
+   !> Ends the program with an exit status.
    subroutine finish(status)
-      use, intrinsic :: iso_c_binding, only: c_int
       integer, intent(in) :: status
 
       flush (output_unit)
       call end_ranks(status)
-      call c_exit(int(status, c_int))
+      stop status, quiet=.true.
    end subroutine finish
 
 end module wavycon_run_program
