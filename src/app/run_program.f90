@@ -31,7 +31,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
-      character(:), allocatable :: command, library
+      character(:), allocatable :: command, library, text
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -47,12 +47,13 @@ contains
       if (allocated(error)) error%message = error%message//new_line('a')//'wavycon --help shows all options'
       call share_error(error)
       call stop_on(error)
-      if (command_line%options%logical('--help')) then
-         call say(help_text(library /= ''))
-         call finish(exit_fine)
-      else if (command_line%options%logical('--version')) then
-         if (library /= '') library = ', '//library
-         call say('wavycon '//version//' ('//revision//')'//library)
+      if (command_line%options%logical('--version')) then
+         text = 'wavycon '//version//' ('//revision//')'
+         if (library /= '') text = text//', '//library
+      end if
+      if (command_line%options%logical('--help')) text = help_text(library /= '')
+      if (allocated(text)) then
+         if (is_first_rank()) write (output_unit, '(a)') text
          call finish(exit_fine)
       end if
       quiet = command_line%options%logical('--quiet') .or. .not. is_first_rank()
@@ -230,13 +231,6 @@ contains
       end subroutine take_job
 
    end subroutine run_scenes
-
-   !> Writes a text.
-   subroutine say(text)
-      character(*), intent(in) :: text
-
-      if (is_first_rank()) write (output_unit, '(a)') text
-   end subroutine say
 
    !> Writes an empty line between two decks.
    subroutine separate(deck, quiet)

@@ -12,15 +12,14 @@ module wavycon_read_deck
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_interface_group, only: check_interface_group, make_interface_setting
-   use wavycon_key_table, only: key_group_type
+   use wavycon_key_table, only: allowed_values, choice_value, key_group_type, text_value
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads, take_loads
    use wavycon_material_group, only: check_material_group, plane_strain_modulus
    use wavycon_methods, only: check_method_group
    use wavycon_output_group, only: check_output_group
-   use wavycon_plain_text, only: escaped, newline
+   use wavycon_plain_text, only: escaped, newline, quoted
    use wavycon_problems, only: problem_list_type
-   use wavycon_resolved_deck, only: resolved_deck_text
    use wavycon_scene, only: scene_type
    use wavycon_scene_group, only: check_scene_group
    use wavycon_settings, only: name_case, setting_type
@@ -29,7 +28,7 @@ module wavycon_read_deck
    implicit none (type, external)
    private
 
-   public :: read_deck, parse_deck
+   public :: read_deck, parse_deck, resolved_deck_text
 
 contains
 
@@ -196,12 +195,10 @@ contains
       call make_interface_setting(scene%interface, scene%material, scene%surface, scene%p_star, &
                                   scene%interface_setting)
       associate (labels => scene%scene_values, surface => scene%surface_values)
-         scene%title = labels%text('title')
          scene%case = labels%text('case')
          scene%pressure_unit = labels%text('pressure_unit')
          scene%length_unit = labels%text('length_unit')
          scene%directory = scene%output%text('directory')
-         scene%surface_kind = surface%text('kind')
          call scene%output%set('directory', text='')
          scene%fingerprint = resolved_deck_text(scene)
          ! The first line has the path of the deck.
@@ -216,5 +213,48 @@ contains
          if (file /= '') call surface%set('file', text=file)
       end associate
    end subroutine complete
+
+   !> The resolved deck: every key that applies, with the value in effect; to run it repeats the run. Lines, the last
+   !> without a newline.
+   function resolved_deck_text(scene) result(text)
+      type(scene_type), intent(in) :: scene
+      character(:), allocatable :: text
+
+      text = '! '//escaped(scene%deck_path)//' with the value in effect of every key that applies.'
+      text = text//group_text(scene%scene_values)//group_text(scene%material)//group_text(scene%surface_values)
+      if (scene%load%place > 0) text = text//group_text(scene%load)
+      ! The groups themselves ask for stresses and for what the interface does.
+      if (scene%stress%place > 0) text = text//group_text(scene%stress)
+      if (scene%interface%place > 0) text = text//group_text(scene%interface)
+      text = text//group_text(scene%method)//group_text(scene%output)
+   end function resolved_deck_text
+
+   !> A group, each line with a newline before it: "key = value   ! [unit] allowed values", and a line for each further
+   !> value.
+   !>
+   !> N.B. Without commas between the values: gfortran's NAMELIST reads a comma before a comment as an omitted value.
+   function group_text(values) result(text)
+      type(group_values), intent(in) :: values
+      character(:), allocatable :: text
+
+      character(*), parameter :: next_line = newline//'      '
+      character(:), allocatable :: comment, words
+      integer :: first, k
+
+      text = newline//'&'//trim(values%table%name)//'   ! '//trim(values%table%meaning)
+      do k = 1, size(values%table%keys)
+         associate (key => values%table%keys(k))
+            if (.not. values%in_effect(trim(key%name))) cycle
+            comment = '   ! '
+            if (key%unit /= '') comment = comment//'['//trim(key%unit)//'] '
+            comment = comment//allowed_values(key)
+            words = values%words(trim(key%name), next_line)
+            if (any(key%kind == [text_value, choice_value])) words = quoted(words)
+            first = index(words//newline, newline) - 1
+            text = text//newline//'   '//trim(key%name)//' = '//words(:first)//comment//words(first + 1:)
+         end associate
+      end do
+      text = text//newline//'/'
+   end function group_text
 
 end module wavycon_read_deck

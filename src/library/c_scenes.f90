@@ -4,11 +4,11 @@ module wavycon_c_scenes
       c_size_t
    use wavycon_c_handles, only: begin_call, check_arguments, close_call, close_new, handle_type, lock, new_handle, &
       not_a_handle, object_at, put_text, text_at
-   use wavycon_deck_run, only: run_deck
    use wavycon_deck_session, only: pick_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_key_json, only: key_json
+   use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
+   use wavycon_run_scene, only: run_deck
    use wavycon_session_fields, only: map_grid, own_points
    use wavycon_version, only: version
    implicit none (type, external)

@@ -14,7 +14,6 @@ module wavycon
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_region, contact_spots
    use wavycon_contact_status
-   use wavycon_deck_run, only: run_deck
    use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_contact_contours, only: contact_contour
@@ -25,12 +24,13 @@ module wavycon
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options
-   use wavycon_key_json, only: key_json
+   use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_light_load
    use wavycon_memory_table, only: memory_table, of_integers, of_reals, of_words
    use wavycon_penny_crack
+   use wavycon_run_scene, only: run_deck
    use wavycon_session_fields, only: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields

@@ -1,4 +1,4 @@
-!> Runs a scene from beginning to end: starts the solver, solves all loads, writes the tables.
+!> Runs a scene, or a deck, from beginning to end: starts the solver, solves all loads, writes the tables.
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
@@ -11,10 +11,12 @@ module wavycon_run_scene
    use wavycon_output_file, only: output_file
    use wavycon_own_waves, only: gather_series
    use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_read_deck, only: read_deck
    use wavycon_result_lines, only: show_loads, show_stresses
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
+   use wavycon_settings, only: setting_type
    use wavycon_solve_loads, only: order_loads, solve_loads
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_table, only: add_table, table_type
@@ -23,7 +25,7 @@ module wavycon_run_scene
    implicit none (type, external)
    private
 
-   public :: run_scene, start_results, keep_fields
+   public :: run_deck, run_scene, start_results, keep_fields
 
 contains
 
@@ -60,6 +62,31 @@ contains
          status = int(status_of_all(1))
       end if
    end subroutine run_scene
+
+   !> Runs a deck as the program does: solves its loads and writes its tables. Errors: those of the program for a bad deck, a bad height map
+   !> or files that cannot be written.
+   !>
+   !> N.B. As in the program, those of SIGINT, SIGTERM and SIGHUP that the process does not handle remove an unfinished
+   !> file and end the process.
+   subroutine run_deck(path, directory, quiet, status, error)
+      character(*), intent(in) :: path        !! of the deck
+      character(*), intent(in) :: directory   !! for the tables, in place of that of the deck; '': that of the deck
+      logical, intent(in) :: quiet            !! whether to write no log to standard output
+      integer, intent(out) :: status          !! the program's exit status: exit_fine, exit_not_converged or the error's
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: results
+      type(scene_type), allocatable :: scene
+      type(setting_type), allocatable :: settings(:)
+
+      allocate (settings(merge(0, 1, directory == '')))
+      if (size(settings) > 0) settings(1) = setting_type('output', 'directory', directory)
+      status = exit_fine
+      allocate (scene)
+      call read_deck(path, scene, error, settings)
+      if (.not. allocated(error)) call run_scene(scene, quiet, .false., results, status, error)
+      if (allocated(error)) status = error%status
+   end subroutine run_deck
 
    !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
    subroutine solve_and_write(results, tables, resume, log, status, error)

@@ -21,12 +21,10 @@ module wavycon_scene
 
    type :: scene_type
       character(:), allocatable :: deck_path        !! the deck's file, as the caller named it
-      character(:), allocatable :: title            !! one line for the heads of tables; may be empty
       character(:), allocatable :: case             !! stem of the names of result files
       character(:), allocatable :: directory        !! of the results
       character(:), allocatable :: resolved_deck    !! text of a deck with the value in effect of every key
       character(:), allocatable :: fingerprint   !! the same without the paths of deck and results, for checkpoints
-      character(:), allocatable :: surface_kind     !! the key `kind` of &surface
       type(surface_type), allocatable :: surface    !! not allocated once a solver is started, which has it
       type(map_statistics), allocatable :: map      !! allocated for a height map
       type(roughness_type) :: roughness             !! of the surface
