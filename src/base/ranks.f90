@@ -26,32 +26,28 @@ module wavycon_ranks
       integer :: ranks_on_machine = 1         !! those that share this machine's memory
       character(:), allocatable :: library    !! name and version
    contains
-      procedure(combine_reals), deferred :: add_reals
-      procedure(add_whole_numbers), deferred :: add_integers
-      procedure(combine_reals), deferred :: largest
-      procedure(exchange_two_blocks), deferred :: exchange
+      procedure(combine_reals), deferred, nopass :: add_reals
+      procedure(add_whole_numbers), deferred, nopass :: add_integers
+      procedure(combine_reals), deferred, nopass :: largest
+      procedure(exchange_two_blocks), deferred, nopass :: exchange
       procedure(move_blocks), deferred :: move
       procedure(exchange_rows_and_columns), deferred :: exchange_rows
       procedure(end_run), deferred :: finish
    end type communicator
 
    abstract interface
-      subroutine combine_reals(self, values)
-         import :: dp, communicator
-         class(communicator), intent(in) :: self
+      subroutine combine_reals(values)
+         import :: dp
          real(dp), intent(inout), contiguous :: values(:)
       end subroutine combine_reals
 
-      subroutine add_whole_numbers(self, values)
-         import :: int64, communicator
-         class(communicator), intent(in) :: self
+      subroutine add_whole_numbers(values)
+         import :: int64
          integer(int64), intent(inout), contiguous :: values(:)
       end subroutine add_whole_numbers
 
       !> Sends columns to the neighbours and receives theirs.
-      subroutine exchange_two_blocks(self, low, high, bytes, to_low, to_high, from_low, from_high)
-         import :: communicator
-         class(communicator), intent(in) :: self
+      subroutine exchange_two_blocks(low, high, bytes, to_low, to_high, from_low, from_high)
          integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
          integer, intent(in) :: bytes        !! of the columns for one neighbour
          type(*), intent(in), target :: to_low(*), to_high(*)            !! the own first and last columns

@@ -17,10 +17,10 @@ module wavycon_mpi_ranks
 
    type, extends(communicator) :: mpi_communicator
    contains
-      procedure :: add_reals
-      procedure :: add_integers
-      procedure :: largest
-      procedure :: exchange
+      procedure, nopass :: add_reals
+      procedure, nopass :: add_integers
+      procedure, nopass :: largest
+      procedure, nopass :: exchange
       procedure :: move
       procedure :: exchange_rows
       procedure :: finish
@@ -54,32 +54,25 @@ contains
       call use_communicator(comm)
    end subroutine start_mpi
 
-   subroutine add_reals(self, values)
-      class(mpi_communicator), intent(in) :: self
+   subroutine add_reals(values)
       real(dp), intent(inout), contiguous :: values(:)
 
-      associate (unused => self); end associate
       call mpi_allreduce(mpi_in_place, values, size(values), mpi_double_precision, mpi_sum, mpi_comm_world)
    end subroutine add_reals
 
-   subroutine add_integers(self, values)
-      class(mpi_communicator), intent(in) :: self
+   subroutine add_integers(values)
       integer(int64), intent(inout), contiguous :: values(:)
 
-      associate (unused => self); end associate
       call mpi_allreduce(mpi_in_place, values, size(values), mpi_integer8, mpi_sum, mpi_comm_world)
    end subroutine add_integers
 
-   subroutine largest(self, values)
-      class(mpi_communicator), intent(in) :: self
+   subroutine largest(values)
       real(dp), intent(inout), contiguous :: values(:)
 
-      associate (unused => self); end associate
       call mpi_allreduce(mpi_in_place, values, size(values), mpi_double_precision, mpi_max, mpi_comm_world)
    end subroutine largest
 
-   subroutine exchange(self, low, high, bytes, to_low, to_high, from_low, from_high)
-      class(mpi_communicator), intent(in) :: self
+   subroutine exchange(low, high, bytes, to_low, to_high, from_low, from_high)
       integer, intent(in) :: low, high, bytes
       type(*), intent(in), target :: to_low(*), to_high(*)
       type(*), intent(inout), target :: from_low(*), from_high(*)
@@ -89,7 +82,6 @@ contains
       integer :: above, below
       type(mpi_request) :: requests(4)
 
-      associate (unused => self); end associate
       below = merge(low, mpi_proc_null, low >= 0)
       above = merge(high, mpi_proc_null, high >= 0)
       call mpi_irecv(from_low, bytes, mpi_byte, below, upwards, mpi_comm_world, requests(1))
