@@ -1,11 +1,11 @@
 !> The groups of a deck: their tables of keys, and their values, which are read from its text.
 module wavycon_deck_groups
-   use wavycon_deck_scanner, only: at_end, is_broken_word, is_comma, is_equals, is_group, is_slash, is_word, next_token, &
-      quotes, starts_entry, token_type
+   use wavycon_deck_scanner, only: at_end, is_broken_word, is_comma, is_equals, is_group, is_slash, is_word, &
+      next_token, quotes, starts_entry, token_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_group_values, only: group_values
    use wavycon_interface_group, only: interface_table
-   use wavycon_key_table, only: allowed_values, key_group_type, key_index
+   use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, text_value
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: load_table
@@ -13,10 +13,10 @@ module wavycon_deck_groups
    use wavycon_methods, only: method_table
    use wavycon_nearest_name, only: did_you_mean, nearest_name
    use wavycon_output_group, only: output_table
-   use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case, newline
+   use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case, newline, quoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: scene_table
-   use wavycon_settings, only: deck_value, replaces, setting_type
+   use wavycon_settings, only: replaces, setting_type
    use wavycon_stress_group, only: stress_table
    use wavycon_surface_group, only: surface_table
    implicit none (type, external)
@@ -154,9 +154,15 @@ contains
 
          g = findloc(tables%name == setting%group, .true., dim=1)
          value = setting%value
-         if (g > 0) value = deck_value(setting, tables(g))
+         if (g > 0) then
+            associate (keys => tables(g)%keys)
+               ! A text without quotes, which shells remove, gets them.
+               if (any(keys%name == setting%key .and. (keys%kind == text_value .or. keys%kind == choice_value)) .and. &
+                   scan(value, quotes) /= 1) value = quoted(value)
+            end associate
+         end if
          place = len(text%content) + len(' --set ') + 1
-         call text%add_option('--set '//setting%group//'.'//setting%key//'='//value)
+         text%content = text%content//newline//'--set '//setting%group//'.'//setting%key//'='//value
          if (g == 0) then
             call problems%add(place, unknown_group(setting%group, tables))
             return
@@ -238,12 +244,13 @@ contains
          integer, intent(in) :: place       !! in the text
          integer, intent(out) :: k          !! 0: they are not, as where the group is unknown or an option sets the key
 
-         character(:), allocatable :: first
-         integer :: nearest
+         character(:), allocatable :: before
+         integer :: first, last, nearest
 
          k = 0
          if (g == 0) return
-         if (place <= text%own .and. any([(replaces(own_settings(s), tables(g), name), s=1, size(own_settings))])) return
+         if (place <= text%own .and. &
+             any([(replaces(own_settings(s), tables(g), name), s=1, size(own_settings))])) return
          k = key_index(tables(g)%keys, name)
          associate (values => groups(g), names => tables(g)%keys%name)
             if (k == 0) then
@@ -253,9 +260,10 @@ contains
                if (nearest == 0) return
                if (.not. values%has(names(nearest))) call values%take(names(nearest), place)
             else if (values%has(name) .and. .not. values%is_bad(name)) then
-               first = 'in line '//integer_text(text%line_of(values%place_of(name)))
-               if (values%place_of(name) > text%own) first = 'by '//excerpt(text%line_at(values%place_of(name)))
-               call problems%add(place, name//' is given twice, first '//first)
+               call text%line_bounds(values%place_of(name), first, last)
+               before = 'in line '//integer_text(text%line_of(first))
+               if (first > text%own) before = 'by '//excerpt(text%content(first:last))
+               call problems%add(place, name//' is given twice, first '//before)
                k = 0
             end if
          end associate

@@ -14,13 +14,11 @@ module wavycon_deck_text
    !> A place is the number of a byte of the text, counted from 1.
    type :: deck_text_type
       character(:), allocatable :: path        !! as the user named the file
-      character(:), allocatable :: content     !! lines that end in LF, CR LF or CR, and the options
+      character(:), allocatable :: content     !! lines that end in LF, CR LF or CR, and a line for each option
       integer :: own = 0                       !! place of the last byte of the file; options are behind it
    contains
-      procedure :: add_option
       procedure :: line_of
       procedure :: line_bounds
-      procedure :: line_at
    end type deck_text_type
 
    interface deck_text_type
@@ -43,14 +41,6 @@ contains
       if (index(content, byte_order_mark) == 1) text%content = content(len(byte_order_mark) + 1:)
       text%own = len(text%content)
    end function new_deck_text
-
-   !> Adds an option of the command line behind the text.
-   pure subroutine add_option(self, words)
-      class(deck_text_type), intent(inout) :: self
-      character(*), intent(in) :: words   !! one line
-
-      self%content = self%content//newline//words
-   end subroutine add_option
 
    !> The number of the line that a place is in.
    pure integer function line_of(self, place)
@@ -80,18 +70,6 @@ contains
       if (last < place) last = len(self%content)
    end subroutine line_bounds
 
-   !> The line that a place is in.
-   pure function line_at(self, place) result(line)
-      class(deck_text_type), intent(in) :: self
-      integer, intent(in) :: place   !! not of a line end
-      character(:), allocatable :: line
-
-      integer :: first, last
-
-      call self%line_bounds(place, first, last)
-      line = self%content(first:last)
-   end function line_at
-
    !> Reads the text of a deck file. Errors: exit_file_trouble.
    subroutine read_deck_text(path, text, error)
       character(*), intent(in) :: path
@@ -108,8 +86,8 @@ contains
       text = deck_text_type(path, content)
    end subroutine read_deck_text
 
-   !> The report of all problems in a deck, as the message of one error: in the order of their places, numbered, each with
-   !> its line and a caret.
+   !> The report of all problems in a deck, as the message of one error: in the order of their places, numbered, each
+   !> with its line and a caret.
    pure function problem_report(problems, text) result(report)
       type(problem_list_type), intent(in) :: problems  !! at least one
       type(deck_text_type), intent(in) :: text
@@ -128,10 +106,12 @@ contains
             report = report//escaped(text%path)//':'
             if (place == 0) then
                report = report//words
-            else if (place > text%own) then
-               report = report//' '//escaped(text%line_at(place))//':'//words
+               cycle
+            end if
+            call text%line_bounds(place, first, last)
+            if (place > text%own) then
+               report = report//' '//escaped(text%content(first:last))//':'//words
             else
-               call text%line_bounds(place, first, last)
                report = report//integer_text(text%line_of(place))//':'// &
                         integer_text(character_count(text%content(first:place - 1)) + 1)//':'//words//newline// &
                         line_and_caret(text, place, first, last)

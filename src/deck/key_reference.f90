@@ -83,9 +83,9 @@ contains
    end subroutine add_wrapped
 
    !> A list of groups, each with name, meaning, required and keys; a key has name, type, unit, default, required, least
-   !> and most (null: no bound), above and below (whether the bounds themselves are excluded), most_values, longest (bytes
-   !> of a text), choices, read_by (for which values of the key that selects a kind or a solver it is read) and meaning.
-   !> A default is written as in a deck.
+   !> and most (null: no bound), above and below (whether the bounds themselves are excluded), most_values, longest
+   !> (bytes of a text), choices, read_by (for which values of the key that selects a kind or a solver it is read) and
+   !> meaning. A default is written as in a deck.
    function key_json() result(json)
       character(:), allocatable :: json
 

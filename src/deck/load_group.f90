@@ -18,9 +18,7 @@ module wavycon_load_group
 
    integer, parameter :: most_loads = 100000
 
-   character(23), parameter :: lists(*) = [character(23) :: 'pbar_over_pstar', 'mean_pressure', &
-                                           'mean_gap_over_amplitude', 'mean_gap', 'contact_area_fraction', 'yield', &
-                                           'force', 'approach', 'contact_area']
+   !> What the lists of loads give, which are the first keys of the table.
    integer, parameter :: list_is(*) = [by_pressure, by_pressure, by_mean_gap, by_mean_gap, by_contact_area, by_yield, &
                                        by_pressure, by_approach, by_contact_area]
    !> The loads that need p*, full contact or the mean gap of a surface that is repeated.
@@ -198,13 +196,12 @@ contains
          k = 1
          loads = sweep(values%real('sweep_from'), values%real('sweep_to'), values%integer('sweep_steps'))
       else
-         allocate (loads(0))
-         do k = 1, size(lists) - 1
-            if (values%has(trim(lists(k)))) exit
+         do k = 1, size(list_is) - 1
+            if (values%has(values%table%keys(k)%name)) exit
          end do
-         if (values%has(trim(lists(k)))) loads = values%reals(trim(lists(k)))
+         loads = values%reals(values%table%keys(k)%name)
       end if
-      key = trim(lists(k))
+      key = trim(values%table%keys(k)%name)
       loads_by = list_is(k)
    end subroutine given_loads
 

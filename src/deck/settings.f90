@@ -2,14 +2,14 @@
 module wavycon_settings
    use wavycon_deck_scanner, only: quotes
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_value, is_read, key_group_type, key_index, text_value, words_of
-   use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, quoted, unquoted
+   use wavycon_key_table, only: is_read, key_group_type, key_index, words_of
+   use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: longest_name, name_letters
    implicit none (type, external)
    private
 
-   public :: setting_type, read_setting, deck_value, replaces, name_case
+   public :: setting_type, read_setting, replaces, name_case
 
    !> group.key=value
    type :: setting_type
@@ -39,20 +39,6 @@ contains
          setting%value = trim(adjustl(word(equals + 1:)))
       end if
    end subroutine read_setting
-
-   !> The value as a deck would give it: a text without quotes, which shells remove, gets them.
-   pure function deck_value(setting, table) result(value)
-      type(setting_type), intent(in) :: setting
-      type(key_group_type), intent(in) :: table   !! of the group
-      character(:), allocatable :: value
-
-      integer :: k
-
-      value = setting%value
-      k = key_index(table%keys, setting%key)
-      if (k == 0) return
-      if (any(table%keys(k)%kind == [choice_value, text_value]) .and. scan(value, quotes) /= 1) value = quoted(value)
-   end function deck_value
 
    !> Whether a setting takes the place of a key of a deck: of itself; of a key that gives the same in another way;
    !> where it selects a kind of surface or a solver, of the keys that others read. Misspelt keys of the deck stay and

@@ -1,6 +1,5 @@
-!> What the keys of solvers on grids mean: checks and options.
+!> What the keys of solvers on grids mean: checks, and the grid.
 module wavycon_grid_keys
-   use wavycon_grid_contact, only: grid_options
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, short_number
@@ -9,7 +8,7 @@ module wavycon_grid_keys
    implicit none (type, external)
    private
 
-   public :: check_grid_keys, grid_in_words, options_of_grid, points_of_grid
+   public :: check_grid_keys, grid_in_words, points_of_grid
 
 contains
 
@@ -23,14 +22,6 @@ contains
       points = surface%parts()*nint(values%pair('grid_points'))
       if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
    end function points_of_grid
-
-   !> The options of a solver on grids, or of one that extends it.
-   pure type(grid_options) function options_of_grid(values, surface) result(options)
-      type(group_values), intent(in) :: values     !! of &method
-      type(surface_type), intent(in) :: surface
-
-      options = grid_options(values%real('accuracy'), points_of_grid(values, surface), values%real('residual'))
-   end function options_of_grid
 
    !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
    !> solved on one given grid. Writes grid_points in full to the resolved deck. Reports a residual without a given

@@ -1,7 +1,6 @@
 !> What decks say about solvers: their names, their keys of &method, what they refuse, and how values start them.
 module wavycon_methods
-   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
-      points_are_given, points_are_of_the_map
+   use wavycon_auto_contact, only: auto_contact, has_closed_form, has_expansions
    use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_beale_keys, only: beale_in_words, beale_options, check_beale_keys, most_constraint_points, most_harmonics
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
@@ -9,8 +8,8 @@ module wavycon_methods
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
-   use wavycon_grid_contact, only: grid_contact
-   use wavycon_grid_keys, only: check_grid_keys, grid_in_words, options_of_grid
+   use wavycon_grid_contact, only: grid_contact, grid_options
+   use wavycon_grid_keys, only: check_grid_keys, grid_in_words, points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
       words_of
@@ -225,7 +224,8 @@ contains
          words = fitted
       class is (grid_contact)
          ! auto_contact extends it.
-         call solver%start(surface, options_of_grid(values, surface), keep_fields)
+         call solver%start(surface, grid_options(values%real('accuracy'), points_of_grid(values, surface), &
+                                                values%real('residual')), keep_fields)
          traits = solver%traits()
          words = grid_in_words(values, surface)
          if (traits%choice == has_closed_form) words = closed_form
@@ -239,23 +239,15 @@ contains
       type(solver_traits), intent(in) :: traits   !! of the started solver
       character(:), allocatable :: words
 
-      select case (traits%choice)
-      case (has_closed_form)
-         words = 'the surface is the 1-D wave, which has a closed form'
-      case (has_expansions)
-         words = "the surface has a lattice of equal spots; grids solve the loads for which 'fitted' is not "// &
-                 'accurate enough'
-      case (has_neither)
-         words = 'the surface has neither a closed form nor a lattice of equal spots'
-      case (has_a_hardness)
-         words = "neither the closed form nor 'fitted' has a hardness"
-      case (points_are_given)
-         words = 'the points of the grid are given'
-      case (points_are_of_the_map)
-         words = 'a height map is solved on its own points unless an accuracy is given'
-      case default
-         words = ''
-      end select
+      character(*), parameter :: reasons(0:*) = [character(112) :: '', &   ! in the order of wavycon_auto_contact
+         'the surface is the 1-D wave, which has a closed form', &
+         "the surface has a lattice of equal spots; grids solve the loads for which 'fitted' is not accurate enough", &
+         'the surface has neither a closed form nor a lattice of equal spots', &
+         "neither the closed form nor 'fitted' has a hardness", &
+         'the points of the grid are given', &
+         'a height map is solved on its own points unless an accuracy is given']
+
+      words = trim(reasons(traits%choice))
    end function why_chosen
 
 end module wavycon_methods
