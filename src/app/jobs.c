@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* More than most_waiting of deck_jobs.f90: a job has a place until it is shown. */
+/* More than most_waiting of run_program.f90: a job has a place until it is shown. */
 enum { places = 128, streams = 2 };
 
 static struct job {

@@ -2,12 +2,11 @@
 !>
 !> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
-   use, intrinsic :: iso_c_binding, only: c_null_char
+   use, intrinsic :: iso_c_binding, only: c_bool, c_int, c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
-   use wavycon_deck_jobs, only: await_job, begin_job, job_has_ended, most_waiting, show_job, signal_status
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_ranks, only: end_ranks, is_first_rank, rank_count, rank_library, share_error
@@ -22,6 +21,36 @@ module wavycon_run_program
    private
 
    public :: run_program
+
+   !> A status from here on less this number is that of the signal that ended a process.
+   integer, parameter :: signal_status = 128
+   !> Jobs that may be begun beyond the first one that was not shown: each has open files, and a place in jobs.c.
+   integer, parameter :: most_waiting = 100
+
+   !> The processes of the option --jobs, each of which runs a deck: see jobs.c. They are numbered from 1. What Fortran
+   !> has in its buffers must be flushed before a job is begun or shown.
+   interface
+      !> Starts a process, a copy of this one, for a job: 1 in it, 0 in this one, -1 if there is none.
+      integer(c_int) function begin_job(job) bind(c, name='wavycon_begin_job')
+         import :: c_int
+         integer(c_int), value :: job
+      end function begin_job
+
+      logical(c_bool) function job_has_ended(job) bind(c, name='wavycon_job_has_ended')
+         import :: c_bool, c_int
+         integer(c_int), value :: job   !! that was begun
+      end function job_has_ended
+
+      !> Waits for any process to end.
+      subroutine await_job() bind(c, name='wavycon_await_job')
+      end subroutine await_job
+
+      !> Prints what a job that has ended has printed: its exit status, or signal_status and more.
+      integer(c_int) function show_job(job) bind(c, name='wavycon_show_job')
+         import :: c_int
+         integer(c_int), value :: job
+      end function show_job
+   end interface
 
    type, extends(collected_deck) :: scene_item
       type(scene_type), allocatable :: scene      !! not allocated for a bad deck
@@ -129,7 +158,7 @@ contains
       integer, intent(inout) :: worst   !! the worst exit status
 
       type(error_type), allocatable :: error
-      integer :: begun, failed, i, jobs, not_solved, running, status
+      integer :: begun, i, jobs, running, status(size(scenes))
       logical :: is_good(size(scenes)), keep_going, with_table
 
       jobs = command_line%options%integer('--jobs')
@@ -141,27 +170,20 @@ contains
       call share_error(error)
       call stop_on(error)
       is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
+      status = exit_bad_input
       begun = 0
-      failed = 0
-      not_solved = 0
       running = 0
       do i = 1, size(scenes)
-         status = exit_bad_input
          if (is_good(i) .and. jobs == 1) then
-            call run_one(i, status, error)
+            call run_one(i, status(i), error)
             if (.not. keep_going) call stop_on(error)
             call show(error)
          else if (is_good(i)) then
-            call take_job(i, status)
-         end if
-         worst = max(worst, status)
-         if (any(status == [exit_fine, exit_not_converged])) then
-            if (status == exit_not_converged) not_solved = not_solved + 1
-            scenes(i)%is_written = .true.
-         else
-            failed = failed + 1
+            call take_job(i, status(i))
          end if
       end do
+      worst = max(worst, maxval(status))
+      scenes%is_written = status == exit_fine .or. status == exit_not_converged
       if (allocated(error)) deallocate (error)
       if (with_table) call write_collected_table(command_line%options%text('--table'), scenes%collected_deck, &
                                                  command_line%runs(1)%settings, error)
@@ -171,8 +193,8 @@ contains
       if (.not. keep_going .or. quiet) return
       call separate(size(scenes) + 1, quiet)
       write (output_unit, '(a)') integer_text(size(scenes))//' decks: '// &
-         integer_text(size(scenes) - failed - not_solved)//' solved, '//integer_text(not_solved)// &
-         ' with loads NOT solved as requested, '//integer_text(failed)//' failed'
+         integer_text(count(status == exit_fine))//' solved, '//integer_text(count(status == exit_not_converged))// &
+         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed'
 
    contains
 

@@ -7,7 +7,6 @@ module wavycon_deck_session
    use wavycon_deck_text, only: deck_text_type, problem_report, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_find_interface, only: find_interface
-   use wavycon_find_stresses, only: find_stresses
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, take_loads
@@ -21,7 +20,7 @@ module wavycon_deck_session
    use wavycon_run_scene, only: start_results
    use wavycon_scene, only: by_yield, scene_type
    use wavycon_settings, only: read_setting, setting_type
-   use wavycon_solve_loads, only: order_loads, solve_target
+   use wavycon_solve_loads, only: find_stresses, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
    use wavycon_tables, only: find_table

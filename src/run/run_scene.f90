@@ -4,7 +4,6 @@ module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_find_interface, only: find_interface
-   use wavycon_find_stresses, only: find_stresses
    use wavycon_kinds, only: dp
    use wavycon_methods, only: start_solver
    use wavycon_notes, only: show_scene, sum_up
@@ -17,7 +16,7 @@ module wavycon_run_scene
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
-   use wavycon_solve_loads, only: order_loads, solve_loads
+   use wavycon_solve_loads, only: find_stresses, order_loads, solve_loads
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_table, only: add_table, table_type
    use wavycon_tables, only: all_tables
@@ -63,8 +62,8 @@ contains
       end if
    end subroutine run_scene
 
-   !> Runs a deck as the program does: solves its loads and writes its tables. Errors: those of the program for a bad deck, a bad height map
-   !> or files that cannot be written.
+   !> Runs a deck as the program does: solves its loads and writes its tables. Errors: those of the program for a bad
+   !> deck, a bad height map or files that cannot be written.
    !>
    !> N.B. As in the program, those of SIGINT, SIGTERM and SIGHUP that the process does not handle remove an unfinished
    !> file and end the process.
@@ -181,10 +180,18 @@ contains
 
       logical :: keep
       character(:), allocatable :: description
+      type(table_type), allocatable :: every(:)
+      integer :: i
 
       call move_alloc(scene, results%scene)
-      call requested_tables(results%scene, tables)
+      call all_tables(every)
+      allocate (tables(0))
       associate (scene => results%scene)
+         do i = 1, size(every)
+            ! p* and Delta of a flat surface are zero.
+            if (scene%p_star <= 0.0_dp .and. .not. every(i)%is_for_flat_surfaces) cycle
+            if (every(i)%is_requested(scene)) call add_table(tables, every(i))
+         end do
          keep = keep_fields(scene, tables)
          if (present(with_fields)) keep = with_fields
          call start_solver(scene%surface, scene%method, keep, results%solver, description)
@@ -197,22 +204,6 @@ contains
       if (results%sharing%kind /= distributed_grids) &
          call gather_series(results%solver%surface%shape, first_only=.not. results%sharing%is_shared())
    end subroutine start_results
-
-   !> The tables that a deck requests; for a flat surface, whose p* and Delta are zero, only those that allow it.
-   subroutine requested_tables(scene, tables)
-      type(scene_type), intent(in) :: scene
-      type(table_type), allocatable, intent(out) :: tables(:)
-
-      type(table_type), allocatable :: every(:)
-      integer :: i
-
-      call all_tables(every)
-      allocate (tables(0))
-      do i = 1, size(every)
-         if (scene%p_star <= 0.0_dp .and. .not. every(i)%is_for_flat_surfaces) cycle
-         if (every(i)%is_requested(scene)) call add_table(tables, every(i))
-      end do
-   end subroutine requested_tables
 
    !> Whether the solutions keep their fields.
    logical function keep_fields(scene, tables)
