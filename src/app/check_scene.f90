@@ -27,6 +27,7 @@ contains
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards
       logical, intent(in) :: quiet                            !! whether to say nothing
 
+      character(:), allocatable :: reason
       type(results_type) :: results
       type(run_log) :: log
       type(table_type), allocatable :: tables(:)
@@ -34,7 +35,12 @@ contains
       call log%start(quiet)
       call start_results(scene, results, tables)
       call show_scene(results, log)
-      if (reason(results) /= '') call log%say('because: '//reason(results))
+      reason = why_chosen(results%traits)
+      if (.not. results%scene%method%has('solver')) then
+         if (reason /= '') reason = '; '//reason
+         reason = "'"//results%scene%method%text('solver')//"' is the default for this surface"//reason
+      end if
+      if (reason /= '') call log%say('because: '//reason)
       if (all(results%traits%finest_grid > 0)) then
          call log%say('memory: '//memory(results, keep_fields(results%scene, tables)))
          call log%say('time: some '// &
@@ -45,17 +51,6 @@ contains
                    escaped(results%scene%directory))
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene
-
-   !> Why the solver is taken; empty if the deck names it.
-   function reason(results) result(words)
-      type(results_type), intent(in) :: results
-      character(:), allocatable :: words
-
-      words = why_chosen(results%traits)
-      if (results%scene%method%has('solver')) return
-      if (words /= '') words = '; '//words
-      words = "'"//results%scene%method%text('solver')//"' is the default for this surface"//words
-   end function reason
 
    !> The memory that the finest grid takes, and what is available.
    function memory(results, with_fields) result(words)

@@ -4,20 +4,20 @@ module wavycon_deck_groups
       next_token, quotes, starts_entry, token_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_group_values, only: group_values
-   use wavycon_interface_group, only: interface_table
+   use wavycon_interface_group, only: interface_keys
    use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, text_value
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: load_table
-   use wavycon_material_group, only: material_table
+   use wavycon_load_group, only: load_keys
+   use wavycon_material_group, only: material_keys
    use wavycon_methods, only: method_table
    use wavycon_nearest_name, only: did_you_mean, nearest_name
    use wavycon_output_group, only: output_table
    use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case, newline, quoted
    use wavycon_problems, only: problem_list_type
-   use wavycon_scene_group, only: scene_table
+   use wavycon_scene_group, only: scene_keys
    use wavycon_settings, only: replaces, setting_type
-   use wavycon_stress_group, only: stress_table
+   use wavycon_stress_group, only: stress_keys
    use wavycon_surface_group, only: surface_table
    implicit none (type, external)
    private
@@ -38,12 +38,15 @@ contains
 
       if (.not. allocated(made)) then
          allocate (made(number_of_groups))
-         made(scene_number) = scene_table()
-         made(material_number) = material_table()
+         made(scene_number) = key_group_type('scene', 'what the case is called', scene_keys)
+         made(material_number) = key_group_type('material', &
+            'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', material_keys)
          made(surface_number) = surface_table()
-         made(load_number) = load_table()
-         made(stress_number) = stress_table()
-         made(interface_number) = interface_table()
+         made(load_number) = key_group_type('load', &
+            'the loads to solve for: a list of one kind, or a sweep', load_keys, required=.true.)
+         made(stress_number) = key_group_type('stress', 'stresses below the surface, and when it yields', stress_keys)
+         made(interface_number) = key_group_type('interface', &
+            'stiffness and resistance of the contact, partial slip, adhesion', interface_keys)
          made(method_number) = method_table()
          made(output_number) = output_table()
       end if
@@ -260,9 +263,11 @@ contains
                if (nearest == 0) return
                if (.not. values%has(names(nearest))) call values%take(names(nearest), place)
             else if (values%has(name) .and. .not. values%is_bad(name)) then
-               call text%line_bounds(values%place_of(name), first, last)
-               before = 'in line '//integer_text(text%line_of(first))
-               if (first > text%own) before = 'by '//excerpt(text%content(first:last))
+               before = 'in line '//integer_text(text%line_of(values%place_of(name)))
+               if (values%place_of(name) > text%own) then
+                  call text%line_bounds(values%place_of(name), first, last)
+                  before = 'by '//excerpt(text%content(first:last))
+               end if
                call problems%add(place, name//' is given twice, first '//before)
                k = 0
             end if

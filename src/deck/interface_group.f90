@@ -3,7 +3,7 @@ module wavycon_interface_group
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_group_values, only: group_values
    use wavycon_interface_setting, only: dundurs_beta, interface_setting, shear_factors
-   use wavycon_key_table, only: choice_value, key_group_type, key_type, logical_value, real_value
+   use wavycon_key_table, only: choice_value, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
    use wavycon_plain_text, only: short_number
@@ -12,47 +12,43 @@ module wavycon_interface_group
    implicit none (type, external)
    private
 
-   public :: interface_table, check_interface_group, make_interface_setting
+   public :: check_interface_group, make_interface_setting
 
    integer, parameter :: most_loads = 1000
 
+   !> The keys of &interface.
+   type(key_type), parameter, public :: interface_keys(*) = [ &
+      key_type(real_value, 'resistivity1', '', '-', &
+         'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance to '// &
+         'the table.', least=0, needs='resistivity2'), &
+      key_type(real_value, 'resistivity2', '', '-', &
+         'That of the second body, in the same unit.', least=0, needs='resistivity1'), &
+      key_type(real_value, 'friction', '', '-', &
+         'Coefficient of friction: each load also bears the tangential loads, under which a part of the contact '// &
+         'slips.', above=0), &
+      key_type(real_value, 'tangential_load', '', 'unit of e_star', &
+         'Mean tangential tractions Q, over the nominal area, at most friction times the mean pressure.', least=0, &
+         most_values=most_loads, way=10, needs='friction'), &
+      key_type(real_value, 'tangential_over_normal', '', '-', &
+         'The same over the mean pressure: at most the friction.', least=0, most_values=most_loads, way=11, &
+         needs='friction'), &
+      key_type(choice_value, 'shear_direction', "'x'", '', &
+         "direction of the tangential load on a surface that does not change along y: 'x', across its ridges; "// &
+         "'y', along them.", choices='x y'), &
+      key_type(real_value, 'nu', '', '-', &
+         "Poisson's ratio of both bodies for tangential loads, if &material gives e_star.", above=-1, most=0.5_dp, &
+         needs='friction'), &
+      key_type(logical_value, 'slip_loop', '.false.', '', &
+         'A table of the tangential load against the displacement: loading, and a cycle between +Q and -Q.', &
+         needs='friction'), &
+      key_type(logical_value, 'slip_map', '.false.', '', &
+         'A table of the tangential tractions over the cell, and where the contact sticks and slips; with the '// &
+         'points and in the format of maps.', needs='friction'), &
+      key_type(real_value, 'work_of_adhesion', '', 'unit of e_star times length', &
+         'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
+         'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0)]
+
 contains
-
-   !> The table of keys of &interface.
-   function interface_table() result(table)
-      type(key_group_type) :: table
-
-      table = key_group_type('interface', 'stiffness and resistance of the contact, partial slip, adhesion', [ &
-         key_type(real_value, 'resistivity1', '', '-', &
-            'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance to '// &
-            'the table.', least=0, needs='resistivity2'), &
-         key_type(real_value, 'resistivity2', '', '-', &
-            'That of the second body, in the same unit.', least=0, needs='resistivity1'), &
-         key_type(real_value, 'friction', '', '-', &
-            'Coefficient of friction: each load also bears the tangential loads, under which a part of the contact '// &
-            'slips.', above=0), &
-         key_type(real_value, 'tangential_load', '', 'unit of e_star', &
-            'Mean tangential tractions Q, over the nominal area, at most friction times the mean pressure.', least=0, &
-            most_values=most_loads, way=10, needs='friction'), &
-         key_type(real_value, 'tangential_over_normal', '', '-', &
-            'The same over the mean pressure: at most the friction.', least=0, most_values=most_loads, way=11, &
-            needs='friction'), &
-         key_type(choice_value, 'shear_direction', "'x'", '', &
-            "direction of the tangential load on a surface that does not change along y: 'x', across its ridges; "// &
-            "'y', along them.", choices='x y'), &
-         key_type(real_value, 'nu', '', '-', &
-            "Poisson's ratio of both bodies for tangential loads, if &material gives e_star.", above=-1, most=0.5_dp, &
-            needs='friction'), &
-         key_type(logical_value, 'slip_loop', '.false.', '', &
-            'A table of the tangential load against the displacement: loading, and a cycle between +Q and -Q.', &
-            needs='friction'), &
-         key_type(logical_value, 'slip_map', '.false.', '', &
-            'A table of the tangential tractions over the cell, and where the contact sticks and slips; with the '// &
-            'points and in the format of maps.', needs='friction'), &
-         key_type(real_value, 'work_of_adhesion', '', 'unit of e_star times length', &
-            'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
-            'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0)])
-   end function interface_table
 
    !> Reports what is missing, contradicts, or does not exist on the surface.
    subroutine check_interface_group(values, material, method, problems, surface)

@@ -2,7 +2,7 @@
 module wavycon_load_group
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: integer_value, key_group_type, key_type, real_value
+   use wavycon_key_table, only: integer_value, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -11,7 +11,7 @@ module wavycon_load_group
    implicit none (type, external)
    private
 
-   public :: load_table, check_load_group, check_loads_of_surface, given_loads, take_loads
+   public :: check_load_group, check_loads_of_surface, given_loads, take_loads
 
    !> Largest load accepted. Contact is full from 1 on: a load far above it is most likely a mistake of units.
    real(dp), parameter :: largest_pbar_over_pstar = 1.0e6_dp
@@ -25,48 +25,44 @@ module wavycon_load_group
    character(23), parameter :: periodic_lists(*) = [character(23) :: 'pbar_over_pstar', 'mean_gap_over_amplitude', &
                                                     'mean_gap']
 
+   !> The keys of &load.
+   type(key_type), parameter, public :: load_keys(*) = [ &
+      key_type(real_value, 'pbar_over_pstar', '', '-', &
+         'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
+         'work_of_adhesion of &interface, as do those of mean_pressure and force.', most=largest_pbar_over_pstar, &
+         most_values=most_loads, way=10, required=.true.), &
+      key_type(real_value, 'mean_pressure', '', 'unit of e_star', &
+         'Mean pressures, over the nominal area.', most_values=most_loads, way=11), &
+      key_type(real_value, 'mean_gap_over_amplitude', '', '-', &
+         'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
+         'loads.', least=0, most=1, most_values=most_loads, way=12), &
+      key_type(real_value, 'mean_gap', '', 'length', &
+         'Mean gaps; the program finds their loads.', least=0, most_values=most_loads, way=13), &
+      key_type(real_value, 'contact_area_fraction', '', '-', &
+         'Fractions of the nominal area in contact; the program finds their loads.', least=0, most=1, &
+         most_values=most_loads, way=14), &
+      key_type(real_value, 'yield', '', '-', &
+         'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
+         'least loads that reach them. 1 is first yield.', above=0, most_values=most_loads, way=15), &
+      key_type(real_value, 'force', '', 'unit of e_star times length^2', &
+         'Forces on the nominal area; of a profile per depth.', most_values=most_loads, way=16), &
+      key_type(real_value, 'approach', '', 'length', &
+         'Approaches of the bodies from first touch; the program finds their loads.', least=0, &
+         most_values=most_loads, way=17), &
+      key_type(real_value, 'contact_area', '', 'length^2', &
+         'Areas in contact, of a profile lengths; the program finds their loads.', least=0, &
+         most_values=most_loads, way=18), &
+      key_type(real_value, 'sweep_from', '', '-', &
+         'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=19, &
+         needs='sweep_to sweep_steps'), &
+      key_type(real_value, 'sweep_to', '', '-', &
+         'Last mean pressure over p* of the sweep, above or below the first.', least=0, &
+         most=largest_pbar_over_pstar, way=19, needs='sweep_from'), &
+      key_type(integer_value, 'sweep_steps', '', '', &
+         'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=19, &
+         needs='sweep_from')]
+
 contains
-
-   !> The table of keys of &load.
-   function load_table() result(table)
-      type(key_group_type) :: table
-
-      table = key_group_type('load', 'the loads to solve for: a list of one kind, or a sweep', [ &
-         key_type(real_value, 'pbar_over_pstar', '', '-', &
-            'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
-            'work_of_adhesion of &interface, as do those of mean_pressure and force.', most=largest_pbar_over_pstar, &
-            most_values=most_loads, way=10, required=.true.), &
-         key_type(real_value, 'mean_pressure', '', 'unit of e_star', &
-            'Mean pressures, over the nominal area.', most_values=most_loads, way=11), &
-         key_type(real_value, 'mean_gap_over_amplitude', '', '-', &
-            'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
-            'loads.', least=0, most=1, most_values=most_loads, way=12), &
-         key_type(real_value, 'mean_gap', '', 'length', &
-            'Mean gaps; the program finds their loads.', least=0, most_values=most_loads, way=13), &
-         key_type(real_value, 'contact_area_fraction', '', '-', &
-            'Fractions of the nominal area in contact; the program finds their loads.', least=0, most=1, &
-            most_values=most_loads, way=14), &
-         key_type(real_value, 'yield', '', '-', &
-            'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
-            'least loads that reach them. 1 is first yield.', above=0, most_values=most_loads, way=15), &
-         key_type(real_value, 'force', '', 'unit of e_star times length^2', &
-            'Forces on the nominal area; of a profile per depth.', most_values=most_loads, way=16), &
-         key_type(real_value, 'approach', '', 'length', &
-            'Approaches of the bodies from first touch; the program finds their loads.', least=0, &
-            most_values=most_loads, way=17), &
-         key_type(real_value, 'contact_area', '', 'length^2', &
-            'Areas in contact, of a profile lengths; the program finds their loads.', least=0, &
-            most_values=most_loads, way=18), &
-         key_type(real_value, 'sweep_from', '', '-', &
-            'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=19, &
-            needs='sweep_to sweep_steps'), &
-         key_type(real_value, 'sweep_to', '', '-', &
-            'Last mean pressure over p* of the sweep, above or below the first.', least=0, &
-            most=largest_pbar_over_pstar, way=19, needs='sweep_from'), &
-         key_type(integer_value, 'sweep_steps', '', '', &
-            'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=19, &
-            needs='sweep_from')], required=.true.)
-   end function load_table
 
    !> Checks the keys, and reports tensions without adhesion.
    subroutine check_load_group(values, with_adhesion, problems)

@@ -1,7 +1,7 @@
 !> The &material group: the stiffness of the two bodies, and the pressure at which they yield.
 module wavycon_material_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_group_type, key_type, real_value
+   use wavycon_key_table, only: key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -9,34 +9,30 @@ module wavycon_material_group
    implicit none (type, external)
    private
 
-   public :: material_table, check_material_group, plane_strain_modulus, take_ratios
+   public :: check_material_group, plane_strain_modulus, take_ratios
 
    !> Largest ratio of hardness and p*: a hardness farther away is most likely a mistake of units.
    real(dp), parameter :: most_hardness = 1.0e6_dp
 
+   !> The keys of &material.
+   type(key_type), parameter, public :: material_keys(*) = [ &
+      key_type(real_value, 'e_star', '1.0', 'pressure', &
+         'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0, way=10), &
+      key_type(real_value, 'e1', '', 'pressure', &
+         "Young's modulus of the first body.", above=0, way=11, needs='nu1'), &
+      key_type(real_value, 'nu1', '', '-', &
+         "Poisson's ratio of the first body.", above=-1, most=0.5_dp, way=11, needs='e1'), &
+      key_type(real_value, 'e2', '', 'pressure', &
+         "Young's modulus of the second body. Without it the second body is rigid.", above=0, way=11, &
+         needs='nu2 e1'), &
+      key_type(real_value, 'nu2', '', '-', &
+         "Poisson's ratio of the second body.", above=-1, most=0.5_dp, way=11, needs='e2'), &
+      key_type(real_value, 'hardness', '', 'unit of e_star', &
+         'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
+         'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', &
+         above=0)]
+
 contains
-
-   !> The table of keys of &material.
-   function material_table() result(table)
-      type(key_group_type) :: table
-
-      table = key_group_type('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', [ &
-         key_type(real_value, 'e_star', '1.0', 'pressure', &
-            'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0, way=10), &
-         key_type(real_value, 'e1', '', 'pressure', &
-            "Young's modulus of the first body.", above=0, way=11, needs='nu1'), &
-         key_type(real_value, 'nu1', '', '-', &
-            "Poisson's ratio of the first body.", above=-1, most=0.5_dp, way=11, needs='e1'), &
-         key_type(real_value, 'e2', '', 'pressure', &
-            "Young's modulus of the second body. Without it the second body is rigid.", above=0, way=11, &
-            needs='nu2 e1'), &
-         key_type(real_value, 'nu2', '', '-', &
-            "Poisson's ratio of the second body.", above=-1, most=0.5_dp, way=11, needs='e2'), &
-         key_type(real_value, 'hardness', '', 'unit of e_star', &
-            'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
-            'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', &
-            above=0)])
-   end function material_table
 
    !> Checks the keys. Finds E* and, where there is a surface, p*
    !> and its hardness: not one of a flat surface, nor one so far from p* that its unit is most likely wrong.

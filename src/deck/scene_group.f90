@@ -1,12 +1,12 @@
 !> The &scene group: the name of the case and the labels of its units.
 module wavycon_scene_group
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_group_type, key_type, text_value
+   use wavycon_key_table, only: key_type, text_value
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
 
-   public :: scene_table, check_scene_group
+   public :: check_scene_group
 
    integer, parameter, public :: longest_name = 200
    !> Bytes of the label of a unit.
@@ -14,25 +14,21 @@ module wavycon_scene_group
    character(*), parameter, public :: name_letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
    character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
+   !> The keys of &scene.
+   type(key_type), parameter, public :: scene_keys(*) = [ &
+      key_type(text_value, 'title', "''", '', &
+         'One line for the log and the heads of tables.', longest=longest_name, may_be_blank=.true.), &
+      key_type(text_value, 'case', "the deck's name", '', &
+         'Stem of the names of the result files: '//plain_in_words//". The deck's name is that of its file "// &
+         "without '.nml'.", longest=longest_name), &
+      key_type(text_value, 'pressure_unit', "'pressure'", '', &
+         "Label of the deck's unit of pressures and moduli in the heads of tables and in pictures, such as "// &
+         "'MPa'. No number is converted.", longest=longest_unit), &
+      key_type(text_value, 'length_unit', "'length'", '', &
+         "Label of the deck's unit of lengths, such as 'mm'. A height map whose file names units is converted "// &
+         'to it or, if the deck gives none, sets it.', longest=longest_unit)]
+
 contains
-
-   !> The table of keys of &scene.
-   function scene_table() result(table)
-      type(key_group_type) :: table
-
-      table = key_group_type('scene', 'what the case is called', [ &
-         key_type(text_value, 'title', "''", '', &
-            'One line for the log and the heads of tables.', longest=longest_name, may_be_blank=.true.), &
-         key_type(text_value, 'case', "the deck's name", '', &
-            'Stem of the names of the result files: '//plain_in_words//". The deck's name is that of its file "// &
-            "without '.nml'.", longest=longest_name), &
-         key_type(text_value, 'pressure_unit', "'pressure'", '', &
-            "Label of the deck's unit of pressures and moduli in the heads of tables and in pictures, such as "// &
-            "'MPa'. No number is converted.", longest=longest_unit), &
-         key_type(text_value, 'length_unit', "'length'", '', &
-            "Label of the deck's unit of lengths, such as 'mm'. A height map whose file names units is converted "// &
-            'to it or, if the deck gives none, sets it.', longest=longest_unit)])
-   end function scene_table
 
    !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.
    subroutine check_scene_group(values, problems, is_file)
@@ -45,7 +41,8 @@ contains
       integer :: i
 
       usual = 'deck'
-      if (is_file) usual = stem(values%deck_path)
+      if (is_file) usual = values%deck_path(index(values%deck_path, '/', back=.true.) + 1:)
+      if (len(usual) > 4 .and. index(usual, '.nml', back=.true.) == len(usual) - 3) usual = usual(:len(usual) - 4)
       ! The units of a table stand in one line, in brackets and separated by blanks.
       do i = 1, size(units)
          if (scan(values%text(units(i)), ' []') > 0 .and. .not. values%is_bad(units(i))) call values%complain( &
@@ -69,14 +66,5 @@ contains
       is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0 .and. &
                       scan(name, '-.') /= 1
    end function is_plain_name
-
-   !> The last part of a path, without '.nml'.
-   pure function stem(path)
-      character(*), intent(in) :: path
-      character(:), allocatable :: stem
-
-      stem = path(index(path, '/', back=.true.) + 1:)
-      if (len(stem) > 4 .and. index(stem, '.nml', back=.true.) == len(stem) - 3) stem = stem(:len(stem) - 4)
-   end function stem
 
 end module wavycon_scene_group

@@ -2,7 +2,7 @@
 module wavycon_stress_group
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, real_value
+   use wavycon_key_table, only: choice_value, integer_value, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
    use wavycon_problems, only: problem_list_type
@@ -11,7 +11,7 @@ module wavycon_stress_group
    implicit none (type, external)
    private
 
-   public :: stress_table, check_stress_group, make_stress_setting
+   public :: check_stress_group, make_stress_setting
 
    !> Most depths of a list or a range.
    integer, parameter :: most_depths = 10000
@@ -19,47 +19,43 @@ module wavycon_stress_group
    !> The choices of `lateral`, in the order of its key.
    integer, parameter :: lateral_is(*) = [laterally_constrained, laterally_free, hydrostatic]
 
+   !> The keys of &stress.
+   type(key_type), parameter, public :: stress_keys(*) = [ &
+      key_type(logical_value, 'largest', '.true.', '', &
+         'A table of the largest von Mises stress and the largest shear stress of each load, and where they are.'), &
+      key_type(logical_value, 'line', '.false.', '', 'A table of the stresses on the line below the crest.'), &
+      key_type(choice_value, 'section', "'none'", '', &
+         "a table of the stresses on a vertical section through the crest, along 'x', 'y' or the 'diagonal' of "// &
+         'the cell.', choices='none x y diagonal'), &
+      key_type(logical_value, 'planes', '.false.', '', &
+         'A table of the stresses on the planes at the given depths, with the points and in the format of maps.'), &
+      key_type(real_value, 'depths', '', 'length', &
+         'Depths of the planes; also of the points of line and section unless a range is given.', least=0, &
+         most_values=most_depths, way=10), &
+      key_type(real_value, 'depths_over_cell_x', '', '-', &
+         'The same over the side of the cell along x, which is the wavelength of a wave.', least=0, &
+         most_values=most_depths, way=11), &
+      key_type(real_value, 'depth_from', '0.0', '-', &
+         'First depth of a range in equal steps, over the side of the cell along x, for line and section; also '// &
+         'for the planes unless depths are given.', least=0), &
+      key_type(real_value, 'depth_to', '1.0', '-', 'Last depth of the range.', least=0), &
+      key_type(integer_value, 'depth_steps', '65', '', &
+         'Number of depths of the range, both ends included.', 1, most_depths), &
+      key_type(real_value, 'nu', 'nu1, nu2', '-', &
+         "Poisson's ratios of the first and the second body; one number: of both. The default is that of "// &
+         '&material. Where they differ the stresses of both bodies are computed.', above=-1, most=0.5_dp, &
+         most_values=2), &
+      key_type(choice_value, 'lateral', "'constrained'", '', &
+         "the lateral stresses of the mean pressure pbar. 'constrained': no lateral strain, -nu pbar/(1 - nu); "// &
+         "'free': 0; 'hydrostatic': -pbar.", choices='constrained free hydrostatic'), &
+      key_type(real_value, 'yield_stress', '', 'unit of e_star', &
+         'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0, &
+         most_values=2), &
+      key_type(choice_value, 'yield_criterion', "'von_mises'", '', &
+         "which stress reaches the yield stress: 'von_mises', the von Mises stress; 'tresca', twice the largest "// &
+         'shear stress.', choices='von_mises tresca', needs='yield_stress')]
+
 contains
-
-   !> The table of keys of &stress.
-   function stress_table() result(table)
-      type(key_group_type) :: table
-
-      table = key_group_type('stress', 'stresses below the surface, and when it yields', [ &
-         key_type(logical_value, 'largest', '.true.', '', &
-            'A table of the largest von Mises stress and the largest shear stress of each load, and where they are.'), &
-         key_type(logical_value, 'line', '.false.', '', 'A table of the stresses on the line below the crest.'), &
-         key_type(choice_value, 'section', "'none'", '', &
-            "a table of the stresses on a vertical section through the crest, along 'x', 'y' or the 'diagonal' of "// &
-            'the cell.', choices='none x y diagonal'), &
-         key_type(logical_value, 'planes', '.false.', '', &
-            'A table of the stresses on the planes at the given depths, with the points and in the format of maps.'), &
-         key_type(real_value, 'depths', '', 'length', &
-            'Depths of the planes; also of the points of line and section unless a range is given.', least=0, &
-            most_values=most_depths, way=10), &
-         key_type(real_value, 'depths_over_cell_x', '', '-', &
-            'The same over the side of the cell along x, which is the wavelength of a wave.', least=0, &
-            most_values=most_depths, way=11), &
-         key_type(real_value, 'depth_from', '0.0', '-', &
-            'First depth of a range in equal steps, over the side of the cell along x, for line and section; also '// &
-            'for the planes unless depths are given.', least=0), &
-         key_type(real_value, 'depth_to', '1.0', '-', 'Last depth of the range.', least=0), &
-         key_type(integer_value, 'depth_steps', '65', '', &
-            'Number of depths of the range, both ends included.', 1, most_depths), &
-         key_type(real_value, 'nu', 'nu1, nu2', '-', &
-            "Poisson's ratios of the first and the second body; one number: of both. The default is that of "// &
-            '&material. Where they differ the stresses of both bodies are computed.', above=-1, most=0.5_dp, &
-            most_values=2), &
-         key_type(choice_value, 'lateral', "'constrained'", '', &
-            "the lateral stresses of the mean pressure pbar. 'constrained': no lateral strain, -nu pbar/(1 - nu); "// &
-            "'free': 0; 'hydrostatic': -pbar.", choices='constrained free hydrostatic'), &
-         key_type(real_value, 'yield_stress', '', 'unit of e_star', &
-            'Yield stresses of the first and the second body in uniaxial tension; one number: of both.', above=0, &
-            most_values=2), &
-         key_type(choice_value, 'yield_criterion', "'von_mises'", '', &
-            "which stress reaches the yield stress: 'von_mises', the von Mises stress; 'tresca', twice the largest "// &
-            'shear stress.', choices='von_mises tresca', needs='yield_stress')])
-   end function stress_table
 
    !> Sets the defaults that depend on &material and reports what is missing or contradicts.
    subroutine check_stress_group(values, material, load, problems, surface)

@@ -71,22 +71,18 @@ contains
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
-      character(*), parameter :: of_files(*) = [character(13) :: 'file_format', 'missing_value']
+      character(*), parameter :: of_files(*) = [character(13) :: 'missing_value', 'file_format']
       character(:), allocatable :: source
       integer :: i
       type(measured_map) :: measured
 
-      if (values%text('kind') /= 'file') then
-         call fatal_error(error, exit_bad_input, "heights in memory are for kind = 'file', not '"// &
-                          values%text('kind')//"'")
-         return
-      end if
       do i = 1, size(of_files)
-         if (values%has(trim(of_files(i)))) then
+         if (values%has(trim(of_files(i)))) &
             call fatal_error(error, exit_bad_input, trim(of_files(i))//' is not for heights in memory')
-            return
-         end if
       end do
+      if (values%text('kind') /= 'file') call fatal_error(error, exit_bad_input, &
+         "heights in memory are for kind = 'file', not '"//values%text('kind')//"'")
+      if (allocated(error)) return
       source = values%text('file')
       call check_map_size(source, shape(heights), error)
       if (.not. allocated(error)) call check_room(source, shape(heights), error)
