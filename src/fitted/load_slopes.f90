@@ -5,7 +5,7 @@ module wavycon_load_slopes
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_error_estimate, only: error_estimate
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_answer, only: fitted_answer, most_previous
+   use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
    use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
@@ -36,24 +36,18 @@ contains
 
       !> Relative error of the differences of Newton's matrix.
       real(dp), parameter :: of_differences = 1e-10_dp
-      real(dp) :: at(number_of_slopes, 0:most_previous), range(2)
-      real(dp), dimension(number_of_slopes) :: difference, previous_difference
+      real(dp) :: at(number_of_slopes, 0:size(answer%previous)), range(2)
       logical :: found_too
       integer :: k
 
       call slopes_of(lattice, answer%pbar_over_pstar, answer%solution, slopes, intensity_range, found)
       at(:, 0) = slopes
-      do k = 1, min(2, size(answer%previous))
+      do k = 1, size(answer%previous)
          call slopes_of(lattice, answer%pbar_over_pstar, answer%previous(k), at(:, k), range, found_too)
          found = found .and. found_too
       end do
       if (.not. found) return
-      errors = abs(slopes)
-      if (size(answer%previous) == 0) return
-      difference = abs(at(:, 0) - at(:, 1))
-      previous_difference = huge(1.0_dp)
-      if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
-      call error_estimate(difference, previous_difference, answer%misfit_decay, abs(slopes), errors)
+      errors = error_estimate(at, answer%misfit_decay, abs(slopes))
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 
