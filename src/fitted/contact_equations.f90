@@ -53,31 +53,14 @@ contains
       real(dp), intent(in) :: merging_ratio   !! of the shape: 0 for a point, 1 where it touches its neighbours
       type(lattice_images), intent(in), optional :: images   !! prepared for the shape; sums only if absent
 
-      integer :: n
-
-      equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
-      equations%unknowns = equations%before_shape + size(like%shape%b)
-      call choose_rules(equations, like, merging_ratio)
-      call choose_targets(equations, like, merging_ratio)
-      n = size(equations%rule%point)
-      allocate (equations%values(n, like%basis%terms))
-      call like%basis%evaluate(n, equations%rule%point, equations%values)
-      associate (m => size(equations%target))
-         allocate (equations%matrix(m, equations%unknowns), equations%residual(m), &
-                   equations%load_row(equations%unknowns))
-      end associate
-      if (present(images)) equations%images = images
-   end subroutine start_equations
-
-   !> The rule of chords for the singular integral and the rule over the disc for the images.
-   subroutine choose_rules(equations, like, merging_ratio)
-      type(contact_equations), intent(inout) :: equations
-      type(expansion), intent(in) :: like
-      real(dp), intent(in) :: merging_ratio
-
-      integer :: angles, finer, fold
+      real(dp) :: phi
+      integer :: angles, finer, fold, i, j, n, radii
 
       fold = like%basis%fold
+      equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
+      equations%unknowns = equations%before_shape + size(like%shape%b)
+      if (present(images)) equations%images = images
+      ! The rule of chords for the singular integral and the rule over the disc for the images.
       associate (degree => like%basis%degree, b => like%shape%b)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
          angles = int(chords_per_degree*degree) + 4
@@ -92,37 +75,27 @@ contains
          call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, &
                               degree/fold + extra_disc_angles + finer)
       end associate
-   end subroutine choose_rules
-
-   !> Points of collocation, README.md, section 8: on rays at the midpoints of equal angles, clustered towards the edge
-   !> along each.
-   subroutine choose_targets(equations, like, merging_ratio)
-      type(contact_equations), intent(inout) :: equations
-      type(expansion), intent(in) :: like
-      real(dp), intent(in) :: merging_ratio
-
-      real(dp) :: phi
-      integer :: angles, fold, i, j, n, radii
-
-      fold = like%basis%fold
-      ! At least two more radii than round functions have unknowns: with as many the size of the shape is not
-      ! determined.
+      n = size(equations%rule%point)
+      allocate (equations%values(n, like%basis%terms))
+      call like%basis%evaluate(n, equations%rule%point, equations%values)
+      ! Points of collocation, README.md, section 8: on rays at the midpoints of equal angles, clustered towards the
+      ! edge along each. At least two more radii than round functions have unknowns: with as many the size of the shape
+      ! is not determined.
       radii = like%basis%degree/2 + merge(pool_extra_radii, spot_extra_radii, like%pool)
       angles = like%basis%degree/fold + merge(pool_extra_angles, spot_extra_angles, like%pool)
       if (merging_ratio > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
       ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of
       ! them.
       angles = max(angles, ubound(like%shape%b, 1) + 1)
-      allocate (equations%target(radii*angles))
-      n = 0
+      n = radii*angles
+      allocate (equations%target(n), equations%matrix(n, equations%unknowns), equations%residual(n), &
+                equations%load_row(equations%unknowns))
       do j = 1, angles
          phi = pi*(j - 0.5_dp)/(fold*angles)
-         do i = 1, radii
-            n = n + 1
-            equations%target(n) = sin(0.5_dp*pi*(i - 0.5_dp)/radii)*exp(cmplx(0.0_dp, phi, dp))
-         end do
+         equations%target((j - 1)*radii + 1:j*radii) = &
+            [(sin(0.5_dp*pi*(i - 0.5_dp)/radii)*exp(cmplx(0.0_dp, phi, dp)), i=1, radii)]
       end do
-   end subroutine choose_targets
+   end subroutine start_equations
 
    !> Sets the matrix, the residual, README.md (F37) or (F38), and the load's derivatives at an expansion.
    subroutine linearise(self, lattice, load, now)

@@ -56,7 +56,6 @@ contains
       real(dp), intent(in) :: depth                       !! >= 0 [s]
       real(dp), intent(out) :: fields(stress_fields)
 
-      real(dp), dimension(stress_fields) :: mirrored
       complex(dp) :: z
       integer :: i
 
@@ -67,13 +66,7 @@ contains
       else
          if (.not. allocated(self%far)) call self%prepare_far()
          z = self%lattice%rows%reduced(place)
-         mirrored = 0.0_dp
-         call self%far%add_at(abs(z%re), abs(z%im), depth, mirrored)
-         ! Fields change with the place: D^2 L and z D^2 V are of second, z D H of first order.
-         mirrored([4, 6]) = mirrored([4, 6])*sign(1.0_dp, z%re)*sign(1.0_dp, z%im)
-         mirrored(7) = mirrored(7)*sign(1.0_dp, z%re)
-         mirrored(8) = mirrored(8)*sign(1.0_dp, z%im)
-         fields = mirrored
+         call self%far%add_at(z%re, z%im, depth, fields)
          do i = 1, size(self%centre)
             fields(7:8) = self%half_turn(i)*fields(7:8)
             call self%spot%add_at(self%half_turn(i)*(z - self%centre(i)), depth, fields)

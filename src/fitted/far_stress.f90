@@ -108,7 +108,7 @@ contains
    !> Adds the fields at a place.
    subroutine add_at(self, x, y, depth, fields)
       class(far_stress), intent(in) :: self
-      real(dp), intent(in) :: x, y                        !! in the quarter of the cell, >= 0 [s]
+      real(dp), intent(in) :: x, y                        !! from a crest, in the rectangle about it [s]
       real(dp), intent(in) :: depth                       !! between 0 and the lowest node [s]
       real(dp), intent(inout) :: fields(stress_fields)
 

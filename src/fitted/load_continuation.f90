@@ -16,7 +16,7 @@ module wavycon_load_continuation
    implicit none (type, external)
    private
 
-   public :: is_start, start_at_load
+   public :: asymptote, is_start, start_at_load
 
    !> Relative change of the shape at which Newton's method stops during continuation: the next load makes smaller ones
    !> useless.

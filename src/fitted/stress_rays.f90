@@ -64,10 +64,9 @@ contains
       real(dp), intent(inout) :: fields(stress_fields, size(offset))
 
       complex(dp) :: conjugate_slope(1), density_at_origin(1), normal, slope(1)
-      real(dp), dimension(rule_step*most_rules) :: cosine, sine, weight
-      real(dp) :: distance, edge, kappa, scale, width
+      real(dp) :: cosine, distance, edge, kappa, last, scale, sine, width, x
       logical :: on_surface
-      integer :: i, inwards, nearest, quarter, rule, sideways
+      integer :: i, nearest, quarter, rule
 
       scale = solution%shape%b(0)
       nearest = minloc(hypot(abs(offset), depth), 1)
@@ -85,18 +84,19 @@ contains
       if (on_surface) call find_density(solution, solution%pool, 1, [origin], [edge], density_at_origin)
       ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
-      rule = rule_for(self, (self%least_points + self%angles_per_unit*asinh(0.5_dp*pi/width)) &
+      ! In each quarter between the edge's direction and the inward or outward normal Gauss's rule in x, where the angle
+      ! from the edge is c sinh(x), c the width.
+      last = asinh(0.5_dp*pi/width)
+      rule = rule_for(self, (self%least_points + self%angles_per_unit*last) &
                       *max(1.0_dp, ray_angles_of_strain/sqrt(kappa)))
-      associate (n => size(self%rules(rule)%node))
-         call find_directions(self%rules(rule), width, cosine(:n), sine(:n), weight(:n))
-         do quarter = 1, merge(2, 4, edge <= at_edge)
-            inwards = merge(1, -1, quarter <= 2)
-            sideways = merge(1, -1, mod(quarter, 2) == 0)
-            do i = 1, n
-               call add_ray(inwards*cosine(i), normal*cmplx(inwards*cosine(i), sideways*sine(i), dp), weight(i))
-            end do
+      do quarter = 1, merge(2, 4, edge <= at_edge)
+         do i = 1, size(self%rules(rule)%node)
+            x = 0.5_dp*last*(1.0_dp + self%rules(rule)%node(i))
+            cosine = merge(-1, 1, quarter <= 2)*sin(width*sinh(x))
+            sine = merge(1, -1, mod(quarter, 2) == 0)*cos(width*sinh(x))
+            call add_ray(cosine, normal*cmplx(cosine, sine, dp), 0.5_dp*last*self%rules(rule)%weight(i)*width*cosh(x))
          end do
-      end associate
+      end do
       if (on_surface .and. .not. solution%pool) &
          fields(h_field, 1) = fields(h_field, 1) + density_at_origin(1)%re*sqrt(edge) &
          /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
@@ -203,22 +203,6 @@ contains
       end subroutine add_ray
 
    end subroutine add_at
-
-   !> Directions from the outward normal, and weights in the angle, of one quarter between the edge's direction and the
-   !> inward normal: Gauss's rule in x, where the angle from the edge is c sinh(x).
-   pure subroutine find_directions(rule, width, cosine, sine, weight)
-      type(gauss_rule), intent(in) :: rule
-      real(dp), intent(in) :: width                                     !! c > 0
-      real(dp), intent(out), dimension(:) :: cosine, sine, weight       !! shape of the rule
-
-      real(dp) :: last, x(size(rule%node))
-
-      last = asinh(0.5_dp*pi/width)
-      x = 0.5_dp*last*(1.0_dp + rule%node)
-      cosine = -sin(width*sinh(x))
-      sine = cos(width*sinh(x))
-      weight = 0.5_dp*last*rule%weight*width*cosh(x)
-   end subroutine find_directions
 
    !> The rule of at least as many points, or the longest.
    integer function rule_for(self, points)
