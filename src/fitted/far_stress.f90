@@ -112,16 +112,21 @@ contains
       real(dp), intent(in) :: depth                       !! between 0 and the lowest node [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
-      real(dp) :: of_x(0:self%n(1) - 1), of_y(0:self%n(2) - 1), of_z(0:self%n(3)), &
-                  plane(0:self%n(2) - 1, 0:self%n(3), stress_fields)
-      integer :: f
+      real(dp) :: of_x(0:self%n(1) - 1), of_y(0:self%n(2) - 1), of_z(0:self%n(3) - 1), &
+                  plane(0:self%n(2) - 1, 0:self%n(3), stress_fields), value
+      integer :: f, k
 
       of_x = chebyshev_polynomials(2*(x/self%sides(1))**2 - 1.0_dp, self%n(1))
       of_y = chebyshev_polynomials(2*(y/self%sides(2))**2 - 1.0_dp, self%n(2))
+      of_z = chebyshev_polynomials(depth_argument(depth), self%n(3))
       call dgemv('T', self%n(1), size(plane), 1.0_dp, self%coefficient, self%n(1), of_x, 1, 0.0_dp, plane, 1)
       do f = 1, stress_fields
-         of_z = [depth**power_z(f, self%regime)*chebyshev_polynomials(depth_argument(depth), self%n(3)), 1.0_dp]
-         fields(f) = fields(f) + x**power_x(f)*y**power_y(f)*dot_product(of_y, matmul(plane(:, :, f), of_z))
+         value = 0.0_dp
+         do k = 0, self%n(3) - 1
+            value = value + of_z(k)*dot_product(of_y, plane(:, k, f))
+         end do
+         value = value*depth**power_z(f, self%regime) + dot_product(of_y, plane(:, self%n(3), f))
+         fields(f) = fields(f) + value*x**power_x(f)*y**power_y(f)
       end do
    end subroutine add_at
 
