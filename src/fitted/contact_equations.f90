@@ -14,7 +14,6 @@ module wavycon_contact_equations
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
-   use wavycon_disc_sources, only: linearise_sources
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
       pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
@@ -37,13 +36,11 @@ module wavycon_contact_equations
       real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
       real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m, unknowns)
       real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], a pool's [p*]
-      !> derivatives of the integral of p or g: of the load that a spot bears, shape (unknowns)
+      !> Derivatives of the integral of p, the left side of README.md (F9), or of g, shape (unknowns).
       real(dp), allocatable :: load_row(:)
       type(lattice_images) :: images
    contains
       procedure :: linearise
-      procedure, private :: linearise_known_side
-      procedure :: linearise_load
       procedure :: integral
    end type contact_equations
 
@@ -56,31 +53,14 @@ contains
       real(dp), intent(in) :: merging_ratio   !! of the shape: 0 for a point, 1 where it touches its neighbours
       type(lattice_images), intent(in), optional :: images   !! prepared for the shape; sums only if absent
 
-      integer :: n
-
-      equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
-      equations%unknowns = equations%before_shape + size(like%shape%b)
-      call choose_rules(equations, like, merging_ratio)
-      call choose_targets(equations, like, merging_ratio)
-      n = size(equations%rule%point)
-      allocate (equations%values(n, like%basis%terms))
-      call like%basis%evaluate(n, equations%rule%point, equations%values)
-      associate (m => size(equations%target))
-         allocate (equations%matrix(m, equations%unknowns), equations%residual(m), &
-                   equations%load_row(equations%unknowns))
-      end associate
-      if (present(images)) equations%images = images
-   end subroutine start_equations
-
-   !> The rule of chords for the singular integral and the rule over the disc for the images.
-   subroutine choose_rules(equations, like, merging_ratio)
-      type(contact_equations), intent(inout) :: equations
-      type(expansion), intent(in) :: like
-      real(dp), intent(in) :: merging_ratio
-
-      integer :: angles, finer, fold
+      real(dp) :: phi
+      integer :: angles, finer, fold, i, j, n, radii
 
       fold = like%basis%fold
+      equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
+      equations%unknowns = equations%before_shape + size(like%shape%b)
+      if (present(images)) equations%images = images
+      ! The rule of chords for the singular integral and the rule over the disc for the images.
       associate (degree => like%basis%degree, b => like%shape%b)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
          angles = int(chords_per_degree*degree) + 4
@@ -95,46 +75,37 @@ contains
          call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, &
                               degree/fold + extra_disc_angles + finer)
       end associate
-   end subroutine choose_rules
-
-   !> Points of collocation, README.md, section 8: on rays at the midpoints of equal angles, clustered towards the edge
-   !> along each.
-   subroutine choose_targets(equations, like, merging_ratio)
-      type(contact_equations), intent(inout) :: equations
-      type(expansion), intent(in) :: like
-      real(dp), intent(in) :: merging_ratio
-
-      real(dp) :: phi
-      integer :: angles, fold, i, j, n, radii
-
-      fold = like%basis%fold
-      ! At least two more radii than round functions have unknowns: with as many the size of the shape is not
-      ! determined.
+      n = size(equations%rule%point)
+      allocate (equations%values(n, like%basis%terms))
+      call like%basis%evaluate(n, equations%rule%point, equations%values)
+      ! Points of collocation, README.md, section 8: on rays at the midpoints of equal angles, clustered towards the
+      ! edge along each. At least two more radii than round functions have unknowns: with as many the size of the shape
+      ! is not determined.
       radii = like%basis%degree/2 + merge(pool_extra_radii, spot_extra_radii, like%pool)
       angles = like%basis%degree/fold + merge(pool_extra_angles, spot_extra_angles, like%pool)
       if (merging_ratio > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
       ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of
       ! them.
       angles = max(angles, ubound(like%shape%b, 1) + 1)
-      allocate (equations%target(radii*angles))
-      n = 0
+      n = radii*angles
+      allocate (equations%target(n), equations%matrix(n, equations%unknowns), equations%residual(n), &
+                equations%load_row(equations%unknowns))
       do j = 1, angles
          phi = pi*(j - 0.5_dp)/(fold*angles)
-         do i = 1, radii
-            n = n + 1
-            equations%target(n) = sin(0.5_dp*pi*(i - 0.5_dp)/radii)*exp(cmplx(0.0_dp, phi, dp))
-         end do
+         equations%target((j - 1)*radii + 1:j*radii) = &
+            [(sin(0.5_dp*pi*(i - 0.5_dp)/radii)*exp(cmplx(0.0_dp, phi, dp)), i=1, radii)]
       end do
-   end subroutine choose_targets
+   end subroutine start_equations
 
-   !> Sets the matrix, the residual, README.md (F37) or (F38), and, for a spot, the load's derivatives at an expansion.
+   !> Sets the matrix, the residual, README.md (F37) or (F38), and the load's derivatives at an expansion.
    subroutine linearise(self, lattice, load, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load            !! P
       type(expansion), intent(in) :: now      !! like the one the equations were started for
 
-      real(dp) :: shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
+      complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
+      real(dp) :: known, shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
       integer :: i, m
 
       m = size(self%target)
@@ -144,54 +115,25 @@ contains
             self%matrix(i, :terms) = row
             self%matrix(i, first:) = shape_row
          end do
+         self%load_row = 0.0_dp
          call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:, :terms), &
-                                   self%matrix(:, first:))
+                                   self%matrix(:, first:), self%load_row(:terms), self%load_row(first:))
          if (now%pool) self%matrix = self%matrix/(4*pi**2)
          call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%residual, 1)
-      end associate
-      call self%linearise_known_side(lattice, load, now)
-      if (.not. now%pool) call self%linearise_load(now)
-   end subroutine linearise
-
-   !> Adds what does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that a pool
-   !> would have in full contact; and how they change with the targets' places.
-   subroutine linearise_known_side(self, lattice, load, now)
-      class(contact_equations), intent(inout) :: self
-      type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load
-      type(expansion), intent(in) :: now
-
-      complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
-      real(dp) :: known
-      integer :: i
-
-      do i = 1, size(self%target)
-         z = now%shape%place(self%target(i))
+         ! What does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that a pool
+         ! would have in full contact; and how they change with the targets' places.
          known = now%approach
          if (now%pool) known = load - lattice%closing_pressure
-         self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
-         if (.not. now%pool) self%matrix(i, self%before_shape) = -1.0_dp
-         slope = -lattice%rise_slope(now%pool, z)
-         call now%shape%linearise_place(self%target(i), place_slope)
-         associate (shape_row => self%matrix(i, self%before_shape + 1:))
-            shape_row = shape_row + slope%re*place_slope%re + slope%im*place_slope%im
-         end associate
-      end do
-   end subroutine linearise_known_side
-
-   !> Derivatives of the integral of p over a spot, the left side of README.md (F9), or of g over a pool.
-   subroutine linearise_load(self, now)
-      class(contact_equations), intent(inout) :: self
-      type(expansion), intent(in) :: now
-
-      real(dp), dimension(size(self%rule%point), 0:ubound(now%shape%b, 1)) :: moment_x, moment_y, strength_slope
-      real(dp) :: weighted(size(self%rule%point), now%basis%terms)
-
-      call linearise_sources(now%shape, self%rule, self%values, now%c, weighted, strength_slope, moment_x, moment_y)
-      self%load_row = 0.0_dp
-      self%load_row(:now%basis%terms) = sum(weighted, 1)
-      self%load_row(self%before_shape + 1:) = sum(strength_slope, 1)
-   end subroutine linearise_load
+         if (.not. now%pool) self%matrix(:, self%before_shape) = -1.0_dp
+         do i = 1, m
+            z = now%shape%place(self%target(i))
+            self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
+            slope = -lattice%rise_slope(now%pool, z)
+            call now%shape%linearise_place(self%target(i), place_slope)
+            self%matrix(i, first:) = self%matrix(i, first:) + slope%re*place_slope%re + slope%im*place_slope%im
+         end do
+      end associate
+   end subroutine linearise
 
    !> Integral over the spot or pool of an expansion, p or g, times a function of the place.
    real(dp) function integral(self, now, factor)

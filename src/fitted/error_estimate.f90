@@ -1,16 +1,15 @@
 !> Estimates of the errors of values from expansions of rising degree.
 module wavycon_error_estimate
-   use wavycon_fitted_tuning, only: error_safety, fastest_decay_at_point, first_error_factor, least_relative_share, &
-      previous_difference_share
+   use wavycon_fitted_tuning, only: error_safety, first_error_factor, least_relative_share, previous_difference_share
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: at_point, error_estimate
+   public :: error_estimate
 
 contains
 
-   !> Errors of values from the differences of the last degrees: README.md (F43) and, but for its last term, (F44).
+   !> Errors of values from those of the lower degrees: README.md (F43) and, but for its last term, (F44).
    !>
    !> A difference of two degrees is about the error of the lower one. That of the higher one is smaller by the decay of
    !> the misfit, which is measured at all points of collocation and is hardly ever small by chance, as differences of
@@ -20,30 +19,22 @@ contains
    !>
    !> N.B. These are estimates, no bounds. They hold for thousands of loads; those of the perimeter of a rhombic
    !> lattice's spots are too small now and then.
-   pure subroutine error_estimate(difference, previous_difference, decay, value, error)
-      real(dp), intent(in) :: difference(:)            !! d_n >= 0, of the last two degrees
-      real(dp), intent(in) :: previous_difference(:)   !! d_(n-1), of the two before; huge if there is none
-      real(dp), intent(in) :: decay(2)                 !! r_n and r_(n-1) <= 1, of the misfit
-      real(dp), intent(in) :: value(:)                 !! > 0, at the last degree
-      real(dp), intent(out) :: error(:)
+   pure function error_estimate(values, decay, scale) result(error)
+      real(dp), intent(in) :: values(:, 0:)   !! at the last two or three degrees, the highest one first, shape (n, 0:.)
+      real(dp), intent(in) :: decay(2)        !! r_n and r_(n-1) <= 1, of the misfit
+      real(dp), intent(in) :: scale(:)        !! > 0, what rounding and shares are relative to, shape (n)
+      real(dp) :: error(size(scale))
 
       real(dp), parameter :: rounding = 64*epsilon(1.0_dp)   !! relative
 
-      where (previous_difference < huge(1.0_dp))
-         error = decay(1)*max(difference, previous_difference_share*decay(2)*previous_difference)
-      elsewhere
-         error = first_error_factor*decay(1)*difference
-      end where
-      error = max(error_safety*error, rounding*value)
-      error = max(error, least_relative_share*value*maxval(error/value))
-   end subroutine error_estimate
-
-   !> The decay of the misfit as it counts for the value of an expansion at a point, which converges later than
-   !> integrals of it do.
-   elemental real(dp) function at_point(decay)
-      real(dp), intent(in) :: decay   !! of the misfit, <= 1
-
-      at_point = max(decay, fastest_decay_at_point)
-   end function at_point
+      if (ubound(values, 2) == 1) then
+         error = first_error_factor*decay(1)*abs(values(:, 0) - values(:, 1))
+      else
+         error = decay(1)*max(abs(values(:, 0) - values(:, 1)), &
+                              previous_difference_share*decay(2)*abs(values(:, 1) - values(:, 2)))
+      end if
+      error = max(error_safety*error, rounding*scale)
+      error = max(error, least_relative_share*scale*maxval(error/scale))
+   end function error_estimate
 
 end module wavycon_error_estimate

@@ -56,7 +56,6 @@ contains
       real(dp), intent(in) :: depth                       !! >= 0 [s]
       real(dp), intent(out) :: fields(stress_fields)
 
-      real(dp), dimension(stress_fields) :: mirrored
       complex(dp) :: z
       integer :: i
 
@@ -67,13 +66,7 @@ contains
       else
          if (.not. allocated(self%far)) call self%prepare_far()
          z = self%lattice%rows%reduced(place)
-         mirrored = 0.0_dp
-         call self%far%add_at(abs(z%re), abs(z%im), depth, mirrored)
-         ! Fields change with the place: D^2 L and z D^2 V are of second, z D H of first order.
-         mirrored([4, 6]) = mirrored([4, 6])*sign(1.0_dp, z%re)*sign(1.0_dp, z%im)
-         mirrored(7) = mirrored(7)*sign(1.0_dp, z%re)
-         mirrored(8) = mirrored(8)*sign(1.0_dp, z%im)
-         fields = mirrored
+         call self%far%add_at(z%re, z%im, depth, fields)
          do i = 1, size(self%centre)
             fields(7:8) = self%half_turn(i)*fields(7:8)
             call self%spot%add_at(self%half_turn(i)*(z - self%centre(i)), depth, fields)
@@ -108,19 +101,19 @@ contains
    subroutine find_centres(stress)
       type(expansion_stress), intent(inout) :: stress
 
-      complex(dp), allocatable :: second(:)
+      complex(dp), allocatable :: centre(:)
+      complex(dp) :: first
+      integer :: k
 
-      associate (lattice => stress%lattice, reach => near_clearance + stress%spot%radius)
-         if (.not. stress%spot%solution%pool) then
-            stress%centre = lattice%rows%points_about(reach, (0.0_dp, 0.0_dp))
-         else
-            stress%centre = lattice%rows%points_about(reach, lattice%trough)
-         end if
-         allocate (stress%half_turn(size(stress%centre)), source=1.0_dp)
-         if (lattice%troughs == 1 .or. .not. stress%spot%solution%pool) return
-         second = lattice%rows%points_about(reach, -lattice%trough)
-         stress%centre = [stress%centre, second]
-         stress%half_turn = [stress%half_turn, spread(-1.0_dp, 1, size(second))]
+      associate (lattice => stress%lattice, pool => stress%spot%solution%pool)
+         first = 0.0_dp
+         if (pool) first = lattice%trough
+         allocate (stress%centre(0), stress%half_turn(0))
+         do k = 1, merge(lattice%troughs, 1, pool)
+            centre = lattice%rows%points_about(near_clearance + stress%spot%radius, merge(first, -first, k == 1))
+            stress%centre = [stress%centre, centre]
+            stress%half_turn = [stress%half_turn, spread(merge(1.0_dp, -1.0_dp, k == 1), 1, size(centre))]
+         end do
       end associate
    end subroutine find_centres
 
@@ -167,23 +160,22 @@ contains
       type(stress_series) :: series
       complex(dp) :: at
       real(dp), allocatable :: values(:, :, :, :)
-      real(dp) :: fields(stress_fields), mean, sides(2)
+      real(dp) :: fields(stress_fields), sides(2)
       integer :: i, j, k, m
 
       associate (rows => self%lattice%rows)
          call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
          call start_series(self, series, sources, far_top, self%spot%digits + 9.0_dp)
-         mean = -sum(sources%strength(:, 1))/rows%spacing
          sides = [0.5_dp, 0.5_dp*rows%spacing]
          if (rows%along_y) sides = sides([2, 1])
          allocate (self%far)
          call start_far_stress(self%far, sides, self%spot%solution%pool, self%spot%digits - 1.0_dp)
       end associate
-      associate (n => self%far%n, x => self%far%node_x, y => self%far%node_y, z => self%far%node_z)
-         allocate (values(n(1), n(2), n(3), stress_fields))
-         do k = 1, n(3)
-            do j = 1, n(2)
-               do i = 1, n(1)
+      associate (x => self%far%node_x, y => self%far%node_y, z => self%far%node_z)
+         allocate (values(size(x), size(y), size(z), stress_fields))
+         do k = 1, size(z)
+            do j = 1, size(y)
+               do i = 1, size(x)
                   fields = 0.0_dp
                   do m = 1, size(self%centre)
                      at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
@@ -197,7 +189,7 @@ contains
                end do
             end do
          end do
-         call set_far_values(self%far, mean, values)
+         call set_far_values(self%far, values)
       end associate
    end subroutine prepare_far
 

@@ -20,7 +20,7 @@ module wavycon_fitted_answer
       !! No solution was found: only load and status are set.
 
    !> Expansions of lower degrees that are kept at most.
-   integer, parameter, public :: most_previous = 3
+   integer, parameter, public :: most_previous = 2
 
    !> Lengths in the cell's shorter side s, pressures in pi E* Delta/s, gaps and displacements in Delta.
    type :: fitted_answer

@@ -3,9 +3,10 @@
 !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of the
 !> integrals over near images from a second evaluation by finer rules.
 module wavycon_fitted_details
-   use wavycon_error_estimate, only: at_point, error_estimate
-   use wavycon_fitted_answer, only: fitted_answer, most_previous
+   use wavycon_error_estimate, only: error_estimate
+   use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_fields, only: fitted_separations
+   use wavycon_fitted_tuning, only: fastest_decay_at_point
    use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -23,8 +24,7 @@ contains
 
       !> Accuracy of the second evaluation.
       real(dp), parameter :: finer = 1e-15_dp
-      real(dp) :: at(3, 0:most_previous)
-      real(dp), dimension(3) :: difference, previous_difference, scale
+      real(dp) :: at(3, 0:size(answer%previous)), decay(2), scale(3)
       type(fitted_answer) :: older
       integer :: i, k
 
@@ -36,24 +36,18 @@ contains
          if (.not. answer%pool) older%mean_gap = 1.0_dp - older%solution%approach
          at(:, k) = fitted_separations(lattice, older)
       end do
-      difference = abs(at(:, 0) - at(:, 1))
-      previous_difference = huge(1.0_dp)
-      if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
       ! All but the gap inside a pool are differences of numbers of order 1: their rounding is absolute.
       scale = 1.0_dp
       if (answer%pool) scale(1) = at(1, 0)
       ! One by one: the saddle may be about to close while the trough is wide open.
       do i = 1, size(values)
-         call error_estimate(difference(i:i), previous_difference(i:i), answer%misfit_decay, scale(i:i), error(i:i))
+         decay = answer%misfit_decay
+         ! The gap inside a pool is a value of the expansion, where the others are integrals of it.
+         if (answer%pool .and. i == 1) decay = max(decay, fastest_decay_at_point)
+         error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
       end do
-      if (answer%pool) then
-         ! A value of the expansion, where the others are integrals of it.
-         call error_estimate(difference(1:1), previous_difference(1:1), at_point(answer%misfit_decay), scale(1:1), &
-                             error(1:1))
-      else
-         ! The approach is part of both gaps.
-         error(:2) = max(error(:2), answer%mean_gap_error)
-      end if
+      ! A spot's approach is part of both gaps.
+      if (.not. answer%pool) error(:2) = max(error(:2), answer%mean_gap_error)
       error = error + abs(fitted_separations(lattice, answer, finer) - values)
       ! A gap in contact and a pressure outside of it are 0 by definition.
       error(merge(2, 3, answer%pool)) = 0.0_dp

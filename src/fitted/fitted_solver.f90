@@ -82,7 +82,7 @@ contains
       type(degree_history) :: history
       type(expansion) :: now
       type(lattice_images) :: images
-      real(dp) :: change, contraction, measures(all_measures), misfit, ratio, remaining, residual, tolerance
+      real(dp) :: change, clustering, contraction, measures(all_measures), misfit, ratio, remaining, residual, tolerance
       integer :: degree, failed, required
       logical :: merged, valid
 
@@ -103,7 +103,9 @@ contains
       ! Next to merging convergence is less than quadratic: a second step at the first degree measures it.
       contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
       do
-         call resize(lattice, degree, now)
+         clustering = now%shape%clustering
+         if (lattice%square) clustering = next_clustering(clustering, ratio, pool)
+         now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
          ! Looser series are hardly quicker.
          call images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
          ratio = merging_ratio(lattice, now)
@@ -134,20 +136,6 @@ contains
       if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
    end subroutine solve_regime
 
-   !> Brings an expansion to another degree.
-   subroutine resize(lattice, degree, now)
-      type(wave_lattice), intent(in) :: lattice
-      integer, intent(in) :: degree
-      type(expansion), intent(inout) :: now
-
-      real(dp) :: clustering, ratio
-
-      ratio = merging_ratio(lattice, now)
-      clustering = now%shape%clustering
-      if (lattice%square) clustering = next_clustering(clustering, ratio, now%pool)
-      now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
-   end subroutine resize
-
    !> Writes the newest solution to the answer.
    subroutine set_answer(answer, lattice, history, now, degree, residual, ratio, images_tolerance)
       type(fitted_answer), intent(inout) :: answer
@@ -166,17 +154,17 @@ contains
       answer%residual = residual
       answer%merging_ratio = ratio
       ! All degrees share the error of the images: it does not count in which of them is best.
-      error = max(history%error, images_tolerance*history%measures)
-      answer%mean_gap = history%measures(gap_measure)
-      answer%area_fraction = history%measures(area_measure)/lattice%area
+      error = max(history%error, images_tolerance*history%measures(:, 0))
+      answer%mean_gap = history%measures(gap_measure, 0)
+      answer%area_fraction = history%measures(area_measure, 0)/lattice%area
       answer%area_error = error(area_measure)/lattice%area
       if (now%pool) then
          answer%area_fraction = 1.0_dp - lattice%troughs*answer%area_fraction
          answer%area_error = lattice%troughs*answer%area_error
       end if
-      answer%peak_pressure = history%measures(peak_measure)
-      answer%energy = history%measures(energy_measure)
-      answer%perimeter = history%measures(perimeter_measure)
+      answer%peak_pressure = history%measures(peak_measure, 0)
+      answer%energy = history%measures(energy_measure, 0)
+      answer%perimeter = history%measures(perimeter_measure, 0)
       answer%mean_gap_error = error(gap_measure)
       answer%peak_error = error(peak_measure)
       answer%energy_error = error(energy_measure)

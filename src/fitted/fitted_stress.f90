@@ -2,10 +2,10 @@
 !>
 !> They are exact to ten digits of the peak pressure at any depth, the surface included, as far as the answer is.
 module wavycon_fitted_stress
-   use wavycon_error_estimate, only: at_point, error_estimate
+   use wavycon_error_estimate, only: error_estimate
    use wavycon_expansion_stress, only: expansion_stress, start_expansion_stress
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_tuning, only: stress_error_safety
+   use wavycon_fitted_tuning, only: fastest_decay_at_point, stress_error_safety
    use wavycon_kinds, only: dp
    use wavycon_stress_kernel, only: stress_fields, stress_parts
    use wavycon_wave_lattice, only: wave_lattice
@@ -27,9 +27,6 @@ module wavycon_fitted_stress
       procedure, private :: error_at
    end type fitted_stress
 
-   !> Expansions of lower degrees that errors are estimated from.
-   integer, parameter :: most_lower = 2
-
 contains
 
    !> Prepares. Series, tables and rules are made when a place first needs them.
@@ -45,7 +42,7 @@ contains
       stress%accuracy = accuracy
       stress%peak_pressure = answer%peak_pressure
       stress%misfit_decay = answer%misfit_decay
-      allocate (stress%of_degree(0:min(size(answer%previous), most_lower)))
+      allocate (stress%of_degree(0:size(answer%previous)))
       call start_expansion_stress(stress%of_degree(0), lattice, answer%solution, accuracy)
       do i = 1, ubound(stress%of_degree, 1)
          call start_expansion_stress(stress%of_degree(i), lattice, answer%previous(i), accuracy)
@@ -87,20 +84,18 @@ contains
 
       !> Stresses for nu = 0 and nu = 1/2 from the parts.
       real(dp), parameter :: at_limits(2, 2) = reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2])
-      real(dp) :: difference(2), distance, estimate(1), fields(stress_fields), newer(6, 2), older(6, 2)
+      real(dp) :: distance, fields(stress_fields), lower(6, 2), values(12, 0:ubound(self%of_degree, 1))
       integer :: i
 
-      difference = huge(1.0_dp)
-      newer = parts
-      do i = 1, ubound(self%of_degree, 1)
+      values(:, 0) = reshape(matmul(parts, at_limits), [12])
+      do i = 1, ubound(values, 2)
          call self%of_degree(i)%fields_at(place, depth, fields)
-         call stress_parts(fields, older)
-         difference(i) = maxval(abs(matmul(newer - older, at_limits)))
-         newer = older
+         call stress_parts(fields, lower)
+         values(:, i) = reshape(matmul(lower, at_limits), [12])
       end do
-      call error_estimate(difference(1:1), difference(2:2), at_point(self%misfit_decay), [self%peak_pressure], estimate)
-      error = stress_error_safety*estimate(1) + self%accuracy*self%peak_pressure &
-         + self%relative_error*maxval(abs(matmul(parts, at_limits)))
+      error = stress_error_safety*maxval(error_estimate(values, max(self%misfit_decay, fastest_decay_at_point), &
+                                                        spread(self%peak_pressure, 1, 12))) &
+         + self%accuracy*self%peak_pressure + self%relative_error*maxval(abs(values(:, 0)))
       associate (solution => self%of_degree(0))
          distance = hypot(solution%distance_from_edges(place), depth)
          error = error + self%peak_pressure/sqrt(solution%spot%solution%shape%b(0)) &

@@ -5,7 +5,7 @@ module wavycon_gauss_newton
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: longest_shape_change
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgels, dgglse
+   use wavycon_lapack, only: dgglse
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -86,9 +86,8 @@ contains
       ! LAPACK may loop for ever on NaN or infinity.
       if (.not. (all(ieee_is_finite(equations%residual)) .and. all(ieee_is_finite(equations%matrix)))) return
       residual = maxval(abs(equations%residual))
-      missing_load = 0.0_dp
-      if (.not. now%pool) missing_load = load*lattice%area - equations%integral(now)
-      call least_squares_step(equations, .not. now%pool, missing_load, step, misfit, finite)
+      missing_load = load*lattice%area - equations%integral(now)
+      call least_squares_step(equations, now%pool, missing_load, step, misfit, finite)
       if (.not. finite) return
       associate (before_shape => equations%before_shape)
          change = maxval(abs(step(before_shape + 1:)))/now%shape%b(0)
@@ -125,7 +124,7 @@ contains
       finite = all(ieee_is_finite(matrix))
       if (.not. finite) return
       equations%residual = merge(1.0_dp, 0.0_dp, now%pool)
-      call least_squares_step(equations, .not. now%pool, lattice%area, change, misfit, finite)
+      call least_squares_step(equations, now%pool, lattice%area, change, misfit, finite)
       if (.not. finite) return
       step = part*min(load, lattice%closing_pressure - load)
       right = 0.0_dp
@@ -143,7 +142,7 @@ contains
       equations%matrix = matrix
       equations%residual = right
       equations%load_row = load_row
-      call least_squares_step(equations, .not. now%pool, -row_change, change_of_change, misfit, finite)
+      call least_squares_step(equations, now%pool, -row_change, change_of_change, misfit, finite)
       load_change = [dot_product(load_row, change), dot_product(load_row, change_of_change) + row_change]
 
    contains
@@ -157,7 +156,6 @@ contains
          other = now
          if (steps /= 0) call add_step(other, steps*step*change, equations)
          call equations%linearise(lattice, load, other)
-         if (now%pool) call equations%linearise_load(other)
       end subroutine linearise_at
 
    end subroutine changes_with_load
@@ -176,10 +174,10 @@ contains
    end subroutine add_step
 
    !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
-   subroutine least_squares_step(equations, with_load, missing_load, step, misfit, finite)
+   subroutine least_squares_step(equations, pool, missing_load, step, misfit, finite)
       type(contact_equations), intent(inout) :: equations
-      logical, intent(in) :: with_load           !! whether the load is a constraint
-      real(dp), intent(in) :: missing_load       !! that the step must add, times the cell's area
+      logical, intent(in) :: pool                !! a spot's load is a constraint
+      real(dp), intent(in) :: missing_load       !! that the step must add to a spot, times the cell's area
       real(dp), intent(out) :: step(:)           !! shape (unknowns)
       real(dp), intent(out) :: misfit
          !! root of the sum of squares that the step leaves, over the equations beyond the unknowns [Delta, p*]
@@ -189,21 +187,16 @@ contains
       integer, parameter :: block = 64
       real(dp) :: constraint(1, size(step)), right(1)
       real(dp) :: work(block*(size(equations%residual) + size(step) + 1))
-      integer :: beyond, info, m, n
+      integer :: beyond, constraints, info, m, n
 
       m = size(equations%residual)
       n = size(step)
-      beyond = m - n
-      if (with_load) then
-         beyond = beyond + 1
-         constraint(1, :) = equations%load_row
-         right = missing_load
-         call dgglse(m, n, 1, equations%matrix, m, constraint, 1, equations%residual, right, step, &
-                     work, size(work), info)
-      else
-         call dgels('N', m, n, 1, equations%matrix, m, equations%residual, m, work, size(work), info)
-         step = equations%residual(:n)
-      end if
+      constraints = merge(0, 1, pool)
+      beyond = m - n + constraints
+      constraint(1, :) = equations%load_row
+      right = missing_load
+      call dgglse(m, n, constraints, equations%matrix, m, constraint, 1, equations%residual, right, step, work, &
+                  size(work), info)
       ! LAPACK leaves the components that no step can remove at the end of the right side.
       misfit = norm2(equations%residual(m - beyond + 1:))/sqrt(real(beyond, dp))
       finite = info == 0

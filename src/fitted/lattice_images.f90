@@ -52,11 +52,11 @@ contains
          !! some hundredths, may be 20 times as large
 
       complex(dp), allocatable :: point(:)
-      real(dp) :: clearance, radius
+      real(dp) :: clearance, digits, distance, radius
       integer :: degree
 
       radius = now%shape%radius()
-      if (radius <= self%radius .or. two_in_a_cell(lattice, now)) return
+      if (radius <= self%radius .or. (now%pool .and. lattice%troughs == 2)) return
       self%radius = 0.0_dp
       self%tolerance = 0.0_dp
       radius = growth*radius
@@ -65,7 +65,14 @@ contains
       if (tolerance < least_tolerance .or. .not. pi*clearance**2 <= 2*most_near_points*lattice%rows%spacing) return
       ! Points of a row are 1 apart: the next one is among these.
       point = lattice%rows%points_about(clearance + 1.0_dp, (0.0_dp, 0.0_dp))
-      degree = series_degree(now%basis%fold, minval(abs(point), abs(point) >= clearance)/radius - 1.0_dp, tolerance)
+      ! README.md (F36). With the source on the edge, at its point nearest to the nearest lattice point of F, terms that
+      ! vary with the angle fall as powers of that point's distance from the target's centre, round ones as in
+      ! Chebyshev's series.
+      distance = minval(abs(point), abs(point) >= clearance)/radius - 1.0_dp
+      digits = -log(tolerance)
+      associate (fold => now%basis%fold)
+         degree = max(fold*(ceiling(digits/(fold*log(distance))) - 1), 2*(ceiling(digits/(2*acosh(distance))) - 1))
+      end associate
       point = pack(point, abs(point) < clearance .and. abs(point) > 0.0_dp)
       if (size(point) > most_near_points) return
       self%radius = radius
@@ -77,21 +84,6 @@ contains
          call find_coefficients(self, kernel)
       end associate
    end subroutine prepare
-
-   !> Degree for a tolerance, README.md (F36). With the source on the edge, at its point nearest to the nearest lattice
-   !> point of F, terms that vary with the angle fall as powers of that point's distance, round ones as in Chebyshev's
-   !> series.
-   pure integer function series_degree(fold, distance, tolerance) result(degree)
-      integer, intent(in) :: fold
-      real(dp), intent(in) :: distance     !! of the singularity from the target's centre [R]
-      real(dp), intent(in) :: tolerance
-
-      real(dp) :: digits
-
-      digits = -log(tolerance)
-      degree = max(fold*(ceiling(digits/(fold*log(distance))) - 1), &
-                   2*(ceiling(digits/(2*acosh(distance))) - 1))
-   end function series_degree
 
    !> B from F at all pairs of a rule's points, by the orthonormality of the basis.
    subroutine find_coefficients(self, kernel)
@@ -126,10 +118,10 @@ contains
    end subroutine find_coefficients
 
    !> Adds the integrals of the terms of an expansion over all images for several targets, and the derivatives of their
-   !> sum with respect to the shape.
+   !> sum with respect to the shape; and sets the same of the load, the integral without a kernel.
    !>
    !> N.B. The derivatives are at fixed w_t: the targets move with the shape.
-   subroutine add_rows(self, lattice, now, rule, values, target, rows, shape_rows)
+   subroutine add_rows(self, lattice, now, rule, values, target, rows, shape_rows, load_row, load_slope)
       class(lattice_images), intent(in) :: self
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
@@ -138,6 +130,8 @@ contains
       complex(dp), intent(in) :: target(:)             !! w_t, |w_t| <= 1, shape (m)
       real(dp), intent(inout) :: rows(:, :)            !! integrals, shape (m, N)
       real(dp), intent(inout) :: shape_rows(:, 0:)     !! d(integral of the sum)/d b_k, shape (m, 0:K)
+      real(dp), intent(out) :: load_row(:)             !! integrals of the terms over the spot or pool, shape (N)
+      real(dp), intent(out) :: load_slope(0:)          !! d(integral of their sum)/d b_k, shape (0:K)
 
       !> F for all sources and targets, and its gradient with respect to the source's place.
       real(dp), dimension(size(rule%point), size(target)) :: f, gradient_x, gradient_y
@@ -155,6 +149,8 @@ contains
       place = now%shape%place(target)
       source = now%shape%place(rule%point)
       call linearise_sources(now%shape, rule, values, now%c, weighted, strength_slope, moment_x, moment_y)
+      load_row = sum(weighted, 1)
+      load_slope = sum(strength_slope, 1)
       strength = matmul(weighted, now%c)
       f = 0.0_dp
       gradient_x = 0.0_dp
@@ -166,7 +162,7 @@ contains
       else
          call add_kernel(lattice%kernel(merge(2, 1, now%pool)), 1, (0.0_dp, 0.0_dp))
       end if
-      if (two_in_a_cell(lattice, now)) then
+      if (now%pool .and. lattice%troughs == 2) then
          ! None of the second pools, which are turned by half a turn, is the target's own.
          whole = lattice%kernel(2)
          whole%whole = .true.
@@ -244,13 +240,5 @@ contains
       end subroutine add_series
 
    end subroutine add_rows
-
-   !> Whether a cell has a second pool, the first one turned by half a turn about a crest.
-   pure logical function two_in_a_cell(lattice, now)
-      type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
-
-      two_in_a_cell = now%pool .and. lattice%troughs == 2
-   end function two_in_a_cell
 
 end module wavycon_lattice_images

@@ -16,7 +16,7 @@ module wavycon_load_continuation
    implicit none (type, external)
    private
 
-   public :: crack_pool, hertz_spot, is_start, start_at_load
+   public :: asymptote, is_start, start_at_load
 
    !> Relative change of the shape at which Newton's method stops during continuation: the next load makes smaller ones
    !> useless.
@@ -40,7 +40,10 @@ contains
       logical, intent(out) :: merged                  !! whether there is no start because the regime has ended
       type(fitted_answer), intent(in), optional :: start   !! a solution of another load
 
-      real(dp) :: first_load
+      type(contact_equations) :: equations
+      type(lattice_images) :: images
+      real(dp) :: at, change, contraction, misfit, next, remaining, residual
+      integer :: steps
 
       degree = first_degree
       merged = .false.
@@ -53,15 +56,30 @@ contains
             return
          end if
       end if
-      if (pool) then
-         first_load = max(load, heavy_load_start*lattice%closing_pressure)
-         now = crack_pool(lattice, first_load)
-      else
-         ! From heavier ones Newton's method would start too far off.
-         first_load = min(load, 0.06_dp)
-         now = hertz_spot(lattice, first_load)
-      end if
-      call follow_load(lattice, first_load, load, now, iterations, found, merged)
+      ! From heavier loads on a spot Newton's method would start too far off.
+      at = min(load, 0.06_dp)
+      if (pool) at = max(load, heavy_load_start*lattice%closing_pressure)
+      now = asymptote(lattice, at, pool)
+      do
+         call images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
+         call start_equations(equations, now, 0.0_dp, images)
+         contraction = 0.0_dp
+         call solve_equations(equations, lattice, at, now, change_per_square*start_shape_change**2, contraction, &
+                              change, remaining, residual, misfit, iterations, found)
+         if (.not. found) exit
+         ! The start of a load that was solved has come to a ratio of 0.92 at most, of many next to merging.
+         merged = merging_ratio(lattice, now) >= 1.0_dp
+         found = .not. merged
+         steps = load_steps(lattice, at, load, pool)
+         if (merged .or. steps == 0) exit
+         next = load
+         if (steps > 1) then
+            next = load_step_ratio*at
+            if (pool) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - at)
+         end if
+         now = scaled_to_load(lattice, now, at, next)
+         at = next
+      end do
    end subroutine start_at_load
 
    !> Whether a solution of another load is a start: in the same regime, within one step, and still apart from its
@@ -78,42 +96,6 @@ contains
          merging_ratio(lattice, scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)) < 1.0_dp
    end function is_start
 
-   !> Solves at one load after the other, from a first approximation to the load wanted.
-   subroutine follow_load(lattice, first_load, last_load, now, iterations, found, merged)
-      type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: first_load, last_load   !! P
-      type(expansion), intent(inout) :: now           !! at the first load; at the last one
-      integer, intent(inout) :: iterations
-      logical, intent(out) :: found
-      logical, intent(out) :: merged                  !! as of start_at_load
-
-      type(contact_equations) :: equations
-      type(lattice_images) :: images
-      real(dp) :: change, contraction, load, misfit, next, remaining, residual
-
-      load = first_load
-      merged = .false.
-      do
-         call images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
-         call start_equations(equations, now, 0.0_dp, images)
-         contraction = 0.0_dp
-         call solve_equations(equations, lattice, load, now, change_per_square*start_shape_change**2, contraction, &
-                              change, remaining, residual, misfit, iterations, found)
-         if (.not. found) exit
-         ! The start of a load that was solved has come to a ratio of 0.92 at most, of many next to merging.
-         merged = merging_ratio(lattice, now) >= 1.0_dp
-         found = .not. merged
-         if (merged .or. load_steps(lattice, load, last_load, now%pool) == 0) exit
-         next = last_load
-         if (load_steps(lattice, load, last_load, now%pool) > 1) then
-            next = load_step_ratio*load
-            if (now%pool) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - load)
-         end if
-         now = scaled_to_load(lattice, now, load, next)
-         load = next
-      end do
-   end subroutine follow_load
-
    !> Number of steps from one load to the other: of the ratio of P or, for pools, of the closing pressure less P.
    pure integer function load_steps(lattice, from, to, pool) result(steps)
       type(wave_lattice), intent(in) :: lattice
@@ -127,59 +109,48 @@ contains
       steps = ceiling(abs(log(ratio))/log(load_step_ratio))
    end function load_steps
 
-   !> A Hertzian spot, elliptical where the curvatures of the crest differ: README.md (F41); paper, (23).
-   function hertz_spot(lattice, load) result(spot)
+   !> An expansion of low degree over a circle or, with two-fold symmetry, an ellipse: a Hertzian spot at a crest,
+   !> README.md (F41) and (23) of the paper, or the opening of a penny-shaped crack at a trough, (F42) and (24),
+   !> (A4)-(A8) of the paper; elliptical where the curvatures of the crest, or of the full contact's pressure, differ.
+   function asymptote(lattice, load, pool) result(now)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load   !! P > 0
-      type(expansion) :: spot
-
-      real(dp) :: curvature(2), radius
-      integer :: i
-
-      curvature = 4*pi**2*[(sum(lattice%wave(i, :)**2*lattice%amplitude), i=1, 2)]
-      radius = (3*pi*load*lattice%area/(4*sqrt(product(curvature))))**(1.0_dp/3)
-      ! About the exact relation, which has elliptic integrals.
-      spot = ellipse(.false., lattice%fold, radius, (curvature(1)/curvature(2))**0.6_dp)
-      ! The first polynomial is constant, and (1 - rho^2)^(1/2) has the integral 2 pi/3.
-      spot%c(1) = load*lattice%area/spot%shape%area()/sqrt(2*pi/3)*pi
-      spot%approach = sqrt(product(curvature))*radius**2
-   end function hertz_spot
-
-   !> The opening of a penny-shaped crack at a trough, elliptical where the curvatures of the full contact's pressure
-   !> differ: README.md (F42); paper, (24) and (A4)-(A8).
-   function crack_pool(lattice, load) result(pool)
-      type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load  !! P < the closing pressure
-      type(expansion) :: pool
-
-      real(dp) :: curvature(2), missing, radius
-      integer :: i
-
-      curvature = -4*pi**2*[(sum(lattice%wave(i, :)**2*lattice%pressure*lattice%phase%re), i=1, 2)]
-      missing = lattice%closing_pressure - load
-      radius = sqrt(3*missing/sqrt(product(curvature)))
-      ! Exact for slender ellipses.
-      pool = ellipse(.true., lattice%trough_fold, radius, sqrt(curvature(1)/curvature(2)))
-      ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b (closing pressure - P), b the radius.
-      pool%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
-   end function crack_pool
-
-   !> An expansion of low degree without coefficients, over a circle or, with two-fold symmetry, an ellipse.
-   function ellipse(pool, fold, radius, ratio) result(now)
+      real(dp), intent(in) :: load   !! P > 0, of a crack less than the closing pressure
       logical, intent(in) :: pool
-      integer, intent(in) :: fold          !! of the symmetry
-      real(dp), intent(in) :: radius       !! mean of the semi-axes [s]
-      real(dp), intent(in) :: ratio        !! of the axes along y and x
       type(expansion) :: now
 
+      real(dp) :: curvature(2), mean, missing, radius, ratio   ! of the axes along y and x
+      integer :: i
+
+      associate (wave_height => merge(-lattice%pressure*lattice%phase%re, lattice%amplitude, pool))
+         curvature = 4*pi**2*[(sum(lattice%wave(i, :)**2*wave_height), i=1, 2)]
+      end associate
+      mean = sqrt(product(curvature))
+      missing = lattice%closing_pressure - load
+      if (pool) then
+         radius = sqrt(3*missing/mean)
+         ! Exact for slender ellipses.
+         ratio = sqrt(curvature(1)/curvature(2))
+      else
+         radius = (3*pi*load*lattice%area/(4*mean))**(1.0_dp/3)
+         ! About the exact relation, which has elliptic integrals.
+         ratio = (curvature(1)/curvature(2))**0.6_dp
+      end if
       now%pool = pool
-      call start_disc_polynomials(now%basis, fold, start_degree, merge(1.5_dp, 0.5_dp, pool))
-      allocate (now%c(now%basis%terms), source=0.0_dp)
-      now%shape%fold = fold
+      now%shape%fold = merge(lattice%trough_fold, lattice%fold, pool)
       allocate (now%shape%b(0:1))
       now%shape%b(:) = [radius, 0.0_dp]
-      if (fold == 2) now%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
-   end function ellipse
+      if (now%shape%fold == 2) now%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
+      call start_disc_polynomials(now%basis, now%shape%fold, start_degree, merge(1.5_dp, 0.5_dp, pool))
+      allocate (now%c(now%basis%terms), source=0.0_dp)
+      if (pool) then
+         ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b (closing pressure - P), b the radius.
+         now%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
+      else
+         ! The first polynomial is constant, and (1 - rho^2)^(1/2) has the integral 2 pi/3.
+         now%c(1) = load*lattice%area/now%shape%area()/sqrt(2*pi/3)*pi
+         now%approach = mean*radius**2
+      end if
+   end function asymptote
 
    !> An approximation at another load: lengths, pressures and gaps are scaled as in the asymptotes.
    function scaled_to_load(lattice, from, old_load, new_load) result(scaled)

@@ -5,7 +5,7 @@ module wavycon_load_slopes
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_error_estimate, only: error_estimate
    use wavycon_expansion, only: expansion
-   use wavycon_fitted_answer, only: fitted_answer, most_previous
+   use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
    use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
@@ -36,28 +36,22 @@ contains
 
       !> Relative error of the differences of Newton's matrix.
       real(dp), parameter :: of_differences = 1e-10_dp
-      real(dp) :: at(number_of_slopes, 0:most_previous), range(2)
-      real(dp), dimension(number_of_slopes) :: difference, previous_difference
+      real(dp) :: at(number_of_slopes, 0:size(answer%previous)), range(2)
       logical :: found_too
       integer :: k
 
       call slopes_of(lattice, answer%pbar_over_pstar, answer%solution, slopes, intensity_range, found)
       at(:, 0) = slopes
-      do k = 1, min(2, size(answer%previous))
+      do k = 1, size(answer%previous)
          call slopes_of(lattice, answer%pbar_over_pstar, answer%previous(k), at(:, k), range, found_too)
          found = found .and. found_too
       end do
       if (.not. found) return
-      errors = abs(slopes)
-      if (size(answer%previous) == 0) return
-      difference = abs(at(:, 0) - at(:, 1))
-      previous_difference = huge(1.0_dp)
-      if (size(answer%previous) > 1) previous_difference = abs(at(:, 1) - at(:, 2))
-      call error_estimate(difference, previous_difference, answer%misfit_decay, abs(slopes), errors)
+      errors = error_estimate(at, answer%misfit_decay, abs(slopes))
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 
-   !> The derivatives of one expansion.
+   !> The derivatives of one expansion, and the least and the largest k^2 along its edge: (I4) to (I7).
    subroutine slopes_of(lattice, load, now, slopes, intensity_range, found)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load            !! P
@@ -67,37 +61,18 @@ contains
 
       type(contact_equations) :: equations
       type(lattice_images) :: images
+      complex(dp), allocatable :: w(:)
+      complex(dp) :: normal, place_change(0:ubound(now%shape%b, 1))
       real(dp), allocatable :: change(:), change_of_change(:)
-      real(dp) :: load_change(2)
+      real(dp), allocatable :: intensity(:), values(:, :), velocity(:)   ! k, and the edge's velocity times ds/dphi
+      real(dp) :: load_change(2), root
+      integer :: i, n
 
       call images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
       call start_equations(equations, now, merging_ratio(lattice, now), images)
       allocate (change(equations%unknowns), change_of_change(equations%unknowns))
       call changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, found)
       if (.not. found) return
-      if (now%pool) then
-         slopes([1, 3]) = lattice%troughs*load_change/lattice%area
-      else
-         slopes([1, 3]) = -[change(now%basis%terms + 1), change_of_change(now%basis%terms + 1)]
-      end if
-      call follow_edge(lattice, now, change(equations%before_shape + 1:), slopes(2), intensity_range)
-      ! (I5) is its mean.
-      intensity_range = intensity_range*2*pi**2*slopes(2)/slopes(3)
-   end subroutine slopes_of
-
-   !> A' (I4), and the least and the largest k^2 along the edge (I6), (I7).
-   subroutine follow_edge(lattice, now, shape_change, area_slope, intensity_range)
-      type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
-      real(dp), intent(in) :: shape_change(0:)   !! db_k/dP
-      real(dp), intent(out) :: area_slope, intensity_range(2)
-
-      complex(dp), allocatable :: w(:)
-      complex(dp) :: normal, place_change(0:ubound(shape_change, 1))
-      real(dp), allocatable :: intensity(:), values(:, :), velocity(:)   ! k, and the edge's velocity times ds/dphi
-      real(dp) :: root
-      integer :: i, n
-
       n = least_edge_points + edge_points_per_degree*now%basis%degree
       allocate (intensity(n), values(n, now%basis%terms), velocity(n), w(n))
       w = exp(cmplx(0.0_dp, [(pi*(i - 0.5_dp)/(now%basis%fold*n), i=1, n)], dp))
@@ -105,15 +80,21 @@ contains
       do i = 1, n
          normal = now%shape%tangent(w(i))
          call now%shape%linearise_place(w(i), place_change)
-         velocity(i) = real(conjg(normal)*dot_product(shape_change, place_change), dp)
+         velocity(i) = real(conjg(normal)*dot_product(change(equations%before_shape + 1:), place_change), dp)
          ! 1 - |w|^2 = root^2 times the distance from the edge, next to it.
          root = sqrt(2*abs(normal)/now%shape%jacobian(w(i)))
          intensity(i) = dot_product(values(i, :), now%c)*root*velocity(i)/(2*abs(normal))
          if (now%pool) intensity(i) = 3/(4*pi)*intensity(i)*root**2
       end do
-      area_slope = 2*pi/n*sum(velocity)/lattice%area
-      if (now%pool) area_slope = -lattice%troughs*area_slope
-      intensity_range = [minval(intensity**2), maxval(intensity**2)]
-   end subroutine follow_edge
+      slopes(2) = 2*pi/n*sum(velocity)/lattice%area
+      if (now%pool) then
+         slopes([1, 3]) = lattice%troughs*load_change/lattice%area
+         slopes(2) = -lattice%troughs*slopes(2)
+      else
+         slopes([1, 3]) = -[change(now%basis%terms + 1), change_of_change(now%basis%terms + 1)]
+      end if
+      ! (I5) is its mean.
+      intensity_range = [minval(intensity**2), maxval(intensity**2)]*2*pi**2*slopes(2)/slopes(3)
+   end subroutine slopes_of
 
 end module wavycon_load_slopes

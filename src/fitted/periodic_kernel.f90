@@ -192,30 +192,17 @@ contains
       real(dp), intent(out) :: value(n)             !! [1/s]
       real(dp), intent(out) :: laplacian(n)         !! [1/s^3]
 
-      real(dp) :: e, r
-      integer :: i
+      real(dp) :: bell, e, farthest, k_across, k_along, length, r, square, term, weight
+      integer :: columns, i, j, k, most_rows
 
       e = sqrt(pi/rows%spacing)
       do i = 1, n
          r = e*hypot(along(i), across(i))
-         value(i) = -2*sqrt(pi)/(e*rows%spacing) + e*origin_remainder(r)
+         ! What remains of the origin's term erfc(r)/r when 1/r is taken out.
+         value(i) = -2*sqrt(pi)/(e*rows%spacing) - e*merge(erf(r)/max(r, tiny(r)), 2/sqrt(pi), r > 0.0_dp)
          laplacian(i) = e**3*origin_remainder_laplacian(r)
       end do
-      call add_lattice_points(rows, e, n, along, across, value, laplacian)
-      call add_waves(rows, e, n, along, across, value, laplacian)
-   end subroutine ewald_sum
-
-   !> Adds the terms erfc(e r)/r of the lattice points but the origin, and their Laplacian by README.md (F21).
-   pure subroutine add_lattice_points(rows, e, n, along, across, value, laplacian)
-      type(row_lattice), intent(in) :: rows
-      real(dp), intent(in) :: e                      !! [1/s]
-      integer, intent(in) :: n
-      real(dp), intent(in) :: along(n), across(n)
-      real(dp), intent(inout) :: value(n), laplacian(n)
-
-      real(dp) :: bell, farthest, square, term
-      integer :: columns, i, j, k, most_rows
-
+      ! The terms erfc(e r)/r of the lattice points but the origin, and their Laplacian by README.md (F21).
       farthest = cut_off/e
       most_rows = ceiling(farthest/rows%spacing + 0.5_dp)
       columns = ceiling(farthest + 1.0_dp + 0.5_dp*most_rows)
@@ -234,19 +221,7 @@ contains
             end do
          end do
       end do
-   end subroutine add_lattice_points
-
-   !> Adds the waves of the reciprocal lattice, k = (i, (j - i shift)/spacing), once for k and -k.
-   pure subroutine add_waves(rows, e, n, along, across, value, laplacian)
-      type(row_lattice), intent(in) :: rows
-      real(dp), intent(in) :: e                      !! [1/s]
-      integer, intent(in) :: n
-      real(dp), intent(in) :: along(n), across(n)
-      real(dp), intent(inout) :: value(n), laplacian(n)
-
-      real(dp) :: farthest, k_across, k_along, length, term, weight
-      integer :: columns, i, j, k, most_rows
-
+      ! The waves of the reciprocal lattice, k = (i, (j - i shift)/spacing), once for k and -k.
       farthest = cut_off*e/pi
       columns = ceiling(farthest)
       most_rows = ceiling(farthest*rows%spacing + 0.5_dp*columns)
@@ -264,15 +239,7 @@ contains
             end do
          end do
       end do
-   end subroutine add_waves
-
-   !> -erf(x)/x: what remains of the origin's term erfc(x)/x when 1/x is taken out.
-   pure real(dp) function origin_remainder(x) result(value)
-      real(dp), intent(in) :: x             !! >= 0
-
-      value = -2/sqrt(pi)
-      if (x > 0.0_dp) value = -erf(x)/x
-   end function origin_remainder
+   end subroutine ewald_sum
 
    !> The Laplacian in the plane of -erf(x)/x; with 1/r^3 taken out of README.md (F21).
    pure real(dp) function origin_remainder_laplacian(x) result(value)

@@ -63,11 +63,10 @@ contains
       real(dp), intent(in) :: depth(:)                    !! >= 0, shape (n) [s]; with n > 1 not all on the surface
       real(dp), intent(inout) :: fields(stress_fields, size(offset))
 
-      complex(dp) :: density(1), direction, normal, slope(1), conjugate_slope(1)
-      real(dp), dimension(rule_step*most_rules) :: cosine, sine, weight
-      real(dp) :: distance, edge, kappa, scale, width
+      complex(dp) :: conjugate_slope(1), density_at_origin(1), normal, slope(1)
+      real(dp) :: cosine, distance, edge, kappa, last, scale, sine, width, x
       logical :: on_surface
-      integer :: i, inwards, nearest, quarter, rule, sideways
+      integer :: i, nearest, quarter, rule
 
       scale = solution%shape%b(0)
       nearest = minloc(hypot(abs(offset), depth), 1)
@@ -81,162 +80,129 @@ contains
       width = min(width, 1.0_dp)
       normal = 1.0_dp
       if (abs(origin) > 0.0_dp) normal = origin/abs(origin)
-      density = 0.0_dp
-      if (on_surface) call find_density(solution, solution%pool, 1, [origin], [edge], density)
+      density_at_origin = 0.0_dp
+      if (on_surface) call find_density(solution, solution%pool, 1, [origin], [edge], density_at_origin)
       ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
-      rule = rule_for(self, (self%least_points + self%angles_per_unit*asinh(0.5_dp*pi/width)) &
-                      *max(1.0_dp, ray_angles_of_strain/sqrt(kappa)))
-      associate (n => size(self%rules(rule)%node))
-         call find_directions(self%rules(rule), width, cosine(:n), sine(:n), weight(:n))
-         do quarter = 1, merge(2, 4, edge <= at_edge)
-            inwards = merge(1, -1, quarter <= 2)
-            sideways = merge(1, -1, mod(quarter, 2) == 0)
-            do i = 1, n
-               direction = normal*cmplx(inwards*cosine(i), sideways*sine(i), dp)
-               call add_ray(self, solution, origin, offset, depth, nearest, on_surface, edge, inwards*cosine(i), &
-                            direction, slope(1)*direction + conjugate_slope(1)*conjg(direction), weight(i), &
-                            density(1), fields)
-            end do
-         end do
-      end associate
-      if (on_surface .and. .not. solution%pool) &
-         fields(h_field, 1) = fields(h_field, 1) + density(1)%re*sqrt(edge) &
-         /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
-   end subroutine add_at
-
-   !> Directions from the outward normal, and weights in the angle, of one quarter between the edge's direction and the
-   !> inward normal: Gauss's rule in x, where the angle from the edge is c sinh(x).
-   pure subroutine find_directions(rule, width, cosine, sine, weight)
-      type(gauss_rule), intent(in) :: rule
-      real(dp), intent(in) :: width                                     !! c > 0
-      real(dp), intent(out), dimension(:) :: cosine, sine, weight       !! shape of the rule
-
-      real(dp) :: last, x(size(rule%node))
-
+      ! In each quarter between the edge's direction and the inward or outward normal Gauss's rule in x, where the angle
+      ! from the edge is c sinh(x), c the width.
       last = asinh(0.5_dp*pi/width)
-      x = 0.5_dp*last*(1.0_dp + rule%node)
-      cosine = -sin(width*sinh(x))
-      sine = cos(width*sinh(x))
-      weight = 0.5_dp*last*rule%weight*width*cosh(x)
-   end subroutine find_directions
-
-   !> Adds a ray.
-   !>
-   !> On the chord through w_0 that the ray is part of let -cos(alpha) be the place from -1 to 1, so that the root of
-   !> 1 - |w|^2 is l sin(alpha), and alpha_0 that of w_0. In sigma = alpha - alpha_0 the kernel is singular at complex
-   !> places; sigma = r + m sinh(eta) moves them to eta = +-i pi/2.
-   subroutine add_ray(self, solution, origin, offset, depth, nearest, on_surface, edge, cosine, direction, stretch, &
-                      weight, density_at_origin, fields)
-      type(stress_rays), intent(inout) :: self
-      type(expansion), intent(in) :: solution
-      complex(dp), intent(in) :: origin, offset(:)
-      real(dp), intent(in) :: depth(:)
-      integer, intent(in) :: nearest                !! of the places
-      logical, intent(in) :: on_surface             !! where it is the only one
-      real(dp), intent(in) :: edge                  !! 1 - |w_0|^2
-      real(dp), intent(in) :: cosine                !! of the direction from the outward normal
-      complex(dp), intent(in) :: direction          !! e^(i phi)
-      complex(dp), intent(in) :: stretch            !! dz/dt at w_0
-      real(dp), intent(in) :: weight
-      complex(dp), intent(in) :: density_at_origin
-      real(dp), intent(inout) :: fields(stress_fields, size(offset))
-
-      real(dp), parameter :: least_scale = 1e-25_dp
-      !> More points if there are others: on rays along the edge their poles are half as far from the real axis.
-      real(dp), parameter :: points_of_others = 1.5_dp
-      complex(dp) :: pole
-      real(dp) :: ahead, alpha, along, back, behind, first, forward, half, last, length, middle, r, squared, width
-      integer :: rule
-
-      along = sqrt(max(1.0_dp - edge, 0.0_dp))*cosine
-      half = sqrt(edge + along**2)
-      if (along > 0.0_dp) then
-         back = half + along
-         forward = edge/back
-      else
-         forward = half - along
-         back = edge/forward
-      end if
-      behind = min(back/(2*half), 1.0_dp)
-      ahead = min(forward/(2*half), 1.0_dp)
-      alpha = 2*atan2(sqrt(behind), sqrt(ahead))
-      length = 2*atan2(sqrt(ahead), sqrt(behind))
-      if (on_surface) then
-         r = 0.0_dp
-         width = alpha
-      else
-         squared = stretch%re**2 + stretch%im**2
-         associate (offset => offset(nearest), depth => depth(nearest))
-            middle = (offset%re*stretch%re + offset%im*stretch%im)/squared
-            pole = cmplx(middle, sqrt(max((offset%re**2 + offset%im**2 + depth**2)/squared - middle**2, 0.0_dp)), dp)
-         end associate
-         pole = 2*asin(sqrt(behind + pole/(2*half)))
-         r = pole%re - alpha
-         width = abs(pole%im)
-      end if
-      width = max(width, least_scale)
-      first = asinh(-r/width)
-      last = asinh((length - r)/width)
-      rule = rule_for(self, self%least_points &
-                      + merge(1.0_dp, points_of_others, size(offset) == 1)*self%points_per_unit*(last - first))
-      associate (nodes => self%rules(rule))
-         call add_points(size(nodes%node), nodes%node, nodes%weight)
-      end associate
+      rule = rule_for(self, (self%least_points + self%angles_per_unit*last) &
+                      *max(1.0_dp, ray_angles_of_strain/sqrt(kappa)))
+      do quarter = 1, merge(2, 4, edge <= at_edge)
+         do i = 1, size(self%rules(rule)%node)
+            x = 0.5_dp*last*(1.0_dp + self%rules(rule)%node(i))
+            cosine = merge(-1, 1, quarter <= 2)*sin(width*sinh(x))
+            sine = merge(1, -1, mod(quarter, 2) == 0)*cos(width*sinh(x))
+            call add_ray(cosine, normal*cmplx(cosine, sine, dp), 0.5_dp*last*self%rules(rule)%weight(i)*width*cosh(x))
+         end do
+      end do
+      if (on_surface .and. .not. solution%pool) &
+         fields(h_field, 1) = fields(h_field, 1) + density_at_origin(1)%re*sqrt(edge) &
+         /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
 
    contains
 
-      subroutine add_points(n, node, node_weight)
-         integer, intent(in) :: n
-         real(dp), intent(in) :: node(n), node_weight(n)
+      !> Adds a ray.
+      !>
+      !> On the chord through w_0 that the ray is part of let -cos(alpha) be the place from -1 to 1, so that the root of
+      !> 1 - |w|^2 is l sin(alpha), and alpha_0 that of w_0. In sigma = alpha - alpha_0 the kernel is singular at
+      !> complex places; sigma = r + m sinh(eta) moves them to eta = +-i pi/2.
+      subroutine add_ray(cosine, direction, weight)
+         real(dp), intent(in) :: cosine                !! of the direction from the outward normal
+         complex(dp), intent(in) :: direction          !! e^(i phi)
+         real(dp), intent(in) :: weight
 
-         complex(dp), dimension(n) :: density, difference, step, w
-         real(dp) :: analytic(n, 2), differences(n, 2, ubound(solution%shape%b, 1))
-         real(dp), dimension(n) :: at_t, eta, root, sigma, t
-         real(dp) :: squared_stretch
-         complex(dp) :: kernel
-         integer :: i, source
+         real(dp), parameter :: least_scale = 1e-25_dp
+         !> More points if there are others: on rays along the edge their poles are half as far from the real axis.
+         real(dp), parameter :: points_of_others = 1.5_dp
+         complex(dp) :: pole, stretch                  ! dz/dt at w_0
+         real(dp) :: ahead, alpha, along, back, behind, first, forward, half, last, length, middle, r, squared, width
+         integer :: n, of_ray
 
-         eta = first + 0.5_dp*(last - first)*(1.0_dp + node)
-         ! The same as r + width sinh(eta), without cancellation next to w_0.
-         sigma = 2*width*cosh(0.5_dp*(eta + first))*sinh(0.5_dp*(eta - first))
-         root = half*merge(sin(alpha + sigma), sin(length - sigma), alpha < length)
-         t = 2*half*sin(0.5_dp*sigma)*merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
-         step = t*direction
-         w = origin + step
-         call solution%shape%find_differences(n, origin, w, analytic, differences)
-         associate (b => solution%shape%b)
-            difference = b(0)*step*cmplx(analytic(:, 1), analytic(:, 2), dp) &
-               + conjg(step*cmplx(matmul(differences(:, 1, :), b(1:)), matmul(differences(:, 2, :), b(1:)), dp))
-         end associate
-         source = of_pressure
-         if (solution%pool) source = merge(of_gradient, of_gap, self%kernel == all_fields)
-         call find_density(solution, source == of_gradient, n, w, root**2, density)
-         ! dt = root dsigma, and the density's own root, of a gap itself its cube.
-         at_t = weight*0.5_dp*(last - first)*node_weight*width*cosh(eta)*root
-         density = density*(at_t*root*t)
-         if (source == of_gap) density = density*root**2
-         do i = 1, size(offset)
-            call add_sources(self%kernel, source, n, offset(i)%re - difference%re, offset(i)%im - difference%im, &
-                             depth(i), density%re, density%im, fields(:, i))
-         end do
-         if (.not. on_surface) return
-         ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
-         squared_stretch = stretch%re**2 + stretch%im**2
-         associate (remainder => weight*log(forward*sqrt(squared_stretch)/solution%shape%b(0)) - sum(at_t/t), &
-                    at_origin => density_at_origin*sqrt(edge), own => fields(:, 1))
-            if (solution%pool) then
-               kernel = -conjg(stretch)*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
-               own(h_field) = own(h_field) + remainder*kernel%re
-               kernel = stretch*at_origin/sqrt(squared_stretch)**3/(4*pi**2)
-            else
-               kernel = stretch**2/squared_stretch**2/pi*at_origin
+         stretch = slope(1)*direction + conjugate_slope(1)*conjg(direction)
+         squared = stretch%re**2 + stretch%im**2
+         along = sqrt(max(1.0_dp - edge, 0.0_dp))*cosine
+         half = sqrt(edge + along**2)
+         if (along > 0.0_dp) then
+            back = half + along
+            forward = edge/back
+         else
+            forward = half - along
+            back = edge/forward
+         end if
+         behind = min(back/(2*half), 1.0_dp)
+         ahead = min(forward/(2*half), 1.0_dp)
+         alpha = 2*atan2(sqrt(behind), sqrt(ahead))
+         length = 2*atan2(sqrt(ahead), sqrt(behind))
+         if (on_surface) then
+            r = 0.0_dp
+            width = alpha
+         else
+            associate (offset => offset(nearest), depth => depth(nearest))
+               middle = (offset%re*stretch%re + offset%im*stretch%im)/squared
+               pole = cmplx(middle, sqrt(max((offset%re**2 + offset%im**2 + depth**2)/squared - middle**2, 0.0_dp)), dp)
+            end associate
+            pole = 2*asin(sqrt(behind + pole/(2*half)))
+            r = pole%re - alpha
+            width = abs(pole%im)
+         end if
+         width = max(width, least_scale)
+         first = asinh(-r/width)
+         last = asinh((length - r)/width)
+         of_ray = rule_for(self, self%least_points &
+                           + merge(1.0_dp, points_of_others, size(offset) == 1)*self%points_per_unit*(last - first))
+         n = size(self%rules(of_ray)%node)
+         block
+            complex(dp), dimension(n) :: density, difference, step, w
+            real(dp) :: analytic(n, 2), differences(n, 2, ubound(solution%shape%b, 1))
+            real(dp), dimension(n) :: at_t, eta, root, sigma, t
+            complex(dp) :: kernel
+            integer :: k, source
+
+            associate (nodes => self%rules(of_ray))
+               eta = first + 0.5_dp*(last - first)*(1.0_dp + nodes%node)
+               ! The same as r + width sinh(eta), without cancellation next to w_0.
+               sigma = 2*width*cosh(0.5_dp*(eta + first))*sinh(0.5_dp*(eta - first))
+               root = half*merge(sin(alpha + sigma), sin(length - sigma), alpha < length)
+               t = 2*half*sin(0.5_dp*sigma)*merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
+               step = t*direction
+               w = origin + step
+               call solution%shape%find_differences(n, origin, w, analytic, differences)
+               associate (b => solution%shape%b)
+                  difference = b(0)*step*cmplx(analytic(:, 1), analytic(:, 2), dp) &
+                     + conjg(step*cmplx(matmul(differences(:, 1, :), b(1:)), matmul(differences(:, 2, :), b(1:)), dp))
+               end associate
+               source = of_pressure
+               if (solution%pool) source = merge(of_gradient, of_gap, self%kernel == all_fields)
+               call find_density(solution, source == of_gradient, n, w, root**2, density)
+               ! dt = root dsigma, and the density's own root, of a gap itself its cube.
+               at_t = weight*0.5_dp*(last - first)*nodes%weight*width*cosh(eta)*root
+               density = density*(at_t*root*t)
+               if (source == of_gap) density = density*root**2
+               do k = 1, size(offset)
+                  call add_sources(self%kernel, source, n, offset(k)%re - difference%re, offset(k)%im - difference%im, &
+                                   depth(k), density%re, density%im, fields(:, k))
+               end do
+            end associate
+            if (on_surface) then
+               ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
+               associate (remainder => weight*log(forward*sqrt(squared)/solution%shape%b(0)) - sum(at_t/t), &
+                          at_origin => density_at_origin(1)*sqrt(edge), own => fields(:, 1))
+                  if (solution%pool) then
+                     kernel = -conjg(stretch)*at_origin/sqrt(squared)**3/(4*pi**2)
+                     own(h_field) = own(h_field) + remainder*kernel%re
+                     kernel = stretch*at_origin/sqrt(squared)**3/(4*pi**2)
+                  else
+                     kernel = stretch**2/squared**2/pi*at_origin
+                  end if
+                  own(l_field:l_field + 1) = own(l_field:l_field + 1) + remainder*[kernel%re, kernel%im]
+               end associate
             end if
-            own(l_field:l_field + 1) = own(l_field:l_field + 1) + remainder*[kernel%re, kernel%im]
-         end associate
-      end subroutine add_points
+         end block
+      end subroutine add_ray
 
-   end subroutine add_ray
+   end subroutine add_at
 
    !> The rule of at least as many points, or the longest.
    integer function rule_for(self, points)

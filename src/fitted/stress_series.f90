@@ -46,12 +46,9 @@ contains
       waves_x = ceiling(largest/series%base_x)
       waves_y = ceiling(largest/series%base_y)
       n = size(x)
-      allocate (along_x(n, 0:waves_x), along_y(n, 0:waves_y), series%pressure(0:waves_x, 0:waves_y))
-      call cosines(series%base_x*x, along_x)
-      call cosines(series%base_y*y, along_y)
-      do i = 0, waves_x
-         along_x(:, i) = along_x(:, i)*strength
-      end do
+      along_x = reshape([(cos(i*(series%base_x*x))*strength, i=0, waves_x)], [n, waves_x + 1])
+      along_y = reshape([(cos(j*(series%base_y*y)), j=0, waves_y)], [n, waves_y + 1])
+      allocate (series%pressure(0:waves_x, 0:waves_y))
       associate (p => series%pressure)
          call dgemm('T', 'N', waves_x + 1, waves_y + 1, n, 1.0_dp/rows%spacing, along_x, n, along_y, n, 0.0_dp, p, &
                     waves_x + 1)
@@ -67,18 +64,6 @@ contains
          p(0, 0) = 0.0_dp
       end associate
    end subroutine start_stress_series
-
-   !> cos(k x), k = 0, 1, ..
-   pure subroutine cosines(x, values)
-      real(dp), intent(in) :: x(:)
-      real(dp), intent(out) :: values(:, 0:)
-
-      integer :: k
-
-      do k = 0, ubound(values, 2)
-         values(:, k) = cos(k*x)
-      end do
-   end subroutine cosines
 
    !> Adds the fields at a place.
    pure subroutine add_at(self, place, depth, fields)
