@@ -98,7 +98,9 @@ contains
       rows(3:, :) = values
       if (self%as_text) then
          if (row > 1) call self%file%put('')
-         call self%file%put_rows(integers, rows)
+         do k = 1, size(rows, 2)
+            call self%file%put_row([real(integers, dp), rows(:, k)])
+         end do
       else
          call self%file%put_numbers(rows)
       end if

@@ -5,11 +5,11 @@ module wavycon_results
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: status_code, status_name
+   use wavycon_contact_status, only: status_name
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_list, column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_kind, column_list, column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
@@ -40,7 +40,6 @@ module wavycon_results
    contains
       procedure :: open_table
       procedure :: begin_block
-      procedure :: end_row
       procedure :: unit_in_words
       procedure :: in_p_star
       procedure :: approach_over_amplitude
@@ -72,7 +71,7 @@ contains
          do i = 1, size(names)
             units(i) = self%unit_in_words(trim(column_unit(names(i))))
          end do
-         call file%put_columns(column_name(names), units)
+         call file%put_columns(column_name(names), units, column_kind(names))
       end associate
    end subroutine open_table
 
@@ -122,17 +121,6 @@ contains
          call file%begin_block('load '//integer_text(load)//': '//words//', '//trim(status_name(solution%status)))
       end associate
    end subroutine begin_block
-
-   !> Ends the row of a load with its status, in the last two columns.
-   subroutine end_row(self, file, load)
-      class(results_type), intent(in) :: self
-      type(output_file), intent(inout) :: file
-      integer, intent(in) :: load    !! number in the deck's order
-
-      call file%add([status_code(self%loads(load)%status)])
-      call file%add(trim(status_name(self%loads(load)%status)))
-      call file%end_row()
-   end subroutine end_row
 
    !> A number in units of p*: NaN on a surface with free edges, which has no p*.
    elemental real(dp) function in_p_star(self, number)

@@ -27,7 +27,7 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('spectrum', 'spectrum', put_all=put_spectra, &
-         columns='direction[-] wave_number[rad/length] waves[-] spectrum_2d[length^4] spectrum_1d[length^3] '// &
+         columns='direction[word] wave_number[rad/length] waves[#] spectrum_2d[length^4] spectrum_1d[length^3] '// &
          'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]', &
          meaning='The power spectrum of the surface.'))
       ! The columns are those of the table in memory.
@@ -67,12 +67,8 @@ contains
       do i = 1, size(spectrum%waves)
          densities = not_a_number()
          densities(merge(1, 2, is_radial)) = spectrum%density(i)
-         call file%add(direction)
-         call file%add([spectrum%wave_number(i)])
-         call file%add([spectrum%waves(i)])
-         call file%add(densities)
-         call file%add([spectrum%height(i), spectrum%slope(i), spectrum%curvature(i)])
-         call file%end_row()
+         call file%put_row([real(dp) :: spectrum%wave_number(i), spectrum%waves(i), densities, spectrum%height(i), &
+                            spectrum%slope(i), spectrum%curvature(i)], [direction])
       end do
    end subroutine put_spectrum
 
@@ -144,8 +140,7 @@ contains
 
       do l = 1, size(height, 2)
          do k = 1, size(height, 1)
-            call file%add([sides*([k, l] - 1 + first)/shape(height), height(k, l)])
-            call file%end_row()
+            call file%put_row([sides*([k, l] - 1 + first)/shape(height), height(k, l)])
          end do
       end do
    end subroutine put_places

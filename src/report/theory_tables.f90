@@ -36,7 +36,7 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('theory', 'theory', put_load=put_theory, &
-         columns='load[-] pbar_over_pstar[-] force[force] '// &
+         columns='load[#] pbar_over_pstar[-] force[force] '// &
          'kuznetsov_mean_gap_over_amplitude[-] westergaard_contact_area_fraction[-] '// &
          'westergaard_peak_pressure_over_pstar[-] hertz_line_contact_area_fraction[-] '// &
          'line_crack_contact_area_fraction[-] '// &
@@ -84,11 +84,10 @@ contains
                 wavelength*hertz_point_radius_over_wavelength(p), &
                 wavelength*penny_crack_radius_over_wavelength(p)]
          end if
-         call file%add([load])
-         call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), &
-                        of_line, of_plane, of_ball])
+         call file%put_row([real(dp) :: load, results%in_p_star(p), &
+                            results%solver%surface%nominal_area()*results%mean_pressure(load), &
+                            of_line, of_plane, of_ball])
       end associate
-      call file%end_row()
    end subroutine put_theory
 
    !> Area, approach, peak pressure and half axes of Hertz's contact.
