@@ -158,7 +158,8 @@ contains
       character(:), allocatable :: number, words
       integer :: i, length
 
-      number = "'"//byte_order()//"f8'"
+      ! '<' where the lowest byte of a number is the first, '>' elsewhere.
+      number = "'"//merge('<', '>', transfer(1, 1_int8) == 1_int8)//"f8'"
       words = number
       if (present(names)) then
          words = '['
@@ -176,10 +177,5 @@ contains
       header = magic//char(modulo(length - before_words, 256))//char((length - before_words)/256)//words
       header = header//repeat(' ', length - len(header) - 1)//newline
    end function npy_header
-
-   !> '<' where the lowest byte of a number is the first, '>' elsewhere.
-   pure character function byte_order()
-      byte_order = merge('<', '>', transfer(1, 1_int8) == 1_int8)
-   end function byte_order
 
 end module wavycon_cell_file

@@ -78,8 +78,8 @@ contains
          end if
          call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
                             results%mean_pressure(load), stiffness*scene%p_star/surface%amplitude, &
-                            results%in_p_star([stiffness, or_nan([slopes%area_slope, slopes%area_slope_error, &
-                                                                  slopes%gap_curvature, slopes%gap_curvature_error])]), &
+                            results%in_p_star([stiffness, or_nan([slopes%area_slope, slopes%area_slope_error])]), &
+                            results%in_p_star(or_nan([slopes%gap_curvature, slopes%gap_curvature_error])), &
                             resistance, status_code(solution%status)], [status_name(solution%status)])
       end associate
    end subroutine put_interface
@@ -175,31 +175,27 @@ contains
          type(adhesive_point), intent(in) :: points(:)
 
          integer :: i
+         real(dp) :: mean_pressure, numbers(12)
 
          call file%begin_block(title)
-         do i = 1, size(points)
-            call put_point(results, file, points(i))
-         end do
+         associate (surface => results%solver%surface)
+            do i = 1, size(points)
+               associate (point => points(i))
+                  mean_pressure = results%scene%p_star*point%load
+                  numbers = not_a_number()
+                  if (point%exists) numbers = &
+                     [results%in_p_star([point%load, point%load_error]), mean_pressure, &
+                      mean_pressure*surface%nominal_area(), &
+                      results%in_p_star([1.0_dp - point%approach, point%approach_error]), &
+                      surface%amplitude*point%approach, point%area, point%area_error, &
+                      surface%nominal_area()*point%area, point%release_range]
+                  call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
+                                    [merge(point_names(point%kind), 'none                ', point%exists)])
+               end associate
+            end do
+         end associate
       end subroutine put_block
 
    end subroutine put_adhesion
-
-   subroutine put_point(results, file, point)
-      type(results_type), intent(in) :: results
-      type(output_file), intent(inout) :: file
-      type(adhesive_point), intent(in) :: point
-
-      real(dp) :: numbers(12)
-
-      associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
-         numbers = not_a_number()
-         if (point%exists) numbers = &
-            [results%in_p_star([point%load, point%load_error]), mean_pressure, mean_pressure*surface%nominal_area(), &
-             results%in_p_star([1.0_dp - point%approach, point%approach_error]), surface%amplitude*point%approach, &
-             point%area, point%area_error, surface%nominal_area()*point%area, point%release_range]
-         call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
-                           [merge(point_names(point%kind), 'none                ', point%exists)])
-      end associate
-   end subroutine put_point
 
 end module wavycon_interface_tables

@@ -57,9 +57,15 @@ contains
 
       integer :: i
       logical :: is_word(size(self%kinds))
+      real(dp), allocatable :: longer(:, :)
 
-      call make_room(self, self%rows + 1)
-      if (self%is_full) return
+      if (self%rows == size(self%values, 2)) then
+         self%is_full = .not. has_memory_for(2*size(self%values, kind=int64))
+         if (self%is_full) return
+         allocate (longer(size(self%kinds), 2*self%rows))
+         longer(:, :self%rows) = self%values
+         call move_alloc(longer, self%values)
+      end if
       self%rows = self%rows + 1
       is_word = self%kinds == of_words
       associate (row => self%values(:, self%rows))
@@ -68,22 +74,6 @@ contains
             row = unpack([(real(number_of_word(self, words(i)), dp), i=1, size(words))], is_word, row)
       end associate
    end subroutine add_row
-
-   subroutine make_room(self, rows)
-      type(memory_table), intent(inout) :: self
-      integer, intent(in) :: rows
-
-      real(dp), allocatable :: longer(:, :)
-
-      associate (columns => size(self%values, 1), room => size(self%values, 2))
-         if (rows <= room .or. self%is_full) return
-         self%is_full = .not. has_memory_for(int(columns, int64)*max(rows, 2*room))
-         if (self%is_full) return
-         allocate (longer(columns, max(rows, 2*room)))
-      end associate
-      longer(:, :self%rows) = self%values(:, :self%rows)
-      call move_alloc(longer, self%values)
-   end subroutine make_room
 
    !> The number of a word, which is added to the list if it is new.
    integer function number_of_word(self, word) result(number)

@@ -77,34 +77,27 @@ contains
 
    !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
    !> them; others as they are.
-   pure function unit_in_words(self, unit) result(words)
+   pure recursive function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit
       character(longest_unit) :: words
 
       character(8), parameter :: names(*) = [character(8) :: 'length', 'pressure', 'area', 'force']
-      character(:), allocatable :: label, answer
+      character(:), allocatable :: label
       integer :: first, k
 
-      answer = ''
-      first = 1
-      do while (first <= len(unit))
-         do k = 1, size(names)
-            if (index(unit(first:), trim(names(k))) == 1) exit
-         end do
-         if (k > size(names)) then
-            answer = answer//unit(first:first)
-            first = first + 1
-            cycle
-         end if
+      words = unit
+      do k = 1, size(names)
+         first = index(unit, trim(names(k)))
+         if (first == 0) cycle
          label = self%scene%length_unit
          if (names(k) == 'pressure') label = self%scene%pressure_unit
          if (k > 2 .and. self%solver%surface%dimension == 2) label = label//'^2'
          if (names(k) == 'force') label = self%scene%pressure_unit//'*'//label
-         answer = answer//label
-         first = first + len_trim(names(k))
+         words = trim(self%unit_in_words(unit(:first - 1)))//label// &
+                 self%unit_in_words(unit(first + len_trim(names(k)):))
+         return
       end do
-      words = answer
    end function unit_in_words
 
    !> Begins the block of a load with a comment and the names of the columns.

@@ -127,33 +127,25 @@ contains
       type(contact_region), intent(in) :: regions(:)   !! the largest first
       character(*), intent(in) :: kind                 !! 'spot' or 'pool'
 
-      real(dp) :: area, mean_pressure
+      real(dp) :: area, mean_pressure, radius
       integer :: i
 
       associate (surface => results%solver%surface)
          do i = 1, size(regions)
             associate (region => regions(i))
                area = region%area_fraction*surface%nominal_area()
+               ! That of the disc of this area; of a strip half its width.
+               radius = merge(0.5_dp*area, sqrt(area/pi), surface%dimension == 1)
                mean_pressure = not_a_number()
                if (region%area_fraction > 0.0_dp) &
                   mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
-               call file%put_row([real(dp) :: load, i, area, region%area_fraction, &
-                                  equivalent_radius(area, surface%dimension), region%perimeter, &
+               call file%put_row([real(dp) :: load, i, area, region%area_fraction, radius, region%perimeter, &
                                   region%load_fraction, mean_pressure, surface%length*region%centre/(2*pi), &
                                   region%holes, merge(1, 0, region%percolates)], [kind])
             end associate
          end do
       end associate
    end subroutine put_regions
-
-   !> The radius of the disc of an area; of a strip half its width [length].
-   pure real(dp) function equivalent_radius(area, dimension) result(radius)
-      real(dp), intent(in) :: area         !! [length^2], in 1-D [length]
-      integer, intent(in) :: dimension
-
-      radius = sqrt(area/pi)
-      if (dimension == 1) radius = 0.5_dp*area
-   end function equivalent_radius
 
    !> Writes the block of a load, if it has a solution.
    subroutine put_histogram(results, load, file)

@@ -162,7 +162,6 @@ contains
       type(cell_file) :: planes
       class(stress_fields), allocatable :: fields
       real(dp), allocatable :: depths(:), errors(:, :), stress(:, :, :), values(:, :)
-      real(dp) :: here(6)
       integer :: body, i, k, l, load
 
       associate (scene => results%scene, surface => results%solver%surface, &
@@ -180,8 +179,7 @@ contains
                                        scene%stress_setting%body(body), stress, errors)
                   do l = 1, planes%points(2)
                      do k = 1, planes%points(1)
-                        here = stress(k, l, :)
-                        values(:, k) = [depths(i), stress_numbers(here, errors(k, l), scene%p_star)]
+                        values(:, k) = [depths(i), stress_numbers(stress(k, l, :), errors(k, l), scene%p_star)]
                      end do
                      call planes%put_row([load, body], l, values)
                   end do

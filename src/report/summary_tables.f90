@@ -67,6 +67,7 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
+      character(longest_word) :: words(2)
       real(dp) :: approach(2), at_hardness(4), energy(2), errors(3)
 
       associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load), &
@@ -82,6 +83,8 @@ contains
             if (results%traits%has_errors) &
                at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
          end if
+         words(1) = solver_names(solution%solver)
+         words(2) = status_name(solution%status)
          call file%put_row( &
             [real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), measures%mean_gap_over_amplitude, &
              approach(1), measures%contact_area_fraction, results%in_p_star(measures%peak_pressure_over_pstar), &
@@ -94,8 +97,7 @@ contains
              surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
              results%peak_pressure(load), scene%p_star*errors(3), results%in_p_star(energy), &
              scene%p_star*surface%amplitude*surface%nominal_area()*energy, solution%active_constraints, &
-             solution%iterations, solution%residual, status_code(solution%status)], &
-            [character(longest_word) :: solver_names(solution%solver), status_name(solution%status)])
+             solution%iterations, solution%residual, status_code(solution%status)], words)
       end associate
    end subroutine put_summary_row
 
