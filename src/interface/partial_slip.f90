@@ -50,17 +50,15 @@ contains
       call solver%solve(rest, slip%stick)
       if (.not. with_curve) return
       allocate (slip%approach_change(curve_points), source=0.0_dp)
-      do i = 2, curve_points
-         associate (part => real(i - 1, dp)/(curve_points - 1))
-            if (i < curve_points) then
+      associate (change => slip%approach_change, approach => solution%measures%approach_over_amplitude)
+         do i = 2, curve_points - 1
+            associate (part => real(i - 1, dp)/(curve_points - 1))
                call solver%solve(solution%pbar_over_pstar - part*tangential/setting%friction, on_the_way)
-            else
-               on_the_way%solution_record = slip%stick%solution_record
-            end if
-         end associate
-         slip%approach_change(i) = solution%measures%approach_over_amplitude &
-                                   - on_the_way%measures%approach_over_amplitude
-      end do
+            end associate
+            change(i) = approach - on_the_way%measures%approach_over_amplitude
+         end do
+         change(curve_points) = approach - slip%stick%measures%approach_over_amplitude
+      end associate
    end subroutine solve_partial_slip
 
    !> The relative tangential displacement of the bodies over kappa f [Delta] (I11), and its error estimate.

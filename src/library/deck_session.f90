@@ -294,15 +294,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(solved_load), intent(in), optional :: solved
 
-      integer :: column
-
       value = 0.0_dp
       call check_ready(self, error, solved)
       if (allocated(error)) return
       if (present(solved)) then
-         column = column_of(solved%summary, name, of_word=.false.)
-         if (column > 0) value = solved%summary%values(column, 1)
-         if (column == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
+         associate (summary => solved%summary)
+            call pick_number(pack(summary%names, summary%kinds /= of_words), &
+                             pack(summary%values(:, 1), summary%kinds /= of_words), name, value, error)
+         end associate
       else
          associate (surface => self%results%solver%surface, scale => self%scale)
             call pick_number([character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', 'points_x', &
@@ -342,7 +341,7 @@ contains
       if (allocated(error)) return
       associate (scene => self%results%scene)
          if (present(solved)) then
-            i = column_of(solved%summary, name, of_word=.true.)
+            i = findloc(solved%summary%names == name .and. solved%summary%kinds == of_words, .true., dim=1)
             if (i > 0) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
          else if (name == 'solver') then
             words = scene%method%text('solver')
@@ -366,16 +365,6 @@ contains
       end associate
       if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
    end subroutine text
-
-   !> The column of numbers or of words of this name; 0 if there is none.
-   pure integer function column_of(summary, name, of_word) result(column)
-      type(memory_table), intent(in) :: summary
-      character(*), intent(in) :: name
-      logical, intent(in) :: of_word
-
-      column = summary%find_column(name)
-      if (column > 0) column = merge(column, 0, (summary%kinds(column) == of_words) .eqv. of_word)
-   end function column_of
 
    !> Errors: exit_bad_input if a session has not been opened or no load has been solved.
    subroutine check_ready(self, error, solved)

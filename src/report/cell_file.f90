@@ -98,7 +98,9 @@ contains
       rows(3:, :) = values
       if (self%as_text) then
          if (row > 1) call self%file%put('')
-         call self%file%put_rows(integers, rows)
+         do k = 1, size(rows, 2)
+            call self%file%put_row([real(integers, dp), rows(:, k)])
+         end do
       else
          call self%file%put_numbers(rows)
       end if
@@ -156,7 +158,8 @@ contains
       character(:), allocatable :: number, words
       integer :: i, length
 
-      number = "'"//byte_order()//"f8'"
+      ! '<' where the lowest byte of a number is the first, '>' elsewhere.
+      number = "'"//merge('<', '>', transfer(1, 1_int8) == 1_int8)//"f8'"
       words = number
       if (present(names)) then
          words = '['
@@ -174,10 +177,5 @@ contains
       header = magic//char(modulo(length - before_words, 256))//char((length - before_words)/256)//words
       header = header//repeat(' ', length - len(header) - 1)//newline
    end function npy_header
-
-   !> '<' where the lowest byte of a number is the first, '>' elsewhere.
-   pure character function byte_order()
-      byte_order = merge('<', '>', transfer(1, 1_int8) == 1_int8)
-   end function byte_order
 
 end module wavycon_cell_file

@@ -183,23 +183,19 @@ contains
    end subroutine put
 
    !> Reads the next record of a file.
-   subroutine get(unit, words, whole)
+   subroutine get(unit, words)
       integer, intent(in) :: unit
-      integer(int64), allocatable, intent(out) :: words(:)  !! size 0 if the record is damaged or cut short
-      logical, intent(out) :: whole                         !! .false. if the file ends before the record does
+      !> Not allocated if the file ends before the record does; size 0 if the record is damaged.
+      integer(int64), allocatable, intent(out) :: words(:)
 
       integer(int64) :: bytes, length, place, sum_of_words
       integer :: status
 
-      allocate (words(0))
       read (unit, iostat=status) length
-      whole = status == 0
-      if (.not. whole) return
+      if (status /= 0) return
       ! A damaged length may be huge: allocate no more than the file holds.
       inquire (unit=unit, size=bytes, pos=place)
-      whole = length >= 0 .and. length <= (bytes - place + 1)/bytes_of_word - 1
-      if (.not. whole) return
-      deallocate (words)
+      if (length < 0 .or. length > (bytes - place + 1)/bytes_of_word - 1) return
       allocate (words(length))
       read (unit, iostat=status) words, sum_of_words
       if (status /= 0 .or. sum_of_words /= checksum(words)) words = words(:0)
@@ -247,7 +243,7 @@ contains
       character(200) :: message
       integer(int64), allocatable :: words(:)
       integer :: status, unit
-      logical :: understood, whole
+      logical :: understood
 
       open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status, iomsg=message)
@@ -260,12 +256,13 @@ contains
          call fatal_error(error, exit_bad_input, escaped(name)// &
                           ': this is no checkpoint of this version of wavycon'//way_out)
       else
-         call get(unit, words, whole)
-         understood = size(words) > 0
+         call get(unit, words)
+         understood = allocated(words)
+         if (understood) understood = size(words) > 0
          if (understood) call compare(name, trim(transfer(words, repeat(' ', bytes_of_word*size(words)))), now, error)
          do while (understood .and. .not. allocated(error))
-            call get(unit, words, whole)
-            if (.not. whole) exit
+            call get(unit, words)
+            if (.not. allocated(words)) exit
             call take_solution(words, results, known, understood)
          end do
          if (.not. understood) &

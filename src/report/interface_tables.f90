@@ -28,27 +28,27 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
-         columns='load[-] pbar_over_pstar[-] mean_pressure[pressure] '// &
+         columns='load[#] pbar_over_pstar[-] mean_pressure[pressure] '// &
          'contact_stiffness[pressure/length] contact_stiffness_error[pressure/length] '// &
          'contact_stiffness_normalised[-] contact_stiffness_normalised_error[-] contact_area_slope[-] '// &
          'contact_area_slope_error[-] mean_gap_curvature[-] mean_gap_curvature_error[-] '// &
-         'contact_resistance[resistivity*length] contact_resistance_error[resistivity*length] status_code[-] '// &
-         'status[-]'))
+         'contact_resistance[resistivity*length] contact_resistance_error[resistivity*length] status_code[#] '// &
+         'status[word]'))
       call add_table(tables, table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
          needs_fields=.true., put_load=put_slip, &
-         columns='load[-] tangential[-] mean_pressure[pressure] tangential_load[pressure] '// &
+         columns='load[#] tangential[#] mean_pressure[pressure] tangential_load[pressure] '// &
          'tangential_over_limit[-] stick_pbar_over_pstar[-] contact_area_fraction[-] stick_area_fraction[-] '// &
          'stick_area_error[-] displacement[length] displacement_error[length] least_displacement[length] '// &
          'most_displacement[length] tangential_stiffness[pressure/length] cycle_energy[pressure*length] '// &
-         'cycle_energy_error[pressure*length] status_code[-] status[-]'))
+         'cycle_energy_error[pressure*length] status_code[#] status[word]'))
       call add_table(tables, table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
-         columns='load[-] tangential[-] branch[-] tangential_load[pressure] displacement[length]'))
+         columns='load[#] tangential[#] branch[#] tangential_load[pressure] displacement[length]'))
       call add_table(tables, table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
          ''], needs_fields=.true., put_all=put_adhesion, &
-         columns='load[-] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
+         columns='load[#] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
          'force[force] mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
          'contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] least_release_over_w[-] '// &
-         'most_release_over_w[-] point[-]'))
+         'most_release_over_w[-] point[word]'))
    end subroutine add_interface_tables
 
    !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
@@ -76,13 +76,12 @@ contains
                                *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
             end associate
          end if
-         call file%add([load])
-         call file%add([results%in_p_star(solution%pbar_over_pstar), results%mean_pressure(load), &
-                        stiffness*scene%p_star/surface%amplitude, results%in_p_star([stiffness, &
-                        or_nan(slopes%area_slope), or_nan(slopes%area_slope_error), &
-                        or_nan(slopes%gap_curvature), or_nan(slopes%gap_curvature_error)]), resistance])
+         call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
+                            results%mean_pressure(load), stiffness*scene%p_star/surface%amplitude, &
+                            results%in_p_star([stiffness, or_nan([slopes%area_slope, slopes%area_slope_error])]), &
+                            results%in_p_star(or_nan([slopes%gap_curvature, slopes%gap_curvature_error])), &
+                            resistance, status_code(solution%status)], [status_name(solution%status)])
       end associate
-      call results%end_row(file, load)
    end subroutine put_interface
 
    !> The tangential stiffness is that of the next increase of the load.
@@ -117,14 +116,11 @@ contains
                   call stick%derivatives(results%solver%surface, slopes)
                   if (slopes%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes%gap_slope)
                end if
-               call file%add([load, i])
-               call file%add([results%mean_pressure(load), p_star*slip%tangential, &
-                              slip%tangential/(setting%friction*solution%pbar_over_pstar), &
-                              of_stick(1), solution%measures%contact_area_fraction, of_stick(2:), &
-                              setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, energy])
-               call file%add([status_code(stick%status)])
-               call file%add(trim(status_name(stick%status)))
-               call file%end_row()
+               call file%put_row([real(dp) :: load, i, results%mean_pressure(load), p_star*slip%tangential, &
+                                  slip%tangential/(setting%friction*solution%pbar_over_pstar), of_stick(1), &
+                                  solution%measures%contact_area_fraction, of_stick(2:), &
+                                  setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, &
+                                  energy, status_code(stick%status)], [status_name(stick%status)])
             end associate
          end do
       end associate
@@ -152,9 +148,8 @@ contains
                         point = [slip%tangential*(k - 1)/(n - 1), u(k)]
                         if (branch == 2) point = [slip%tangential, u(n)] - 2*point
                         if (branch == 3) point = 2*point - [slip%tangential, u(n)]
-                        call file%add([load, i, branch])
-                        call file%add(point*[p_star, setting%kappa(1)*setting%friction*amplitude])
-                        call file%end_row()
+                        call file%put_row([real(dp) :: load, i, branch, &
+                                           point*[p_star, setting%kappa(1)*setting%friction*amplitude]])
                      end do
                   end do
                end associate
@@ -180,35 +175,27 @@ contains
          type(adhesive_point), intent(in) :: points(:)
 
          integer :: i
+         real(dp) :: mean_pressure, numbers(12)
 
          call file%begin_block(title)
-         do i = 1, size(points)
-            call put_point(results, file, points(i))
-         end do
+         associate (surface => results%solver%surface)
+            do i = 1, size(points)
+               associate (point => points(i))
+                  mean_pressure = results%scene%p_star*point%load
+                  numbers = not_a_number()
+                  if (point%exists) numbers = &
+                     [results%in_p_star([point%load, point%load_error]), mean_pressure, &
+                      mean_pressure*surface%nominal_area(), &
+                      results%in_p_star([1.0_dp - point%approach, point%approach_error]), &
+                      surface%amplitude*point%approach, point%area, point%area_error, &
+                      surface%nominal_area()*point%area, point%release_range]
+                  call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
+                                    [merge(point_names(point%kind), 'none                ', point%exists)])
+               end associate
+            end do
+         end associate
       end subroutine put_block
 
    end subroutine put_adhesion
-
-   subroutine put_point(results, file, point)
-      type(results_type), intent(in) :: results
-      type(output_file), intent(inout) :: file
-      type(adhesive_point), intent(in) :: point
-
-      real(dp) :: gap(2)
-
-      associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
-         gap = results%in_p_star([1.0_dp - point%approach, point%approach_error])
-         call file%add([point%number])
-         if (point%exists) then
-            call file%add([results%in_p_star([point%p1, point%load, point%load_error]), mean_pressure, &
-                           mean_pressure*surface%nominal_area(), gap, surface%amplitude*point%approach, point%area, &
-                           point%area_error, surface%nominal_area()*point%area, point%release_range])
-         else
-            call file%add([results%in_p_star(point%p1), spread(not_a_number(), 1, 12)])
-         end if
-         call file%add(trim(merge(point_names(point%kind), 'none                ', point%exists)))
-      end associate
-      call file%end_row()
-   end subroutine put_point
 
 end module wavycon_interface_tables

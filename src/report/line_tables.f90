@@ -18,7 +18,7 @@ module wavycon_line_tables
 
    !> Columns of a line, before those of its values.
    character(*), parameter, public :: line_columns = &
-      'load[-] line[-] distance[length] x[length] y[length] pbar_over_pstar[-]'
+      'load[#] line[#] distance[length] x[length] y[length] pbar_over_pstar[-]'
 
    type :: surface_line
       integer :: number = 0
@@ -120,14 +120,13 @@ contains
       real(dp), intent(in) :: values(:, 0:)      !! at the points, shape (columns, n)
       type(output_file), intent(inout) :: file
 
-      real(dp) :: rows(size(values, 1) + 4, 0:ubound(values, 2))
+      integer :: k
 
-      rows(1, :) = line%distance
-      rows(2:3, :) = line%place
-      rows(4, :) = results%in_p_star(results%loads(load)%pbar_over_pstar)
-      rows(5:, :) = values
       if (line%number > 1) call file%put('')
-      call file%put_rows([load, line%number], rows)
+      do k = 0, ubound(values, 2)
+         call file%put_row([real(dp) :: load, line%number, line%distance(k), line%place(:, k), &
+                            results%in_p_star(results%loads(load)%pbar_over_pstar), values(:, k)])
+      end do
    end subroutine put_surface_line
 
    !> How many steps fit into a way to the border of a mirrored map.

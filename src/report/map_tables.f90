@@ -34,11 +34,11 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('map', 'map', needs_fields=.true., written_by_all=is_written_by_all, &
-         write_all=write_map_table, columns='load[-] x[length] y[length] pressure[pressure] gap[length] '// &
+         write_all=write_map_table, columns='load[#] x[length] y[length] pressure[pressure] gap[length] '// &
          'displacement[length] undeformed_gap[length]', &
          meaning='Pressures and gaps over the whole cell.'))
       call add_table(tables, table_type('slip_map', 'slip_map', 'interface', needs_fields=.true., &
-         write_all=write_slip_map, columns='load[-] tangential[-] x[length] y[length] traction[pressure] '// &
+         write_all=write_slip_map, columns='load[#] tangential[#] x[length] y[length] traction[pressure] '// &
          'pressure[pressure] slip_state[-]'))
    end subroutine add_map_tables
 

@@ -1,5 +1,5 @@
 !> A table in memory: its columns as numbers. `output_file` writes tables to it in place of a file. Columns are declared
-!> as name[unit].
+!> as name[unit]: those of the unit '#' have integers, those of the unit 'word' have words.
 module wavycon_memory_table
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -8,7 +8,7 @@ module wavycon_memory_table
    implicit none (type, external)
    private
 
-   public :: column_list, column_name, column_unit, memory_table
+   public :: column_kind, column_list, column_name, column_unit, memory_table
 
    !> What the values of a column are.
    integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
@@ -28,8 +28,7 @@ module wavycon_memory_table
       logical :: is_full = .false.                          !! whether there was not the memory for all rows
    contains
       procedure :: start
-      procedure :: add_rows
-      procedure :: number_of_word
+      procedure :: add_row
       procedure :: find_column
       procedure :: text
    end type memory_table
@@ -37,58 +36,48 @@ module wavycon_memory_table
 contains
 
    !> Starts an empty table.
-   subroutine start(self, names, units)
+   subroutine start(self, names, units, kinds)
       class(memory_table), intent(out) :: self
       character(*), intent(in) :: names(:)
       character(*), intent(in) :: units(:)   !! as many
+      integer, intent(in) :: kinds(:)        !! as many
 
       allocate (self%names(size(names)), self%units(size(names)))
       self%names = names
       self%units = units
-      allocate (self%kinds(size(names)), source=of_reals)
+      self%kinds = kinds
       allocate (self%values(size(names), first_room), self%words(0))
    end subroutine start
 
-   !> Adds rows of numbers.
-   subroutine add_rows(self, values, integers)
+   !> Adds a row.
+   subroutine add_row(self, numbers, words)
       class(memory_table), intent(inout) :: self
-      real(dp), intent(in) :: values(:, :)              !! of the last columns, shape (their number, rows)
-      integer, intent(in), optional :: integers(:)      !! of the columns before them, the same in each row
+      real(dp), intent(in) :: numbers(:)               !! of the columns of integers and of numbers
+      character(*), intent(in), optional :: words(:)   !! of the columns of words, of at most longest_word bytes
 
-      integer :: before, last
-
-      before = 0
-      if (present(integers)) before = size(integers)
-      last = self%rows + size(values, 2)
-      call make_room(self, last)
-      if (self%is_full) return
-      if (present(integers)) then
-         self%kinds(:before) = of_integers
-         self%values(:before, self%rows + 1:last) = spread(real(integers, dp), 2, size(values, 2))
-      end if
-      self%values(before + 1:, self%rows + 1:last) = values
-      self%rows = last
-   end subroutine add_rows
-
-   subroutine make_room(self, rows)
-      class(memory_table), intent(inout) :: self
-      integer, intent(in) :: rows
-
+      integer :: i
+      logical :: is_word(size(self%kinds))
       real(dp), allocatable :: longer(:, :)
 
-      associate (columns => size(self%values, 1), room => size(self%values, 2))
-         if (rows <= room .or. self%is_full) return
-         self%is_full = .not. has_memory_for(int(columns, int64)*max(rows, 2*room))
+      if (self%rows == size(self%values, 2)) then
+         self%is_full = .not. has_memory_for(2*size(self%values, kind=int64))
          if (self%is_full) return
-         allocate (longer(columns, max(rows, 2*room)))
+         allocate (longer(size(self%kinds), 2*self%rows))
+         longer(:, :self%rows) = self%values
+         call move_alloc(longer, self%values)
+      end if
+      self%rows = self%rows + 1
+      is_word = self%kinds == of_words
+      associate (row => self%values(:, self%rows))
+         row = unpack(numbers, .not. is_word, 0.0_dp)
+         if (present(words)) &
+            row = unpack([(real(number_of_word(self, words(i)), dp), i=1, size(words))], is_word, row)
       end associate
-      longer(:, :self%rows) = self%values(:, :self%rows)
-      call move_alloc(longer, self%values)
-   end subroutine make_room
+   end subroutine add_row
 
    !> The number of a word, which is added to the list if it is new.
    integer function number_of_word(self, word) result(number)
-      class(memory_table), intent(inout) :: self
+      type(memory_table), intent(inout) :: self
       character(*), intent(in) :: word   !! at most longest_word bytes
 
       character(longest_word), allocatable :: longer(:)
@@ -158,12 +147,22 @@ contains
       name = column(:index(column, '[') - 1)
    end function column_name
 
-   !> The unit in name[unit].
+   !> The unit in name[unit]; '-' of integers and words.
    elemental function column_unit(column) result(unit)
       character(*), intent(in) :: column
       character(len(column)) :: unit
 
       unit = column(index(column, '[') + 1:index(column, ']') - 1)
+      if (column_kind(column) /= of_reals) unit = '-'
    end function column_unit
+
+   !> What the values of a column are, by its unit.
+   elemental integer function column_kind(column) result(kind)
+      character(*), intent(in) :: column   !! name[unit]
+
+      kind = of_reals
+      if (index(column, '[#]') > 0) kind = of_integers
+      if (index(column, '[word]') > 0) kind = of_words
+   end function column_kind
 
 end module wavycon_memory_table

@@ -4,11 +4,11 @@
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
 module wavycon_output_file
-   use, intrinsic :: iso_c_binding, only: c_null_char
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: longest_word, memory_table, of_integers, of_reals, of_words
+   use wavycon_memory_table, only: memory_table, of_words
    use wavycon_plain_text, only: escaped, integer_text, system_words
    use wavycon_system, only: process_id, remove_file, remove_when_interrupted, rename_file
    implicit none (type, external)
@@ -16,10 +16,19 @@ module wavycon_output_file
 
    public :: output_file
 
-   !> A real number: 16 digits and a three-digit exponent.
-   character(*), parameter :: real_digits = '.15e3', real_format = '(es24'//real_digits//')'
-   !> The narrowest column: such a number with a blank before it.
+   !> The narrowest column: a real number of 16 digits with a three-digit exponent, and a blank before it.
    integer, parameter :: narrowest = 25
+
+   interface
+      !> Writes numbers to a line, each at the right of its column: row_text.c.
+      pure subroutine put_in_columns(columns, kinds, ends, numbers, line) bind(c, name='wavycon_put_in_columns')
+         import :: c_char, c_double, c_int
+         integer(c_int), value :: columns
+         integer(c_int), intent(in) :: kinds(*), ends(*)          !! of each column, as of output_file
+         real(c_double), intent(in) :: numbers(*)                 !! of the columns without words
+         character(kind=c_char), intent(inout) :: line(*)
+      end subroutine put_in_columns
+   end interface
 
    type :: output_file
       private
@@ -34,12 +43,8 @@ module wavycon_output_file
       character(:), allocatable :: names(:)       !! of the columns; not allocated if the file is no table
       logical :: has_names = .false.              !! whether the line of the names was written
       integer :: blocks = 0                       !! data sets begun by begin_block
-      integer, allocatable :: column_end(:)       !! position in a row at which each column ends
-      !> The row being filled: of each column what it is, the number, the word.
-      integer :: columns_filled = 0
-      integer, allocatable :: kinds(:)
-      real(dp), allocatable :: numbers(:)
-      character(longest_word), allocatable :: words(:)
+      integer(c_int), allocatable :: column_end(:)       !! position in a row at which each column ends
+      integer(c_int), allocatable :: kinds(:)            !! what the values of each column are
    contains
       procedure :: open => open_file
       procedure :: is_open
@@ -47,10 +52,7 @@ module wavycon_output_file
       procedure :: put_numbers
       procedure :: put_columns
       procedure :: begin_block
-      procedure, private :: add_integers, add_long, add_reals, add_word
-      generic :: add => add_integers, add_long, add_reals, add_word
-      procedure :: end_row
-      procedure :: put_rows
+      procedure :: put_row
       procedure :: note_trouble
       procedure :: finish
    end type output_file
@@ -107,17 +109,18 @@ contains
 
    !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
    !> or, without blocks, before the first row.
-   subroutine put_columns(self, names, units)
+   subroutine put_columns(self, names, units, kinds)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: names(:)   !! without blanks
       character(*), intent(in) :: units(:)   !! as many; shown in brackets
+      integer, intent(in) :: kinds(:)        !! as many: names of wavycon_memory_table
 
       character(len(units) + 2) :: in_brackets(size(units))
       character(:), allocatable :: line
       integer :: i, last, width
 
-      allocate (self%kinds(size(names)), self%numbers(size(names)), self%words(size(names)))
-      if (associated(self%memory)) call self%memory%start(names, units)
+      if (associated(self%memory)) call self%memory%start(names, units, kinds)
+      self%kinds = int(kinds, c_int)
       self%names = names
       allocate (self%column_end(size(names)))
       last = 0
@@ -169,96 +172,31 @@ contains
       call put_names(self)
    end subroutine begin_block
 
-   !> Fills the next columns of a row with integers.
-   subroutine add_integers(self, values)
+   !> Writes a row.
+   subroutine put_row(self, numbers, words)
       class(output_file), intent(inout) :: self
-      integer, intent(in) :: values(:)
+      real(dp), intent(in) :: numbers(:)               !! of the columns of integers and of numbers
+      character(*), intent(in), optional :: words(:)   !! of the columns of words; without blanks
 
-      call self%add_long(int(values, int64))
-   end subroutine add_integers
+      character(:), allocatable :: line
+      integer :: i, k
 
-   subroutine add_long(self, values)
-      class(output_file), intent(inout) :: self
-      integer(int64), intent(in) :: values(:)   !! of at most 15 digits
-
-      call self%add(real(values, dp))
-      self%kinds(self%columns_filled - size(values) + 1:self%columns_filled) = of_integers
-   end subroutine add_long
-
-   subroutine add_reals(self, values)
-      class(output_file), intent(inout) :: self
-      real(dp), intent(in) :: values(:)
-
-      associate (first => self%columns_filled + 1, last => self%columns_filled + size(values))
-         self%numbers(first:last) = values
-         self%kinds(first:last) = of_reals
-      end associate
-      self%columns_filled = self%columns_filled + size(values)
-   end subroutine add_reals
-
-   subroutine add_word(self, word)
-      class(output_file), intent(inout) :: self
-      character(*), intent(in) :: word   !! without blanks
-
-      call self%add([0.0_dp])
-      self%words(self%columns_filled) = word
-      self%kinds(self%columns_filled) = of_words
-   end subroutine add_word
-
-   !> Writes the row that was filled.
-   subroutine end_row(self)
-      class(output_file), intent(inout) :: self
-
-      integer :: k
-
-      do k = 1, self%columns_filled
-         if (associated(self%memory)) then
-            if (self%kinds(k) /= of_reals) self%memory%kinds(k) = self%kinds(k)
-            if (self%kinds(k) == of_words) self%numbers(k) = self%memory%number_of_word(trim(self%words(k)))
-         else if (self%kinds(k) == of_integers) then
-            write (self%words(k), '(i0)') nint(self%numbers(k), int64)
-         else if (self%kinds(k) == of_reals) then
-            write (self%words(k), real_format) self%numbers(k)
-            self%words(k) = adjustl(self%words(k))
-         end if
-      end do
-      self%columns_filled = 0
       if (associated(self%memory)) then
-         call self%memory%add_rows(reshape(self%numbers, [size(self%numbers), 1]))
-      else
-         if (.not. self%has_names) call put_names(self)
-         call self%put(aligned(self, self%words))
-      end if
-   end subroutine end_row
-
-   !> Writes many rows of integers and of numbers: the same as `add` and `end_row` for each, in a third of the time.
-   subroutine put_rows(self, integers, values)
-      class(output_file), intent(inout) :: self
-      integer, intent(in) :: integers(:)     !! of the first columns, the same in each row
-      real(dp), intent(in) :: values(:, :)   !! of the others, shape (other columns, rows)
-
-      character(:), allocatable :: row_format, width
-      integer :: i
-
-      if (allocated(self%trouble)) return
-      if (associated(self%memory)) then
-         call self%memory%add_rows(values, integers)
+         call self%memory%add_row(numbers, words)
          return
       end if
       if (.not. self%has_names) call put_names(self)
-      row_format = '(i'//integer_text(self%column_end(1))
-      do i = 2, size(self%column_end)
-         width = integer_text(self%column_end(i) - self%column_end(i - 1))
-         if (i <= size(integers)) then
-            row_format = row_format//', i'//width
-         else
-            row_format = row_format//', es'//width//real_digits
-         end if
-      end do
-      write (self%unit, row_format//')', iostat=self%status, iomsg=self%message) &
-         (integers, values(:, i), i=1, size(values, 2))
-      call check(self)
-   end subroutine put_rows
+      line = repeat(' ', self%column_end(size(self%kinds)))
+      call put_in_columns(size(self%kinds, kind=c_int), self%kinds, self%column_end, numbers, line)
+      if (present(words)) then
+         k = 0
+         do i = 1, size(words)
+            k = k + findloc(self%kinds(k + 1:), of_words, dim=1)
+            line(self%column_end(k) - len_trim(words(i)) + 1:self%column_end(k)) = trim(words(i))
+         end do
+      end if
+      call self%put(line)
+   end subroutine put_row
 
    !> Records an error of the last statement.
    subroutine check(self)

@@ -5,11 +5,11 @@ module wavycon_results
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: status_code, status_name
+   use wavycon_contact_status, only: status_name
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_list, column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_kind, column_list, column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
@@ -40,7 +40,6 @@ module wavycon_results
    contains
       procedure :: open_table
       procedure :: begin_block
-      procedure :: end_row
       procedure :: unit_in_words
       procedure :: in_p_star
       procedure :: approach_over_amplitude
@@ -72,40 +71,33 @@ contains
          do i = 1, size(names)
             units(i) = self%unit_in_words(trim(column_unit(names(i))))
          end do
-         call file%put_columns(column_name(names), units)
+         call file%put_columns(column_name(names), units, column_kind(names))
       end associate
    end subroutine open_table
 
    !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
    !> them; others as they are.
-   pure function unit_in_words(self, unit) result(words)
+   pure recursive function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit
       character(longest_unit) :: words
 
       character(8), parameter :: names(*) = [character(8) :: 'length', 'pressure', 'area', 'force']
-      character(:), allocatable :: label, answer
+      character(:), allocatable :: label
       integer :: first, k
 
-      answer = ''
-      first = 1
-      do while (first <= len(unit))
-         do k = 1, size(names)
-            if (index(unit(first:), trim(names(k))) == 1) exit
-         end do
-         if (k > size(names)) then
-            answer = answer//unit(first:first)
-            first = first + 1
-            cycle
-         end if
+      words = unit
+      do k = 1, size(names)
+         first = index(unit, trim(names(k)))
+         if (first == 0) cycle
          label = self%scene%length_unit
          if (names(k) == 'pressure') label = self%scene%pressure_unit
          if (k > 2 .and. self%solver%surface%dimension == 2) label = label//'^2'
          if (names(k) == 'force') label = self%scene%pressure_unit//'*'//label
-         answer = answer//label
-         first = first + len_trim(names(k))
+         words = trim(self%unit_in_words(unit(:first - 1)))//label// &
+                 self%unit_in_words(unit(first + len_trim(names(k)):))
+         return
       end do
-      words = answer
    end function unit_in_words
 
    !> Begins the block of a load with a comment and the names of the columns.
@@ -122,17 +114,6 @@ contains
          call file%begin_block('load '//integer_text(load)//': '//words//', '//trim(status_name(solution%status)))
       end associate
    end subroutine begin_block
-
-   !> Ends the row of a load with its status, in the last two columns.
-   subroutine end_row(self, file, load)
-      class(results_type), intent(in) :: self
-      type(output_file), intent(inout) :: file
-      integer, intent(in) :: load    !! number in the deck's order
-
-      call file%add([status_code(self%loads(load)%status)])
-      call file%add(trim(status_name(self%loads(load)%status)))
-      call file%end_row()
-   end subroutine end_row
 
    !> A number in units of p*: NaN on a surface with free edges, which has no p*.
    elemental real(dp) function in_p_star(self, number)

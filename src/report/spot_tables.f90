@@ -17,6 +17,7 @@ module wavycon_spot_tables
    use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_region, contact_spots
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_histogram, only: histogram, make_histogram
    use wavycon_kinds, only: dp
    use wavycon_measure_tuning, only: line_samples, plane_samples
@@ -35,21 +36,21 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('contour', 'contours', needs_fields=.true., put_load=put_curves, &
-         columns='load[-] curve[-] x[length] y[length]', &
+         columns='load[#] curve[#] x[length] y[length]', &
          meaning='The edge of contact as closed curves.'))
       call add_table(tables, table_type('spots', 'spots', needs_fields=.true., put_load=put_spots, &
-         columns='load[-] pbar_over_pstar[-] contact_area_fraction[-] spots[-] '// &
-         'spots_area_fraction[-] largest_spot_area_fraction[-] closed_pools[-] closed_pools_area_fraction[-] '// &
-         'largest_pool_area_fraction[-] perimeter[length] contact_percolates_x[-] contact_percolates_y[-] '// &
-         'gap_percolates_x[-] gap_percolates_y[-] status_code[-] status[-]', &
+         columns='load[#] pbar_over_pstar[-] contact_area_fraction[-] spots[#] '// &
+         'spots_area_fraction[-] largest_spot_area_fraction[-] closed_pools[#] closed_pools_area_fraction[-] '// &
+         'largest_pool_area_fraction[-] perimeter[length] contact_percolates_x[#] contact_percolates_y[#] '// &
+         'gap_percolates_x[#] gap_percolates_y[#] status_code[#] status[word]', &
          meaning='Number and sizes of contact spots and of pools of gap; percolation of both.'))
       call add_table(tables, table_type('spot_sizes', asked_by=[character(16) :: 'spots', ''], needs_fields=.true., &
          put_load=put_spot_sizes, &
-         columns='load[-] rank[-] area[area] area_fraction[-] equivalent_radius[length] '// &
-         'perimeter[length] load_fraction[-] mean_pressure[pressure] x[length] y[length] holes[-] percolates_x[-] '// &
-         'percolates_y[-] region[-]'))
+         columns='load[#] rank[#] area[area] area_fraction[-] equivalent_radius[length] '// &
+         'perimeter[length] load_fraction[-] mean_pressure[pressure] x[length] y[length] holes[#] percolates_x[#] '// &
+         'percolates_y[#] region[word]'))
       call add_table(tables, table_type('histogram', 'histograms', needs_fields=.true., put_load=put_histogram, &
-         columns='load[-] bin[-] pressure[pressure] pressure_mean[pressure] pressure_fraction[-] '// &
+         columns='load[#] bin[#] pressure[pressure] pressure_mean[pressure] pressure_fraction[-] '// &
          'pressure_density[1/pressure] gap[length] gap_mean[length] gap_fraction[-] gap_density[1/length]', &
          meaning='How pressures are distributed over the contact, and gaps over the open area.'))
    end subroutine add_spot_tables
@@ -61,7 +62,6 @@ contains
 
       type(contact_contour), allocatable :: curves(:)   ! in X and Y
       integer :: i, k
-      real(dp), allocatable :: places(:, :)
 
       associate (surface => results%solver%surface)
          call results%loads(load)%contact_contours(surface, curves)
@@ -69,10 +69,9 @@ contains
          if (size(curves) > 0) call results%begin_block(file, load)
          do i = 1, size(curves)
             if (i > 1) call file%put('')
-            associate (phi => curves(i)%phi, theta => curves(i)%theta)
-               places = reshape([(surface%length*[phi(k), theta(k)]/(2*pi), k=1, size(phi))], [2, size(phi)])
-            end associate
-            call file%put_rows([load, i], places)
+            do k = 1, size(curves(i)%phi)
+               call file%put_row([real(dp) :: load, i, surface%length*[curves(i)%phi(k), curves(i)%theta(k)]/(2*pi)])
+            end do
          end do
       end associate
    end subroutine put_curves
@@ -83,28 +82,26 @@ contains
       type(output_file), intent(inout) :: file
 
       type(contact_spots) :: regions
+      real(dp) :: numbers(11)
       real(dp), allocatable :: pools(:), spots(:)   ! areas
       integer :: i
 
       associate (solution => results%loads(load))
          call solution%spots(results%solver%surface, regions)
-         call file%add([load])
-         call file%add([results%in_p_star(solution%pbar_over_pstar), solution%measures%contact_area_fraction])
+         numbers = not_a_number()
+         if (allocated(regions%spots)) then
+            spots = regions%spots%area_fraction
+            pools = regions%pools%area_fraction
+            pools = pack(pools, regions%pools%is_closed())
+            numbers = [real(dp) :: size(spots), sum(spots), max(0.0_dp, maxval(spots)), &
+                       size(pools), sum(pools), max(0.0_dp, maxval(pools)), regions%perimeter(), &
+                       (merge(1, 0, any(regions%spots%percolates(i))), i=1, 2), &
+                       (merge(1, 0, any(regions%pools%percolates(i))), i=1, 2)]
+         end if
+         call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
+                            solution%measures%contact_area_fraction, numbers, status_code(solution%status)], &
+                           [status_name(solution%status)])
       end associate
-      if (allocated(regions%spots)) then
-         spots = regions%spots%area_fraction
-         pools = regions%pools%area_fraction
-         pools = pack(pools, regions%pools%is_closed())
-         call file%add([size(spots)])
-         call file%add([sum(spots), max(0.0_dp, maxval(spots))])
-         call file%add([size(pools)])
-         call file%add([sum(pools), max(0.0_dp, maxval(pools)), regions%perimeter()])
-         call file%add([(merge(1, 0, any(regions%spots%percolates(i))), i=1, 2), &
-                        (merge(1, 0, any(regions%pools%percolates(i))), i=1, 2)])
-      else
-         call file%add([(not_a_number(), i=1, 11)])
-      end if
-      call results%end_row(file, load)
    end subroutine put_spots
 
    subroutine put_spot_sizes(results, load, file)
@@ -130,36 +127,25 @@ contains
       type(contact_region), intent(in) :: regions(:)   !! the largest first
       character(*), intent(in) :: kind                 !! 'spot' or 'pool'
 
-      real(dp) :: area, mean_pressure
+      real(dp) :: area, mean_pressure, radius
       integer :: i
 
       associate (surface => results%solver%surface)
          do i = 1, size(regions)
             associate (region => regions(i))
                area = region%area_fraction*surface%nominal_area()
+               ! That of the disc of this area; of a strip half its width.
+               radius = merge(0.5_dp*area, sqrt(area/pi), surface%dimension == 1)
                mean_pressure = not_a_number()
                if (region%area_fraction > 0.0_dp) &
                   mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
-               call file%add([load, i])
-               call file%add([area, region%area_fraction, equivalent_radius(area, surface%dimension), &
-                              region%perimeter, region%load_fraction, mean_pressure, &
-                              surface%length*region%centre/(2*pi)])
-               call file%add([region%holes, merge(1, 0, region%percolates)])
-               call file%add(kind)
-               call file%end_row()
+               call file%put_row([real(dp) :: load, i, area, region%area_fraction, radius, region%perimeter, &
+                                  region%load_fraction, mean_pressure, surface%length*region%centre/(2*pi), &
+                                  region%holes, merge(1, 0, region%percolates)], [kind])
             end associate
          end do
       end associate
    end subroutine put_regions
-
-   !> The radius of the disc of an area; of a strip half its width [length].
-   pure real(dp) function equivalent_radius(area, dimension) result(radius)
-      real(dp), intent(in) :: area         !! [length^2], in 1-D [length]
-      integer, intent(in) :: dimension
-
-      radius = sqrt(area/pi)
-      if (dimension == 1) radius = 0.5_dp*area
-   end function equivalent_radius
 
    !> Writes the block of a load, if it has a solution.
    subroutine put_histogram(results, load, file)
@@ -194,20 +180,20 @@ contains
       end associate
       call results%begin_block(file, load)
       do bin = 1, bins
-         call file%add([load, bin])
-         call put_bin(pressures, results%scene%p_star)
-         call put_bin(gaps, results%solver%surface%amplitude)
-         call file%end_row()
+         call file%put_row([real(dp) :: load, bin, in_unit(pressures, results%scene%p_star), &
+                            in_unit(gaps, results%solver%surface%amplitude)])
       end do
 
    contains
 
-      subroutine put_bin(of, unit)
+      !> The numbers of the bin.
+      pure function in_unit(of, unit) result(numbers)
          type(histogram), intent(in) :: of
          real(dp), intent(in) :: unit   !! of its values [pressure] or [length]
+         real(dp) :: numbers(4)
 
-         call file%add([unit*of%middle(bin), unit*of%mean(bin), of%fraction(bin), of%density(bin)/unit])
-      end subroutine put_bin
+         numbers = [unit*of%middle(bin), unit*of%mean(bin), of%fraction(bin), of%density(bin)/unit]
+      end function in_unit
 
    end subroutine put_histogram
 

@@ -8,6 +8,7 @@
 module wavycon_stress_tables
    use wavycon_cell_file, only: cell_file
    use wavycon_constants, only: pi
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
@@ -42,22 +43,22 @@ contains
 
       ! The ratio to the yield stress is that of the criterion in use.
       call add_table(tables, table_type('stress_largest', 'largest', 'stress', put_load=put_largest_stresses, &
-         columns='load[-] body[-] nu[-] pbar_over_pstar[-] '// &
+         columns='load[#] body[#] nu[-] pbar_over_pstar[-] '// &
          'largest_von_mises_over_pstar[-] largest_von_mises_over_pstar_error[-] largest_shear_over_pstar[-] '// &
          'largest_shear_over_pstar_error[-] stress_over_yield_stress[-] stress_over_yield_stress_error[-] '// &
          'mean_pressure[pressure] largest_von_mises[pressure] largest_von_mises_error[pressure] '// &
          'von_mises_x[length] '// &
          'von_mises_y[length] von_mises_depth[length] largest_shear[pressure] largest_shear_error[pressure] '// &
-         'shear_x[length] shear_y[length] shear_depth[length] status_code[-] status[-]'))
+         'shear_x[length] shear_y[length] shear_depth[length] status_code[#] status[word]'))
       call add_table(tables, table_type('stress_line', 'line', 'stress', needs_fields=.true., put_load=put_line, &
-         columns='load[-] body[-] depth[length] depth_over_cell_x[-] '//stress_columns))
+         columns='load[#] body[#] depth[length] depth_over_cell_x[-] '//stress_columns))
       call add_table(tables, table_type('stress_section', 'section', 'stress', needs_fields=.true., &
          put_load=put_section, &
-         columns='load[-] body[-] distance[length] x[length] y[length] depth[length] '// &
+         columns='load[#] body[#] distance[length] x[length] y[length] depth[length] '// &
          stress_columns))
       call add_table(tables, table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
          write_all=write_stress_planes_table, &
-         columns='load[-] body[-] x[length] y[length] depth[length] '//stress_columns))
+         columns='load[#] body[#] x[length] y[length] depth[length] '//stress_columns))
    end subroutine add_stress_tables
 
    !> The largest stresses are found before the tables are written.
@@ -75,28 +76,26 @@ contains
             ratio = not_a_number()
             if (allocated(setting%yield_stress)) &
                ratio = setting%over_yield_stress(body, [yielding%value, yielding%error], [shear%value, shear%error])
-            call file%add([load, body])
-            call file%add([setting%body(body)%nu, results%in_p_star([results%loads(load)%pbar_over_pstar, &
-                           yielding%value, yielding%error, shear%value, shear%error]), ratio, &
-                           results%mean_pressure(load)])
-            call put_largest(yielding)
-            call put_largest(shear)
-            call results%end_row(file, load)
+            call file%put_row([real(dp) :: load, body, setting%body(body)%nu, &
+                               results%in_p_star([results%loads(load)%pbar_over_pstar, yielding%value, &
+                                                  yielding%error, shear%value, shear%error]), ratio, &
+                               results%mean_pressure(load), in_units(yielding), in_units(shear), &
+                               status_code(results%loads(load)%status)], [status_name(results%loads(load)%status)])
          end associate
       end do
 
    contains
 
-      !> Value and place in the deck's units.
-      subroutine put_largest(largest)
+      !> Value, error and place in the deck's units.
+      pure function in_units(largest) result(numbers)
          type(largest_stress), intent(in) :: largest
+         real(dp) :: numbers(5)
 
-         associate (scene => results%scene, length => results%solver%surface%length, &
-                    parts => results%solver%surface%parts())
-            call file%add([scene%p_star*[largest%value, largest%error], &
-                           [length, length(1)]*largest%place_in_cell(parts)])
+         associate (surface => results%solver%surface)
+            numbers = [results%scene%p_star*[largest%value, largest%error], &
+                       [surface%length, surface%length(1)]*largest%place_in_cell(surface%parts())]
          end associate
-      end subroutine put_largest
+      end function in_units
 
    end subroutine put_largest_stresses
 
@@ -163,7 +162,6 @@ contains
       type(cell_file) :: planes
       class(stress_fields), allocatable :: fields
       real(dp), allocatable :: depths(:), errors(:, :), stress(:, :, :), values(:, :)
-      real(dp) :: here(6)
       integer :: body, i, k, l, load
 
       associate (scene => results%scene, surface => results%solver%surface, &
@@ -181,8 +179,7 @@ contains
                                        scene%stress_setting%body(body), stress, errors)
                   do l = 1, planes%points(2)
                      do k = 1, planes%points(1)
-                        here = stress(k, l, :)
-                        values(:, k) = [depths(i), stress_numbers(here, errors(k, l), scene%p_star)]
+                        values(:, k) = [depths(i), stress_numbers(stress(k, l, :), errors(k, l), scene%p_star)]
                      end do
                      call planes%put_row([load, body], l, values)
                   end do
@@ -217,19 +214,17 @@ contains
       real(dp), intent(in) :: errors(:, :)            !! of the stresses [p*], shape (points, rows)
       type(output_file), intent(inout) :: file   !! with the columns 'load', 'body', those of the places, and stresses
 
-      real(dp), allocatable :: rows(:, :)
       integer :: body, i, k
 
       do body = 1, size(results%scene%stress_setting%body)
          call results%begin_block(file, load)
          do i = 1, size(places, 3)
             if (i > 1) call file%put('')
-            rows = reshape([(places(:, k, i), &
-                             stress_numbers(results%scene%stress_setting%body(body)%stress(parts(:, :, k, i), &
-                                                                                           pbar_over_pstar), &
-                                            errors(k, i), results%scene%p_star), k=1, size(places, 2))], &
-                           [size(places, 1) + numbers_of_stress, size(places, 2)])
-            call file%put_rows([load, body], rows)
+            do k = 1, size(places, 2)
+               call file%put_row([real(dp) :: load, body, places(:, k, i), stress_numbers( &
+                                  results%scene%stress_setting%body(body)%stress(parts(:, :, k, i), pbar_over_pstar), &
+                                  errors(k, i), results%scene%p_star)])
+            end do
          end do
       end do
    end subroutine put_stresses

@@ -9,8 +9,10 @@
 module wavycon_summary_tables
    use wavycon_contact_details, only: contact_details
    use wavycon_contact_measures, only: linear_area_fraction, or_nan
+   use wavycon_contact_status, only: status_code, status_name
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_memory_table, only: longest_word
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_solution_record, only: solver_names
@@ -24,7 +26,7 @@ module wavycon_summary_tables
    !> too: what is at the hardness without a hardness, areas by points without a grid, the linear law if the surface is
    !> no map.
    character(*), parameter, public :: summary_columns = &
-      'load[-] pbar_over_pstar[-] mean_gap_over_amplitude[-] approach_over_amplitude[-] contact_area_fraction[-] '// &
+      'load[#] pbar_over_pstar[-] mean_gap_over_amplitude[-] approach_over_amplitude[-] contact_area_fraction[-] '// &
       'peak_pressure_over_pstar[-] min_pressure_over_pstar[-] mean_gap_over_amplitude_error[-] '// &
       'contact_area_fraction_error[-] peak_pressure_over_pstar_error[-] area_at_hardness_fraction[-] '// &
       'load_at_hardness_fraction[-] area_at_hardness_fraction_error[-] load_at_hardness_fraction_error[-] '// &
@@ -32,8 +34,8 @@ module wavycon_summary_tables
       'mean_pressure[pressure] force[force] mean_gap[length] approach[length] approach_error[length] '// &
       'contact_area[area] contact_area_error[area] peak_pressure[pressure] peak_pressure_error[pressure] '// &
       'elastic_energy_over_pstar_amplitude[-] elastic_energy_over_pstar_amplitude_error[-] '// &
-      'elastic_energy[force*length] elastic_energy_error[force*length] active_constraints[-] iterations[-] '// &
-      'residual[-] solver[-] status_code[-] status[-]'
+      'elastic_energy[force*length] elastic_energy_error[force*length] active_constraints[#] iterations[#] '// &
+      'residual[-] solver[word] status_code[#] status[word]'
 
 contains
 
@@ -46,17 +48,17 @@ contains
       ! The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open pool;
       ! the paper's cell has two of each.
       call add_table(tables, table_type('details', 'details', needs_fields=.true., put_load=put_details, &
-         columns='load[-] pbar_over_pstar[-] '// &
+         columns='load[#] pbar_over_pstar[-] '// &
          'mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] contact_area_fraction[-] '// &
          'contact_area_fraction_error[-] peak_pressure_over_pstar[-] peak_pressure_over_pstar_error[-] '// &
          'trough_gap_over_amplitude[-] trough_gap_over_amplitude_error[-] saddle_gap_over_amplitude[-] '// &
          'saddle_gap_over_amplitude_error[-] saddle_pressure_over_pstar[-] saddle_pressure_over_pstar_error[-] '// &
          'elastic_energy_over_pstar_amplitude[-] elastic_energy_over_pstar_amplitude_error[-] perimeter[length] '// &
-         'perimeter_error[length] degree[-] status_code[-] status[-]', &
+         'perimeter_error[length] degree[#] status_code[#] status[word]', &
          meaning='Gaps at trough and saddle, strain energy, perimeter and the numbers of the '// &
          'summary, each with its error estimate.'))
       call add_table(tables, table_type('coefficients', 'coefficients', put_load=put_coefficients, &
-         columns='load[-] i[-] j[-] pressure_over_pstar[-]', &
+         columns='load[#] i[#] j[#] pressure_over_pstar[-]', &
          meaning='The Fourier coefficients of the pressure.'))
    end subroutine add_summary_tables
 
@@ -65,6 +67,7 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
+      character(longest_word) :: words(2)
       real(dp) :: approach(2), at_hardness(4), energy(2), errors(3)
 
       associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load), &
@@ -80,26 +83,22 @@ contains
             if (results%traits%has_errors) &
                at_hardness(3:) = or_nan([measures%area_at_hardness_error, measures%load_at_hardness_error])
          end if
-         call file%add([load])
-         call file%add([results%in_p_star(solution%pbar_over_pstar), &
-                        measures%mean_gap_over_amplitude, approach(1), &
-                        measures%contact_area_fraction, results%in_p_star(measures%peak_pressure_over_pstar), &
-                        results%in_p_star(measures%min_pressure_over_pstar), errors(:2), &
-                        results%in_p_star(errors(3)), at_hardness, &
-                        or_nan(measures%contact_area_counted_fraction), &
-                        or_nan(measures%contact_area_corrected_fraction), &
-                        or_nan(linear_area_fraction(surface, scene%roughness%slope, solution%pbar_over_pstar)), &
-                        results%mean_pressure(load), surface%nominal_area()*results%mean_pressure(load), &
-                        surface%amplitude*[measures%mean_gap_over_amplitude, approach], &
-                        surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
-                        results%peak_pressure(load), scene%p_star*errors(3), results%in_p_star(energy), &
-                        scene%p_star*surface%amplitude*surface%nominal_area()*energy])
-         call file%add([solution%active_constraints])
-         call file%add([solution%iterations])
-         call file%add([solution%residual])
-         call file%add(trim(solver_names(solution%solver)))
+         words(1) = solver_names(solution%solver)
+         words(2) = status_name(solution%status)
+         call file%put_row( &
+            [real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), measures%mean_gap_over_amplitude, &
+             approach(1), measures%contact_area_fraction, results%in_p_star(measures%peak_pressure_over_pstar), &
+             results%in_p_star(measures%min_pressure_over_pstar), errors(:2), results%in_p_star(errors(3)), &
+             at_hardness, or_nan(measures%contact_area_counted_fraction), &
+             or_nan(measures%contact_area_corrected_fraction), &
+             or_nan(linear_area_fraction(surface, scene%roughness%slope, solution%pbar_over_pstar)), &
+             results%mean_pressure(load), surface%nominal_area()*results%mean_pressure(load), &
+             surface%amplitude*[measures%mean_gap_over_amplitude, approach], &
+             surface%nominal_area()*[measures%contact_area_fraction, errors(2)], &
+             results%peak_pressure(load), scene%p_star*errors(3), results%in_p_star(energy), &
+             scene%p_star*surface%amplitude*surface%nominal_area()*energy, solution%active_constraints, &
+             solution%iterations, solution%residual, status_code(solution%status)], words)
       end associate
-      call results%end_row(file, load)
    end subroutine put_summary_row
 
    subroutine put_details(results, load, file)
@@ -118,13 +117,11 @@ contains
                                details%saddle_gap, details%saddle_gap_error, &
                                details%saddle_pressure, details%saddle_pressure_error, &
                                details%energy, details%energy_error, details%perimeter, details%perimeter_error]
-         call file%add([load])
-         call file%add([solution%pbar_over_pstar, measures%mean_gap_over_amplitude, measures%mean_gap_error, &
-                        measures%contact_area_fraction, measures%contact_area_error, &
-                        measures%peak_pressure_over_pstar, measures%peak_pressure_error, numbers])
-         call file%add([details%degree])
+         call file%put_row([real(dp) :: load, solution%pbar_over_pstar, measures%mean_gap_over_amplitude, &
+                            measures%mean_gap_error, measures%contact_area_fraction, measures%contact_area_error, &
+                            measures%peak_pressure_over_pstar, measures%peak_pressure_error, numbers, &
+                            details%degree, status_code(solution%status)], [status_name(solution%status)])
       end associate
-      call results%end_row(file, load)
    end subroutine put_details
 
    subroutine put_coefficients(results, load, file)
@@ -141,9 +138,7 @@ contains
       do i = 0, ubound(pressure%c, 1)
          do j = 0, ubound(pressure%c, 2)
             if (i + j == 0) cycle
-            call file%add([load, i, j])
-            call file%add([pressure%c(i, j)])
-            call file%end_row()
+            call file%put_row([real(dp) :: load, i, j, pressure%c(i, j)])
          end do
       end do
    end subroutine put_coefficients

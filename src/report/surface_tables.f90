@@ -27,7 +27,7 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('spectrum', 'spectrum', put_all=put_spectra, &
-         columns='direction[-] wave_number[rad/length] waves[-] spectrum_2d[length^4] spectrum_1d[length^3] '// &
+         columns='direction[word] wave_number[rad/length] waves[#] spectrum_2d[length^4] spectrum_1d[length^3] '// &
          'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]', &
          meaning='The power spectrum of the surface.'))
       ! The columns are those of the table in memory.
@@ -41,40 +41,37 @@ contains
       type(results_type), intent(in) :: results
       type(output_file), intent(inout) :: file
 
+      integer :: i
+
       associate (surface => results%solver%surface)
          associate (shape => surface%shape, unit => surface%amplitude, length => surface%length, &
                     points => surface%points)
-            if (surface%dimension == 2) &
-               call put_spectrum(file, 'radial', radial_spectrum(shape, unit, length, points), is_radial=.true.)
-            call put_spectrum(file, 'x', line_spectrum(shape, unit, length, points, 1), is_radial=.false.)
-            if (surface%dimension == 2) &
-               call put_spectrum(file, 'y', line_spectrum(shape, unit, length, points, 2), is_radial=.false.)
+            if (surface%dimension == 2) call put_spectrum('radial', radial_spectrum(shape, unit, length, points))
+            do i = 1, surface%dimension
+               call put_spectrum('xy'(i:i), line_spectrum(shape, unit, length, points, i))
+            end do
          end associate
       end associate
+   contains
+
+      !> Writes the block of a spectrum.
+      subroutine put_spectrum(direction, spectrum)
+         character(*), intent(in) :: direction
+         type(power_spectrum), intent(in) :: spectrum
+
+         real(dp) :: densities(2)
+         integer :: k
+
+         call file%begin_block('direction: '//direction)
+         do k = 1, size(spectrum%waves)
+            densities = not_a_number()
+            densities(merge(1, 2, direction == 'radial')) = spectrum%density(k)
+            call file%put_row([real(dp) :: spectrum%wave_number(k), spectrum%waves(k), densities, &
+                               spectrum%height(k), spectrum%slope(k), spectrum%curvature(k)], [direction])
+         end do
+      end subroutine put_spectrum
+
    end subroutine put_spectra
-
-   !> Writes the block of a spectrum.
-   subroutine put_spectrum(file, direction, spectrum, is_radial)
-      type(output_file), intent(inout) :: file
-      character(*), intent(in) :: direction
-      type(power_spectrum), intent(in) :: spectrum
-      logical, intent(in) :: is_radial
-
-      real(dp) :: densities(2)
-      integer :: i
-
-      call file%begin_block('direction: '//direction)
-      do i = 1, size(spectrum%waves)
-         densities = not_a_number()
-         densities(merge(1, 2, is_radial)) = spectrum%density(i)
-         call file%add(direction)
-         call file%add([spectrum%wave_number(i)])
-         call file%add([spectrum%waves(i)])
-         call file%add(densities)
-         call file%add([spectrum%height(i), spectrum%slope(i), spectrum%curvature(i)])
-         call file%end_row()
-      end do
-   end subroutine put_spectrum
 
    !> All ranks write the heights of a map that is distributed over them.
    logical function is_written_by_all(results)
@@ -95,7 +92,7 @@ contains
       type(grid_slab) :: slab
       type(grid_transform) :: transform
       real(dp), allocatable :: column(:, :), height(:, :)
-      integer :: l, points(2)
+      integer :: k, l, points(2)
       logical :: is_own, is_here
       real(dp) :: first
 
@@ -127,27 +124,15 @@ contains
                call surface%sample_shape(points, [first, first], height)
                height = surface%amplitude*height
                if (.not. associated(results%memory)) call file%put_numbers(height)
-               if (associated(results%memory)) call put_places(height, surface%sides(), first, file)
+               do l = 1, merge(points(2), 0, associated(results%memory))
+                  do k = 1, points(1)
+                     call file%put_row([surface%sides()*([k, l] - 1 + first)/points, height(k, l)])
+                  end do
+               end do
             end if
          end if
       end associate
       if (is_here) call file%finish(error)
    end subroutine write_height_table
-
-   !> Writes a row of the table in memory for each point.
-   subroutine put_places(height, sides, first, file)
-      real(dp), intent(in) :: height(:, :), sides(2)   !! [length]
-      real(dp), intent(in) :: first                    !! place of the first point along both directions, in steps
-      type(output_file), intent(inout) :: file
-
-      integer :: k, l
-
-      do l = 1, size(height, 2)
-         do k = 1, size(height, 1)
-            call file%add([sides*([k, l] - 1 + first)/shape(height), height(k, l)])
-            call file%end_row()
-         end do
-      end do
-   end subroutine put_places
 
 end module wavycon_surface_tables

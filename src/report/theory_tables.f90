@@ -36,7 +36,7 @@ contains
       type(table_type), allocatable, intent(inout) :: tables(:)
 
       call add_table(tables, table_type('theory', 'theory', put_load=put_theory, &
-         columns='load[-] pbar_over_pstar[-] force[force] '// &
+         columns='load[#] pbar_over_pstar[-] force[force] '// &
          'kuznetsov_mean_gap_over_amplitude[-] westergaard_contact_area_fraction[-] '// &
          'westergaard_peak_pressure_over_pstar[-] hertz_line_contact_area_fraction[-] '// &
          'line_crack_contact_area_fraction[-] '// &
@@ -84,11 +84,10 @@ contains
                 wavelength*hertz_point_radius_over_wavelength(p), &
                 wavelength*penny_crack_radius_over_wavelength(p)]
          end if
-         call file%add([load])
-         call file%add([results%in_p_star(p), results%solver%surface%nominal_area()*results%mean_pressure(load), &
-                        of_line, of_plane, of_ball])
+         call file%put_row([real(dp) :: load, results%in_p_star(p), &
+                            results%solver%surface%nominal_area()*results%mean_pressure(load), &
+                            of_line, of_plane, of_ball])
       end associate
-      call file%end_row()
    end subroutine put_theory
 
    !> Area, approach, peak pressure and half axes of Hertz's contact.
@@ -120,7 +119,7 @@ contains
       type(output_file), intent(inout) :: file
 
       type(surface_line) :: line
-      real(dp) :: dundurs(series_terms(results)), of_line(4), of_plane(3), phi, theta
+      real(dp) :: crack_radius, dundurs(series_terms(results)), from_trough, of_line(4), of_plane(3), phi, theta
       real(dp), allocatable :: values(:, :)
       integer :: k, number
 
@@ -128,6 +127,7 @@ contains
       of_plane = not_a_number()
       call results%begin_block(file, load)
       associate (surface => results%solver%surface, load_p => results%loads(load)%pbar_over_pstar)
+         crack_radius = penny_crack_radius_over_wavelength(load_p)
          if (surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
          do number = 1, surface%dimension
             call start_surface_line(line, results, number)
@@ -140,9 +140,13 @@ contains
                              westergaard_gap_over_amplitude(phi/2, load_p), &
                              dundurs_pressure_over_pstar(phi, load_p, dundurs)]
                else
-                  of_plane = [hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p), &
-                              crack_pressure(nearest_crest(phi - pi, theta), load_p), &
-                              crack_opening(nearest_crest(phi - pi, theta), load_p)]
+                  ! Pressure (A4) and opening (A6) of the crack are zero outside of it.
+                  from_trough = nearest_crest(phi - pi, theta)
+                  of_plane(1) = hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p)
+                  of_plane(2:) = 0.0_dp
+                  if (from_trough < crack_radius) of_plane(2:) = &
+                     [penny_crack_pressure_over_pstar(from_trough, load_p), &
+                      penny_crack_opening_over_amplitude(from_trough/crack_radius, crack_radius, load_p)]
                end if
                values(:, k) = [of_line, of_plane]
             end do
@@ -176,26 +180,5 @@ contains
 
       reduced = angle - 2*pi*nint(angle/(2*pi))
    end function reduced
-
-   !> Pressure in the penny-shaped crack over p*, (A4); zero outside the crack.
-   pure real(dp) function crack_pressure(r_over_wavelength, pbar_over_pstar) result(pressure)
-      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
-
-      pressure = 0.0_dp
-      if (r_over_wavelength < penny_crack_radius_over_wavelength(pbar_over_pstar)) &
-         pressure = penny_crack_pressure_over_pstar(r_over_wavelength, pbar_over_pstar)
-   end function crack_pressure
-
-   !> Opening of the penny-shaped crack over Delta, (A6); zero outside the crack and if there is none.
-   pure real(dp) function crack_opening(r_over_wavelength, pbar_over_pstar) result(opening)
-      real(dp), intent(in) :: r_over_wavelength, pbar_over_pstar
-
-      real(dp) :: b
-
-      b = penny_crack_radius_over_wavelength(pbar_over_pstar)
-      opening = 0.0_dp
-      if (r_over_wavelength < b) &
-         opening = penny_crack_opening_over_amplitude(r_over_wavelength/b, b, pbar_over_pstar)
-   end function crack_opening
 
 end module wavycon_theory_tables
