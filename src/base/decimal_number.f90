@@ -1,8 +1,7 @@
 !> Reads decimal numbers of decks and height maps.
 module wavycon_decimal_number
-   use, intrinsic :: iso_c_binding, only: c_null_char
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_null_char, c_ptr
    use wavycon_kinds, only: dp
-   use wavycon_system, only: parse_number
    implicit none (type, external)
    private
 
@@ -10,6 +9,16 @@ module wavycon_decimal_number
 
    !> Most bytes of a number.
    integer, parameter :: longest_number = 100
+
+   interface
+      !> The number at the start of a text that a null character ends, and the place behind it.
+      !> N.B. A number that is too large gives an infinity and signals overflow.
+      real(c_double) function strtod(text, behind) bind(c, name='strtod')
+         import :: c_double, c_ptr
+         type(c_ptr), value :: text
+         type(c_ptr), intent(out) :: behind
+      end function strtod
+   end interface
 
 contains
 
@@ -22,7 +31,8 @@ contains
       real(dp), intent(out) :: value      !! the nearest double; infinity or 0 if out of range
       logical, intent(out) :: is_number   !! whether the whole word is a number
 
-      character(longest_number + 1) :: number
+      character(longest_number + 1), target :: number
+      type(c_ptr) :: behind
       integer :: i
 
       value = 0.0_dp
@@ -39,7 +49,8 @@ contains
          end select
       end do
       number(len(word) + 1:len(word) + 1) = c_null_char
-      is_number = parse_number(number, value) == len(word)
+      value = strtod(c_loc(number), behind)
+      is_number = c_associated(behind, c_loc(number(len(word) + 1:len(word) + 1)))
    end subroutine read_decimal
 
 end module wavycon_decimal_number

@@ -5,7 +5,7 @@ module wavycon_lapack
    private
 
    public :: ddot, dgemm, dgemv, drot, dtrsv, sdot                   ! BLAS
-   public :: dgels, dgeqp3, dgglse, dorgqr, dpotrf, dsyev     ! LAPACK
+   public :: dgels, dgglse, dpotrf, dsyev                     ! LAPACK
 
    interface
       pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
@@ -53,24 +53,6 @@ module wavycon_lapack
          real(sp), intent(in) :: x(*), y(*)
          real(sp) :: sdot
       end function sdot
-
-      pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
-         import :: dp
-         integer, intent(in) :: m, n, lda, lwork
-         integer, intent(inout) :: jpvt(*)
-         real(dp), intent(inout) :: a(lda, *)
-         real(dp), intent(out) :: tau(*), work(*)
-         integer, intent(out) :: info
-      end subroutine dgeqp3
-
-      pure subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
-         import :: dp
-         integer, intent(in) :: m, n, k, lda, lwork
-         real(dp), intent(inout) :: a(lda, *)
-         real(dp), intent(in) :: tau(*)
-         real(dp), intent(out) :: work(*)
-         integer, intent(out) :: info
-      end subroutine dorgqr
 
       pure subroutine drot(n, x, incx, y, incy, c, s)
          import :: dp

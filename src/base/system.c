@@ -234,14 +234,6 @@ int64_t wavycon_available_memory(void)
     return left < available ? left : available;
 }
 
-/* Reads the number at the start of a text. Returns its length in bytes, 0 if there is none. */
-size_t wavycon_parse_number(const char *text, double *value)
-{
-    char *end;
-    *value = strtod(text, &end);
-    return (size_t)(end - text);
-}
-
 /* Makes BLAS and LAPACK use one thread, if they are OpenBLAS or MKL; others are not changed. The functions are looked
    up when the program runs, because another BLAS than that of the build may be linked then. */
 void wavycon_use_one_thread_for_matrices(void)

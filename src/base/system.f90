@@ -1,6 +1,6 @@
 !> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -8,7 +8,7 @@ module wavycon_system
 
    public :: available_memory, has_memory_for
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
-   public :: note_command, note_kept, outlive_file_size_limit, parse_number, process_id, terminal_columns
+   public :: note_command, note_kept, outlive_file_size_limit, process_id, terminal_columns
 
    !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
@@ -75,14 +75,6 @@ module wavycon_system
       integer(c_int64_t) function available_memory() bind(c, name='wavycon_available_memory')
          import :: c_int64_t
       end function available_memory
-
-      !> Reads the number at the start of a text. Returns its length in bytes, 0 if there is none.
-      !> N.B. A number that is too large gives an infinity and signals overflow.
-      integer(c_size_t) function parse_number(text, value) bind(c, name='wavycon_parse_number')
-         import :: c_char, c_double, c_size_t
-         character(kind=c_char), intent(in) :: text(*)   !! ended by a null character
-         real(c_double), intent(out) :: value
-      end function parse_number
 
       type(c_ptr) function c_realpath(path, full) bind(c, name='realpath')
          import :: c_char, c_ptr

@@ -2,7 +2,7 @@
 module wavycon_closed_form_contact
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_measures, only: contact_measures, load_derivatives
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: closed_form
@@ -10,7 +10,6 @@ module wavycon_closed_form_contact
    use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
-   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar

@@ -4,7 +4,7 @@
 !> surface's cell.
 module wavycon_contact_solution
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_contact_details, only: contact_details
+   use wavycon_contact_measures, only: contact_details, load_derivatives
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_spots, find_spots, one_region
    use wavycon_contact_status, only: full_contact, is_good_status, no_load
@@ -12,7 +12,6 @@ module wavycon_contact_solution
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
-   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_solution_record, only: solution_record

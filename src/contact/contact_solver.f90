@@ -79,7 +79,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar             !! P; the status is not_finite if it is no number
       type(contact_solution), intent(out) :: solution     !! with a status
 
-      logical :: is_trivial
+      logical :: is_trivial, shall_stop
       type(solver_traits) :: traits
 
       if (.not. self%is_started) then
@@ -89,20 +89,15 @@ contains
       end if
       call solve_trivial_load(self%surface, pbar_over_pstar, solution%solution_record, is_trivial)
       if (is_trivial) return
-      if (shall_stop(self)) then
+      shall_stop = .false.
+      if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
+      if (shall_stop) then
          traits = self%traits()
          solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
       else
          call self%solve_partial_contact(pbar_over_pstar, solution)
       end if
    end subroutine solve
-
-   logical function shall_stop(self)
-      class(contact_solver), intent(in) :: self
-
-      shall_stop = .false.
-      if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
-   end function shall_stop
 
    !> Solves a load that needs no solver: there is no load for P <= 0; contact is full for P >= 1 unless the surface has
    !> free edges or the largest pressure, P + full_contact_peak, exceeds the hardness H; there is no solution for P >= H

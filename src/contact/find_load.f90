@@ -104,12 +104,13 @@ contains
 
       !> Relative steps of logit P below this are rounding.
       real(dp), parameter :: shortest_step = 1e-13_dp
-      real(dp) :: error, high, last_miss, last_logit_p, lightest, low, met, miss, next
+      real(dp) :: allowed, error, high, last_miss, last_logit_p, lightest, low, met, miss, next, scale
       integer :: i
 
       low = -huge(low)
       high = huge(high)
       lightest = logit(lightest_load)
+      scale = merge(min(search%target, 1.0_dp - search%target), search%target, search%is_bounded)
       last_logit_p = search%logit_p
       last_miss = 0.0_dp
       do i = 1, most_solves
@@ -129,7 +130,9 @@ contains
             met = solution%measures%contact_area_fraction
             error = solution%measures%contact_area_error
          end select
-         if (abs(met - search%target) <= allowed(error, search)) return
+         allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
+                       value_roundings*spacing(search%target))
+         if (abs(met - search%target) <= allowed) return
          miss = logit_t(search, met) - logit_t(search, search%target)
          if (i > 1 .and. abs(search%logit_p - last_logit_p) > 0.0_dp) &
             search%slope = min(max((miss - last_miss)/(search%logit_p - last_logit_p), flattest), steepest)
@@ -157,28 +160,9 @@ contains
       ! the distance is within the error estimate. An unknown error proves nothing. Rounding of P and of the value may
       ! keep this from a closer one: 1 - t of the 1-D wave has half the digits of 1 - P.
       if (abs(met - search%target) <= error .and. is_known(error)) return
-      if (abs(met - search%target) <= largest_fraction*smaller_part(search)) return
+      if (abs(met - search%target) <= largest_fraction*scale) return
       if (solution%is_good()) solution%status = not_accurate
    end subroutine find_root
-
-   !> The largest difference from the target at which a value is accepted.
-   pure real(dp) function allowed(error, search)
-      real(dp), intent(in) :: error   !! error estimate of the value; 0 if there is none
-      type(root_search), intent(in) :: search
-
-      associate (scale => smaller_part(search))
-         allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
-                       value_roundings*spacing(search%target))
-      end associate
-   end function allowed
-
-   !> min(t, 1 - t), or t
-   pure real(dp) function smaller_part(search)
-      type(root_search), intent(in) :: search
-
-      smaller_part = search%target
-      if (search%is_bounded) smaller_part = min(search%target, 1.0_dp - search%target)
-   end function smaller_part
 
    !> logit t of a contact area, a mean gap or an approach, or ln t.
    pure real(dp) function logit_t(search, x)

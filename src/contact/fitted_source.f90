@@ -1,9 +1,8 @@
 !> The source of fields, edge, stresses and details of a load that was solved by fitted expansions.
 module wavycon_fitted_source
    use wavycon_constants, only: pi
-   use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: unknown
+   use wavycon_contact_measures, only: contact_details, load_derivatives, unknown
    use wavycon_contact_contours, only: contact_contour
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_field_source, only: field_source
@@ -13,7 +12,6 @@ module wavycon_fitted_source
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp
-   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_load_slopes, only: find_load_slopes
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields

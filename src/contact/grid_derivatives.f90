@@ -1,11 +1,10 @@
 !> How a solution on a grid changes with the load, from solutions of the same grid at loads near by: (C29) of README.md
 !> in this directory.
 module wavycon_grid_derivatives
-   use wavycon_contact_measures, only: is_known, unknown
+   use wavycon_contact_measures, only: is_known, load_derivatives, unknown
    use wavycon_contact_tuning, only: load_difference
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
-   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_solution_record, only: solution_record
    use wavycon_surface, only: surface_type
    implicit none (type, external)

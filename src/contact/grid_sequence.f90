@@ -21,7 +21,6 @@ module wavycon_grid_sequence
    use wavycon_pressure_load, only: set_load, sum_of_field
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
-   use wavycon_undeformed_gap, only: sample_undeformed_gap
    implicit none (type, external)
    private
 
@@ -147,7 +146,7 @@ contains
 
       associate (slab => answer%state%slab, pressure => answer%state%pressure)
          allocate (h(slab%points(1), slab%columns()))
-         call sample_undeformed_gap(surface, slab, h)
+         call surface%sample_gap(slab, h)
          load = mean_pressure*product(real(slab%points, dp))
          pressure = pressure*(load/sum_of_field(slab, pressure))
          if (surface%has_hardness()) then

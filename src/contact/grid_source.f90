@@ -5,7 +5,7 @@ module wavycon_grid_source
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
-   use wavycon_contact_measures, only: or_nan
+   use wavycon_contact_measures, only: load_derivatives, or_nan
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_area, only: grid_strip_edges
@@ -15,7 +15,6 @@ module wavycon_grid_source
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_region_numbers, only: region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress

@@ -3,16 +3,14 @@ module wavycon_series_source
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: measuring_intervals
+   use wavycon_contact_measures, only: load_derivatives, measuring_intervals
    use wavycon_contact_contours, only: contact_contour, make_strips, trace_edges, rotate_contours
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: fourier_terms
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgglse
    use wavycon_line_zeros, only: line_zeros
-   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_qp_problem, only: qp_problem
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
@@ -20,6 +18,7 @@ module wavycon_series_source
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_rotated_series, only: to_sum_angles
+   use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
 
@@ -147,30 +146,27 @@ contains
 
       !> Pressures below this part of the peak pressure are rounding: the constraint is active.
       real(dp), parameter :: active = 1e-9_dp
-      !> Columns that LAPACK treats at once.
-      integer, parameter :: block = 64
       type(qp_problem) :: problem
-      integer :: i, info, m, n
-      real(dp), allocatable :: constraints(:, :), minus_one(:), root(:, :), work(:), x(:), zero(:)
+      type(working_set) :: set
+      integer, allocatable :: constraints(:)
+      integer :: i
+      real(dp), allocatable :: multipliers(:), x(:)
 
       if (surface%has_hardness()) return
       problem = energy_problem(self%terms, self%constraint_points, self%symmetry)
       associate (pressure => record%pbar_over_pstar + matmul(self%x, problem%normals), &
                  least => active*record%measures%peak_pressure_over_pstar)
-         constraints = transpose(problem%normals(:, pack([(i, i=1, size(pressure))], pressure < least)))
+         constraints = pack([(i, i=1, size(pressure))], pressure < least)
       end associate
-      n = size(self%x)
-      m = size(constraints, 1)
-      if (m > n) return
-      allocate (root(n, n), zero(n), source=0.0_dp)
-      do i = 1, n
-         root(i, i) = sqrt(problem%hessian(i))
-      end do
-      allocate (minus_one(m), source=-1.0_dp)
-      allocate (x(n), work(block*(2*n + m)))
-      call dgglse(n, n, m, root, n, constraints, max(1, m), zero, minus_one, x, work, size(work), info)
+      problem%linear = 0.0_dp
+      problem%bounds = -1.0_dp
+      call set%start(problem)
+      call set%assign_active(problem, constraints)
+      if (set%count < size(constraints)) return
+      allocate (multipliers(set%count), x(size(self%x)))
+      call set%solve(problem, x, multipliers)
       ! The energy is in units of the mean square of the surface's own wave.
-      if (info == 0) answer%gap_slope = -sum(problem%hessian*x**2)/2**surface%dimension
+      answer%gap_slope = -sum(problem%hessian*x**2)/2**surface%dimension
    end subroutine derivatives
 
 end module wavycon_series_source

@@ -9,8 +9,7 @@
 !> The unconstrained minimum x_1 = 1 is full contact. A hardness H adds  -sum_k x_k t_k >= P - H.
 !> Numbers (E..) are the equations of README.md in this directory.
 module wavycon_complementary_energy
-   use wavycon_constraint_points, only: choose_points, term_values
-   use wavycon_cosine_rows, only: cosine_rows
+   use wavycon_constraint_points, only: choose_points, cosine_rows, term_values
    use wavycon_fourier_terms, only: fourier_terms
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem

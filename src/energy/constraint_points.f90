@@ -1,16 +1,27 @@
-!> The points at which the pressure must not be negative.
+!> The points at which the pressure must not be negative, and the pressure there as a function of the amplitudes of the
+!> terms: as a matrix, and as sums over one direction after the other. For n harmonics and N points a side these take of
+!> the order of n N^2 operations, the product with the matrix n^2 N^2.
 !>
 !> N points, equally spaced on [0, pi] with both ends, in each direction: a grid that symmetry reduces.
 !> N = 27 gives the counts of Johnson, Greenwood & Higginson (1985): 729 points, 378 in the triangle
 !> phi + theta <= pi, 196 in the triangle phi <= theta <= pi - phi between the crest, the trough and the saddle.
 module wavycon_constraint_points
-   use wavycon_fourier_series, only: cosine_table
+   use wavycon_fourier_series, only: cosine_table, fourier_series
    use wavycon_fourier_terms, only: fourier_terms, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: row_products
    implicit none (type, external)
    private
 
-   public :: choose_points, term_values
+   public :: choose_points, cosine_rows, term_values
+
+   type, extends(row_products) :: cosine_rows
+      type(fourier_terms) :: terms
+      integer :: points_per_side = 0          !! N
+      integer, allocatable :: k(:), l(:)      !! the points as chosen by `choose_points`, shape (m)
+   contains
+      procedure :: of
+   end type cosine_rows
 
 contains
 
@@ -21,22 +32,16 @@ contains
       integer, intent(in) :: symmetry                 !! that of the terms; not used in 1-D
       integer, allocatable, intent(out) :: k(:), l(:) !! in 0 .. N-1; l = 0 in 1-D
 
-      integer :: all_k(points_per_side**dimension), all_l(points_per_side**dimension)
-      integer :: p, q, last, count
+      logical, allocatable :: is_kept(:)
+      integer :: last(2), p, q
 
-      last = points_per_side - 1
-      count = 0
-      do q = 0, merge(last, 0, dimension == 2)
-         do p = 0, last
-            if (dimension == 2 .and. symmetry /= symmetry_none .and. p + q > last) cycle
-            if (dimension == 2 .and. symmetry == symmetry_full .and. p > q) cycle
-            count = count + 1
-            all_k(count) = p
-            all_l(count) = q
-         end do
-      end do
-      allocate (k, source=all_k(:count))
-      allocate (l, source=all_l(:count))
+      last = [points_per_side - 1, merge(points_per_side - 1, 0, dimension == 2)]
+      k = [((p, p=0, last(1)), q=0, last(2))]
+      l = [((q, p=0, last(1)), q=0, last(2))]
+      is_kept = dimension == 1 .or. symmetry == symmetry_none .or. &
+                (k + l <= last(1) .and. (symmetry /= symmetry_full .or. k <= l))
+      k = pack(k, is_kept)
+      l = pack(l, is_kept)
    end subroutine choose_points
 
    !> The terms' values at the points: the constraint matrix of eqs. (18), (27), transposed.
@@ -60,5 +65,23 @@ contains
          end do
       end do
    end function term_values
+
+   !> sum_k x_k t_k at the points; the same with the opposite sign follows if `values` is twice as long.
+   subroutine of(self, x, values)
+      class(cosine_rows), intent(in) :: self
+      real(dp), intent(in) :: x(:)         !! amplitudes of the terms
+      real(dp), intent(out) :: values(:)   !! shape (m) or (2 m)
+
+      type(fourier_series) :: series
+      real(dp), allocatable :: grid(:, :)
+      integer :: p
+
+      call self%terms%coefficients(x, series%c)
+      call series%evaluate_on_grid(self%points_per_side - 1, grid)
+      do p = 1, size(self%k)
+         values(p) = grid(self%k(p), self%l(p))
+      end do
+      if (size(values) > size(self%k)) values(size(self%k) + 1:) = -values(:size(self%k))
+   end subroutine of
 
 end module wavycon_constraint_points

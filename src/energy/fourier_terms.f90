@@ -38,27 +38,21 @@ contains
       integer, intent(in) :: harmonics  !! n >= 1
       integer, intent(in) :: symmetry   !! one of the names above; not used in 1-D
 
-      integer :: i, j, k
-      integer :: all_i((harmonics + 1)**2), all_j((harmonics + 1)**2)
+      integer, dimension((harmonics + 1)**dimension) :: all_i, all_j
+      logical :: is_kept((harmonics + 1)**dimension)
+      integer :: i, j, last
 
-      k = 0
-      do i = 0, harmonics
-         do j = 0, harmonics
-            if (dimension == 1 .and. j > 0) cycle
-            if (i + j == 0) cycle
-            if (dimension == 2 .and. symmetry /= symmetry_none .and. mod(i + j, 2) == 1) cycle
-            if (dimension == 2 .and. symmetry == symmetry_full .and. i > j) cycle
-            k = k + 1
-            all_i(k) = i
-            all_j(k) = j
-         end do
-      end do
+      last = merge(harmonics, 0, dimension == 2)
+      all_i = [((i, j=0, last), i=0, harmonics)]
+      all_j = [((j, j=0, last), i=0, harmonics)]
+      is_kept = all_i + all_j > 0
+      if (dimension == 2 .and. symmetry /= symmetry_none) is_kept = is_kept .and. mod(all_i + all_j, 2) == 0
+      if (dimension == 2 .and. symmetry == symmetry_full) is_kept = is_kept .and. all_i <= all_j
       terms%dimension = dimension
       terms%harmonics = harmonics
-      allocate (terms%i, source=all_i(:k))
-      allocate (terms%j, source=all_j(:k))
-      allocate (terms%paired(k))
-      terms%paired = dimension == 2 .and. symmetry == symmetry_full .and. terms%i /= terms%j
+      allocate (terms%i, source=pack(all_i, is_kept))
+      allocate (terms%j, source=pack(all_j, is_kept))
+      allocate (terms%paired, source=dimension == 2 .and. symmetry == symmetry_full .and. terms%i /= terms%j)
    end function choose_terms
 
    !> Number of unknowns.

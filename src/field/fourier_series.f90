@@ -107,26 +107,18 @@ contains
       integer, intent(in) :: intervals                     !! N >= 1
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
 
-      integer :: last
+      real(dp) :: half_way(0:intervals, 0:ubound(self%c, 2))
+      integer :: m, n, rows, columns
 
-      last = merge(intervals, 0, ubound(self%c, 2) > 0)
-      allocate (values(0:intervals, 0:last), source=0.0_dp)
-      call add_products(self%c, cosine_table(intervals, ubound(self%c, 1)), &
-                        cosine_table(intervals, ubound(self%c, 2)), values)
+      m = size(self%c, 1)
+      n = size(self%c, 2)
+      rows = intervals + 1
+      columns = merge(rows, 1, n > 1)
+      allocate (values(0:rows - 1, 0:columns - 1))
+      call dgemm('N', 'N', rows, n, m, 1.0_dp, cosine_table(intervals, m - 1), rows, self%c, m, 0.0_dp, half_way, rows)
+      call dgemm('N', 'T', rows, columns, n, 1.0_dp, half_way, rows, cosine_table(intervals, n - 1), rows, &
+                 0.0_dp, values, rows)
    end subroutine evaluate_on_grid
-
-   !> values(k, l) = values(k, l) + sum_ij x(k, i) c(i, j) y(l, j)
-   pure subroutine add_products(c, x, y, values)
-      real(dp), intent(in) :: c(0:, 0:), x(0:, 0:), y(0:, 0:)
-      real(dp), intent(inout) :: values(0:, 0:)
-
-      real(dp) :: half_way(size(x, 1), size(c, 2))
-
-      call dgemm('N', 'N', size(x, 1), size(c, 2), size(c, 1), 1.0_dp, x, size(x, 1), c, size(c, 1), &
-                 0.0_dp, half_way, size(x, 1))
-      call dgemm('N', 'T', size(x, 1), size(values, 2), size(c, 2), 1.0_dp, half_way, size(x, 1), &
-                 y, size(y, 1), 1.0_dp, values, size(x, 1))
-   end subroutine add_products
 
    !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in integers, so that the symmetries of the cosine hold to
    !> the last bit and high harmonics are as accurate as low ones.

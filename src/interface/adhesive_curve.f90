@@ -3,12 +3,11 @@
 !>
 !> The curve is followed by P1, through its turning points. Equations (I..) are those of README.md in this directory.
 module wavycon_adhesive_curve
-   use wavycon_contact_measures, only: contact_measures, is_known
+   use wavycon_contact_measures, only: contact_measures, is_known, load_derivatives
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
-   use wavycon_load_derivatives, only: load_derivatives
    implicit none (type, external)
    private
 

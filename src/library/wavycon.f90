@@ -7,9 +7,8 @@ module wavycon
    use wavycon_auto_contact, only: auto_contact
    use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact
-   use wavycon_contact_details, only: contact_details
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures
+   use wavycon_contact_measures, only: contact_details, contact_measures
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_region, contact_spots

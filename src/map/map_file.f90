@@ -5,17 +5,15 @@ module wavycon_map_file
       ieee_set_halting_mode, ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
-   use wavycon_file_head, only: entry_of, take_text_head
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_gsf_map, only: is_gsf, read_gsf_map
+   use wavycon_gwyddion_map, only: entry_of, is_gsf, read_gsf_map, take_text_head
    use wavycon_kinds, only: dp, sp
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: is_npy, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, lower_case, newline
-   use wavycon_point_map, only: take_points
-   use wavycon_profile_map, only: resample_profile, take_profile
+   use wavycon_point_map, only: resample_profile, take_points, take_profile
    use wavycon_ranks, only: share_error
    use wavycon_system, only: path_device, path_kind
    implicit none (type, external)

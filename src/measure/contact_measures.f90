@@ -1,4 +1,5 @@
-!> The numbers of a solution's summary: mean gap, contact area and extreme pressures.
+!> The numbers of a solution: those of its summary, such as mean gap, contact area and extreme pressures; further ones
+!> that only some solvers compute; and how a solution changes with the load.
 module wavycon_contact_measures
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi
@@ -10,8 +11,8 @@ module wavycon_contact_measures
    implicit none (type, external)
    private
 
-   public :: contact_measures, full_contact_measures, is_known, known_errors, linear_area_fraction, measure_series, &
-      measuring_intervals, or_nan, unmeasured
+   public :: contact_details, contact_measures, full_contact_measures, is_known, known_errors, linear_area_fraction, &
+      load_derivatives, measure_series, measuring_intervals, or_nan, unmeasured
 
    !> Stands for a number that is not known, and exceeds every accuracy. Not NaN, whose comparisons Debug builds trap:
    !> `or_nan` makes it NaN for the user. Its powers in estimates of errors are finite.
@@ -48,6 +49,31 @@ module wavycon_contact_measures
       procedure :: errors => errors_of_measures
       procedure :: are_resolved
    end type contact_measures
+
+   !> Numbers that the summary does not have, with error estimates. Not every solver computes them.
+   type :: contact_details
+      real(dp) :: trough_gap = 0.0_dp, trough_gap_error = 0.0_dp              !! gap at a trough [Delta]
+      !> Gap and pressure at the saddle between nearest crests, where spots merge first [Delta], [p*].
+      real(dp) :: saddle_gap = 0.0_dp, saddle_gap_error = 0.0_dp
+      real(dp) :: saddle_pressure = 0.0_dp, saddle_pressure_error = 0.0_dp
+      !> Strain energy per nominal area, the mean of p u/2 [p* Delta].
+      real(dp) :: energy = 0.0_dp, energy_error = 0.0_dp
+      !> Length of the edge of one contact spot or, once the spots have merged, of one closed pool [length].
+      real(dp) :: perimeter = 0.0_dp, perimeter_error = 0.0_dp
+      integer :: degree = 0                                                   !! degree of the polynomials
+   end type contact_details
+
+   !> How a solution changes with the load: src/interface/README.md derives what follows from its derivatives.
+   !>
+   !> At fixed contact a change of load is that of a rigid punch of the contact's shape, whose pressure is k/sqrt(rho)
+   !> at a distance rho from the edge. What is `unknown`, huge, does not exist or is not computed.
+   type :: load_derivatives
+      real(dp) :: gap_slope = unknown, gap_slope_error = unknown            !! G'(P) <= 0 [Delta/p*]
+      real(dp) :: area_slope = unknown, area_slope_error = unknown          !! A'(P) of the area fraction [1/p*]
+      real(dp) :: gap_curvature = unknown, gap_curvature_error = unknown    !! G''(P) >= 0 [Delta/p*^2]
+      !> Least and largest k^2 along the edge over its mean, which is weighted with the edge's velocity.
+      real(dp) :: intensity_range(2) = unknown
+   end type load_derivatives
 
    !> Grid intervals on half a wavelength for areas and extremes: so many a harmonic, and at least so many.
    integer, parameter :: intervals_per_harmonic = 8, least_intervals = 64

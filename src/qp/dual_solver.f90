@@ -13,9 +13,9 @@
 module wavycon_dual_solver
    use wavycon_beale, only: descend
    use wavycon_kinds, only: dp
-   use wavycon_kkt, only: kkt_residual, kkt_tolerance
    use wavycon_lapack, only: ddot, dgemv, dtrsv
-   use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged, qp_inaccurate, qp_iteration_limit
+   use wavycon_qp_problem, only: kkt_residual, kkt_tolerance, qp_problem, qp_solution, qp_converged, qp_inaccurate, &
+      qp_iteration_limit
    use wavycon_working_set, only: dependence, working_set
    implicit none (type, external)
    private

@@ -1,12 +1,16 @@
-!> The convex quadratic programme  minimise 1/2 x'Dx - c'x  subject to  Cx >= b,  D diagonal, and its
-!> solution.
+!> The convex quadratic programme  minimise 1/2 x'Dx - c'x  subject to  Cx >= b,  D diagonal, its
+!> solution, and the Karush-Kuhn-Tucker conditions of that. Numbers (Q..) are the equations of README.md in this
+!> directory.
 module wavycon_qp_problem
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
    implicit none (type, external)
    private
 
-   public :: qp_problem, qp_solution, row_products
+   public :: kkt_residual, qp_problem, qp_solution, row_products
+
+   !> A solution is accepted if its relative KKT residual (Q3) is at most this, some thousand roundings.
+   real(dp), parameter, public :: kkt_tolerance = 1e-12_dp
 
    !> How a solver ended.
    integer, parameter, public :: qp_converged = 0
@@ -66,5 +70,73 @@ contains
          call dgemv('T', size(x), size(values), 1.0_dp, self%normals, size(x), x, 1, 1.0_dp, values, 1)
       end if
    end subroutine slacks
+
+   !> Largest relative violation (Q3) of the Karush-Kuhn-Tucker conditions (Q2)
+   !>
+   !>     Dx - c = C'y,   Cx >= b,   y >= 0,   y (Cx - b) = 0.
+   !>
+   !> Each is divided by the largest of the terms that must cancel in it, so that the units of x, of the objective and
+   !> of the constraints do not matter. The exact solution, rounded, has a residual of some machine precisions.
+   real(dp) function kkt_residual(problem, x, active, multipliers) result(residual)
+      type(qp_problem), intent(in) :: problem
+      real(dp), intent(in) :: x(:)            !! the solution to check, shape (n)
+      integer, intent(in) :: active(:)        !! constraints with a multiplier, each once
+      real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
+
+      real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds))
+      real(dp) :: gradient_scale, force(size(active)), x_size
+      integer :: i, n, m
+
+      n = size(x)
+      m = size(problem%bounds)
+
+      gradient = problem%hessian*x
+      gradient_scale = max(maxval(abs(gradient)), maxval(abs(problem%linear)))
+      gradient = gradient - problem%linear
+      do i = 1, size(active)
+         term = multipliers(i)*problem%normals(:, active(i))
+         gradient_scale = max(gradient_scale, maxval(abs(term)))
+         gradient = gradient - term
+      end do
+      residual = ratio(maxval(abs(gradient)), gradient_scale)
+      if (m == 0) return
+
+      ! Each constraint has its own scale, so that large units of one do not hide the violation of another.
+      slack = -problem%bounds
+      call dgemv('T', n, m, 1.0_dp, problem%normals, n, x, 1, 1.0_dp, slack, 1)
+      x_size = maxval(abs(x))
+      do i = 1, m
+         if (slack(i) < 0.0_dp) residual = max(residual, ratio(-slack(i), slack_scale(i)))
+      end do
+      if (size(active) == 0) return
+
+      ! A multiplier is measured by its term in the gradient.
+      force = multipliers*maxval(abs(problem%normals(:, active)), dim=1)
+      residual = max(residual, ratio(max(0.0_dp, -minval(force)), gradient_scale))
+      do i = 1, size(active)
+         residual = max(residual, ratio(abs(force(i)*slack(active(i))), gradient_scale*slack_scale(active(i))))
+      end do
+
+   contains
+
+      !> The largest of the terms that cancel in the slack of constraint i.
+      pure real(dp) function slack_scale(i)
+         integer, intent(in) :: i
+
+         slack_scale = abs(problem%bounds(i)) + x_size*maxval(abs(problem%normals(:, i)))
+      end function slack_scale
+
+   end function kkt_residual
+
+   !> a/b, and zero for 0/0.
+   pure real(dp) function ratio(a, b)
+      real(dp), intent(in) :: a, b  !! b >= 0
+
+      if (a <= tiny(a)) then
+         ratio = a
+      else
+         ratio = a/max(b, tiny(b))
+      end if
+   end function ratio
 
 end module wavycon_qp_problem

@@ -1,4 +1,4 @@
-!> The minimum on a set of active constraints taken as equations, by factorisations of LAPACK.
+!> The minimum on a set of active constraints taken as equations, by factorisations.
 !>
 !> For the active rows C_W the factorisation is  D = U^2,  U^-1 C_W' = QR,  Q'Q = I of k columns, R upper triangular
 !> (Q4). With x = U^-1 w the minimum on C_W x = b_W is (Q5)
@@ -10,7 +10,7 @@
 !> README.md in this directory.
 module wavycon_working_set
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: ddot, dgemv, dgeqp3, dorgqr, drot, dtrsv
+   use wavycon_lapack, only: ddot, dgemv, drot, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
@@ -59,31 +59,17 @@ contains
       type(qp_problem), intent(in) :: problem
       integer, intent(in) :: list(:)  !! constraints, each once
 
-      real(dp) :: columns(size(problem%linear), size(list))
-      real(dp) :: tau(size(list)), size_of(size(list)), work(64*(size(problem%linear) + size(list) + 1))
-      integer :: order(size(list))
-      integer :: i, n, k, info
+      real(dp) :: components(size(self%active)), normal(size(self%active)), rest(size(self%active))
+      integer :: i
 
-      n = size(problem%linear)
+      self%count = 0
       do i = 1, size(list)
-         columns(:, i) = self%inverse*problem%normals(:, list(i))
+         if (self%count == size(self%active)) exit
+         normal = self%inverse*problem%normals(:, list(i))
+         rest = normal
+         call self%split(rest, components(:self%count))
+         if (norm2(rest) > dependence*norm2(normal)) call self%add(list(i), components(:self%count), rest)
       end do
-      size_of = norm2(columns, dim=1)
-      order = 0
-      call dgeqp3(n, size(list), columns, n, order, tau, work, size(work), info)
-      k = 0
-      do i = 1, min(n, size(list))
-         if (abs(columns(i, i)) <= dependence*size_of(order(i))) exit
-         k = i
-      end do
-
-      self%count = k
-      self%active(:k) = list(order(:k))
-      do i = 1, k
-         self%triangle(:i, i) = columns(:i, i)
-      end do
-      call dorgqr(n, k, k, columns, n, tau, work, size(work), info)
-      self%span(:, :k) = columns(:, :k)
    end subroutine assign_active
 
    !> Splits a vector w into Q components + rest, the rest orthogonal to Q to rounding: where it is much shorter than w

@@ -7,10 +7,9 @@
 !> jump into full contact; the loads.
 module wavycon_interface_tables
    use wavycon_adhesive_curve, only: adhesive_point, point_names
-   use wavycon_contact_measures, only: is_known, or_nan
+   use wavycon_contact_measures, only: is_known, load_derivatives, or_nan
    use wavycon_contact_status, only: no_load, status_code, status_name
    use wavycon_kinds, only: dp
-   use wavycon_load_derivatives, only: load_derivatives
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: cycle_energy, relative_displacement
    use wavycon_plain_text, only: exact_number, integer_text

@@ -7,8 +7,7 @@
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block for
 !> each load; in 1-D j = 0.
 module wavycon_summary_tables
-   use wavycon_contact_details, only: contact_details
-   use wavycon_contact_measures, only: linear_area_fraction, or_nan
+   use wavycon_contact_measures, only: contact_details, linear_area_fraction, or_nan
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp

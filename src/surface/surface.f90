@@ -4,6 +4,7 @@ module wavycon_surface
    use wavycon_constants, only: pi, sqrt2
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_points, only: point_angle
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_roughness, only: roughness_of, roughness_type
@@ -58,6 +59,7 @@ module wavycon_surface
       procedure :: full_contact_pressure
       procedure :: shape_at
       procedure :: sample_shape
+      procedure :: sample_gap
       procedure :: form_gap
       procedure :: subtract_form
       procedure :: roughness
@@ -288,7 +290,7 @@ contains
    end function radii
 
    !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
-   !> wavycon_undeformed_gap can evaluate it; `gather_series` gathers the shape. All other components are those of the
+   !> `sample_gap` can evaluate it; `gather_series` gathers the shape. All other components are those of the
    !> whole surface.
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
@@ -331,6 +333,21 @@ contains
       call sample_series(self%shape, points, offset, values, self%parts())
       call self%subtract_form(values, 2*pi*offset/(self%parts()*points), 2*pi/(self%parts()*points))
    end subroutine sample_shape
+
+   !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. The
+   !> digits do not depend on how the grid and the surface are distributed.
+   subroutine sample_gap(self, slab, h)
+      class(surface_type), intent(in) :: self
+      type(grid_slab), intent(in) :: slab                !! of the grid, of a quarter of the cell if the surface is even
+      real(dp), intent(out), contiguous :: h(:, :)       !! shape (M, slab%columns())
+
+      type(grid_transform) :: transform
+
+      call transform%start(slab%points, self%shape%is_even())
+      call transform%sample(self%shape, h)
+      call self%subtract_form(h, [transform%x_angle(1), transform%y_angle(slab%first)], 2*pi/(self%parts()*slab%points))
+      h = 1.0_dp - h
+   end subroutine sample_gap
 
    !> Root mean squares of height, slope and curvature.
    type(roughness_type) function roughness(self)
