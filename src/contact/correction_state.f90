@@ -26,6 +26,7 @@ module wavycon_correction_state
       real(dp) :: residual = huge(1.0_dp)         !! as `solve_on_grid`'s, times G
       real(dp) :: contact_points = 0.0_dp
       real(dp) :: entered_points = 0.0_dp         !! since the last direction: they have p = 0 or p = H
+      logical, allocatable :: has_entered(:)      !! whether some of these are in a chunk, shape (region%chunks)
       real(sp) :: approach = 0.0_sp               !! what is to be subtracted from `gap`
       real(sp) :: allowance = huge(1.0_sp)        !! the least overlap of points that enter
       real(sp), allocatable :: start_pressure(:)
@@ -48,10 +49,11 @@ module wavycon_correction_state
 
 contains
 
-   subroutine start(self, grid, inside)
+   subroutine start(self, grid, inside, allowance)
       class(correction_state), intent(out) :: self
       type(grid_state), intent(in) :: grid      !! with pressure, gap and residual > 0; p is 0 or H outside the region
       real(sp), intent(in) :: inside(:, :)      !! > 0 at the points in and near the contact, shape of the pressure
+      real(sp), intent(in) :: allowance         !! over the residual
 
       call assert(grid%residual > 0.0_dp .and. grid%residual < huge(1.0_dp), 'the residual is positive and finite')
       if (assertions_stop) then
@@ -59,6 +61,7 @@ contains
          call assert(all(abs(grid%gap) < huge(1.0_dp)), 'the gap is finite')
       end if
       self%scale = grid%residual
+      self%allowance = allowance
       self%slab = grid%slab
       call self%region%start(inside)
       associate (n => self%region%points)
@@ -122,6 +125,8 @@ contains
       !$omp parallel do num_threads(self%region%threads) private(excluded, gap, n, z)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1, contact => self%contact)
+            parts(:, c) = 0.0_dp
+            if (.not. self%has_entered(c)) cycle
             n = b - a + 1
             call self%region%take_chunk(c, field, z)
             excluded(:n) = merge(contact(a:b), 0.0_sp, z(:n) > mean .and. self%change(a:b) <= -self%start_pressure(a:b))
@@ -129,7 +134,7 @@ contains
                excluded(:n) = merge(contact(a:b), excluded(:n), z(:n) < mean .and. self%room(a:b) <= self%change(a:b))
             contact(a:b) = contact(a:b) - excluded(:n)
             gap(:n) = self%gap(a:b) - self%approach
-            parts(:, c) = [sdot(n, excluded, 1, excluded, 1), sdot(n, contact(a:b), 1, gap, 1)]
+            parts(:, c) = [sdot(n, excluded, 1, excluded, 1), -sdot(n, excluded, 1, gap, 1)]
          end associate
       end do
       sums = self%totals(parts)
@@ -212,6 +217,7 @@ contains
             if (parts(5, c) > 0.0_dp) self%contact(a:b) = contact(:n)
          end associate
       end do
+      self%has_entered = parts(5, :) > 0.0_dp
       sums = self%totals(parts)
       self%contact_points = sums(1)
       self%entered_points = sums(5)

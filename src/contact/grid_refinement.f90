@@ -1,17 +1,30 @@
 !> Interpolates a pressure to a finer grid, linearly between the points of the coarser grid.
 module wavycon_grid_refinement
+   use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: refine_pressure
+   public :: refine, refine_pressure
 
 contains
 
-   !> The points are those of wavycon_grid_points. Where their number doubles the mean of the pressure does not change.
-   subroutine refine_pressure(coarse, coarse_slab, even, fine_slab, fine)
+   !> The pressure, where it is positive, and the gap, times the weight with which (C11) places the edge, as negative
+   !> pressures: what is above zero between the points is the pressure there.
+   subroutine refine_pressure(edge, fine_slab, fine)
+      type(grid_edge), intent(in) :: edge                !! of the coarser grid
+      type(grid_slab), intent(in) :: fine_slab           !! of more points; distributed if that of the edge is
+      real(dp), allocatable, intent(out) :: fine(:, :)   !! >= 0, own columns, shape (M', fine_slab%columns())
+
+      associate (coarse => edge%pressure_or_gap, weight => edge%rule%gap_weight*maxval(edge%stiffness))
+         call refine(merge(1.0_dp, weight, coarse > 0.0_dp)*coarse, edge%slab, edge%even, fine_slab, fine)
+      end associate
+   end subroutine refine_pressure
+
+   !> Interpolates a field linearly; what is negative between the points becomes zero.
+   subroutine refine(coarse, coarse_slab, even, fine_slab, fine)
       real(dp), intent(in), contiguous :: coarse(:, :)   !! own columns, shape (M, coarse_slab%columns())
       type(grid_slab), intent(in) :: coarse_slab         !! of M x N points; N = 1 in 1-D
       logical, intent(in) :: even                        !! whether the points are those of a quarter of the cell
@@ -42,7 +55,7 @@ contains
          if (rest > 0.0_dp) line = line + rest*needed(:, column + 1)
          call refine_line(line, even, before, rests, fine(:, j - fine_slab%first + 1))
       end do
-   end subroutine refine_pressure
+   end subroutine refine
 
    !> The coarse point before a fine one, and the rest of the way in coarse steps. Points of a quarter lie midway
    !> between the lines of the grid.
@@ -76,7 +89,7 @@ contains
          extended(1:m) = coarse
          extended([0, m + 1]) = coarse(image_of_point([0, m + 1], m, even))
       end associate
-      fine = (1.0_dp - rests)*extended(before) + rests*extended(before + 1)
+      fine = max((1.0_dp - rests)*extended(before) + rests*extended(before + 1), 0.0_dp)
    end subroutine refine_line
 
 end module wavycon_grid_refinement

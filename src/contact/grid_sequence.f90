@@ -14,7 +14,6 @@ module wavycon_grid_sequence
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
-   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: solve_on_grid
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
@@ -60,13 +59,12 @@ contains
       !> Whether the edge of a surface with free edges is to have the gap at points far from the contact too.
       logical, intent(in), optional :: needs_gap
 
-      real(dp), allocatable :: finer(:, :), h(:, :)
+      real(dp), allocatable :: h(:, :)
       type(change_history) :: history, history_at_hardness
       type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
-      type(grid_slab) :: coarser
       real(dp) :: last_residual, scale(3)
-      logical :: last
+      logical :: estimated, last
       integer :: grid(2)
 
       plan = plan_grids(surface, points)
@@ -82,13 +80,16 @@ contains
          last = all(grid == plan%last)
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), h, answer, progress)
          if (answer%state%interrupted) return
+         ! Only the errors of an answer are of interest.
+         estimated = last .or. all(grid >= plan%trusted) .or. .not. answer%state%converged
+         if (.not. estimated) estimated = .not. fits_memory(plan%next(grid))
          if (surface%has_hardness()) then
             call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
-            call measure_level(surface, mean_pressure, history, answer)
+            call measure_level(surface, mean_pressure, history, estimated, answer)
             call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
             deallocate (edge_at_hardness)
          else
-            call measure_level(surface, mean_pressure, history, answer)
+            call measure_level(surface, mean_pressure, history, estimated, answer)
          end if
          scale = 1.0_dp
          if (surface%has_free_edges) scale = answer%values
@@ -105,11 +106,9 @@ contains
             answer%out_of_memory = .true.
             exit
          end if
-         deallocate (answer%edge)
-         coarser = answer%state%slab
          call answer%state%slab%start(grid)
-         call refine_pressure(answer%state%pressure, coarser, surface%shape%is_even(), answer%state%slab, finer)
-         call move_alloc(finer, answer%state%pressure)
+         call refine_pressure(answer%edge, answer%state%slab, answer%state%pressure)
+         deallocate (answer%edge)
       end do
       if (surface%has_free_edges) then
          if (present(needs_gap)) then
@@ -142,13 +141,18 @@ contains
 
       type(compliance_operator) :: half_space
       integer :: most
-      real(dp) :: highest(1), load
+      real(dp) :: carried, highest(1), load
 
       associate (slab => answer%state%slab, pressure => answer%state%pressure)
          allocate (h(slab%points(1), slab%columns()))
          call surface%sample_gap(slab, h)
          load = mean_pressure*product(real(slab%points, dp))
-         pressure = pressure*(load/sum_of_field(slab, pressure))
+         carried = sum_of_field(slab, pressure)
+         if (carried > 0.0_dp) then
+            pressure = pressure*(load/carried)
+         else
+            pressure = mean_pressure
+         end if
          if (surface%has_hardness()) then
             highest = maxval(pressure)
             call slab%largest(highest)
@@ -202,10 +206,11 @@ contains
    !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
    !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
    !> area although there is contact. The edge takes over the memory of the gap, which no longer exists afterwards.
-   subroutine measure_level(surface, mean_pressure, history, answer)
+   subroutine measure_level(surface, mean_pressure, history, estimated, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       type(change_history), intent(inout) :: history
+      logical, intent(in) :: estimated   !! whether the errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area
@@ -230,7 +235,7 @@ contains
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
       call history%push(answer%values)
-      answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
+      if (estimated) answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
       if (.not. area > 0.0_dp) answer%errors(2) = unknown
       if (surface%has_hardness()) answer%values(2) = max(area, mean_pressure/surface%hardness)
    end subroutine measure_level

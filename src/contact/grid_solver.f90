@@ -17,6 +17,7 @@ module wavycon_grid_solver
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
    use wavycon_pressure_correction, only: correct_pressure
+   use wavycon_pressure_load, only: has_points_at
    use wavycon_solver_progress, only: solver_progress
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -44,12 +45,15 @@ contains
       logical :: touched(size(undeformed_gap, 2))
       real(dp) :: allowed, last_residual
       real(sp), allocatable :: inside(:, :)
+      integer :: j
 
       last_residual = huge(1.0_dp)
       state%corrections = 0
       state%iterations = 0
       do
-         touched = any(state%pressure > 0.0_dp, dim=1)
+         do j = 1, size(touched)
+            touched(j) = any(state%pressure(:, j) > 0.0_dp)
+         end do
          call compute_gap(half_space, undeformed_gap, touched, state)
          allowed = residual*state%size_of_gaps()
          if (residual <= 0.0_dp) then
@@ -91,8 +95,9 @@ contains
       logical, intent(in) :: touched(:)   !! whether a column of the grid has points in contact, shape (n)
       type(grid_state), intent(inout) :: state
 
-      real(dp) :: approach, change, extremes(2), parts(2, size(touched)), points, sums(4), violations(4, size(touched))
-      integer :: j, threads
+      real(dp) :: approach, change, extremes(2), free, parts(2, size(touched)), points, sums(4), total
+      real(dp) :: violations(4, size(touched))
+      integer :: i, j, threads
       logical :: has_hardness
 
       threads = threads_for(size(undeformed_gap))
@@ -105,12 +110,17 @@ contains
             if (touched(j)) gap(:, j) = p(:, j)
          end do
          call half_space%displacement(gap, nonzero=touched)
-         !$omp parallel do num_threads(threads)
+         !$omp parallel do num_threads(threads) private(free, total)
          do j = 1, size(gap, 2)
-            gap(:, j) = gap(:, j) + (h(:, j) - approach)
-            parts(:, j) = 0.0_dp
-            if (.not. touched(j)) cycle
-            parts(:, j) = [sum(gap(:, j), is_free(p(:, j), hardness)), real(count(is_free(p(:, j), hardness)), dp)]
+            total = 0.0_dp
+            free = 0.0_dp
+            !$omp simd reduction(+:free, total)
+            do i = 1, size(gap, 1)
+               gap(i, j) = gap(i, j) + (h(i, j) - approach)
+               free = free + merge(1.0_dp, 0.0_dp, is_free(p(i, j), hardness))
+               total = total + merge(gap(i, j), 0.0_dp, is_free(p(i, j), hardness))
+            end do
+            parts(:, j) = [total, free]
          end do
          sums(:2) = state%slab%column_totals(parts)
          if (.not. has_hardness .or. sums(2) > 0.0_dp) then
@@ -120,19 +130,18 @@ contains
             call state%slab%largest(extremes)
             change = middle_between(-extremes(1), extremes(2))
          end if
-         if (has_hardness) call reduce_violation(state%slab, gap, p, hardness, change)
-         !$omp parallel do num_threads(threads)
+         if (has_points_at(state%slab, hardness, p)) call reduce_violation(state%slab, gap, p, hardness, change)
+         !$omp parallel do num_threads(threads) private(total)
          do j = 1, size(gap, 2)
-            gap(:, j) = gap(:, j) - change
-            violations(2:, j) = 0.0_dp
-            if (touched(j)) then
-               violations(1, j) = sum(violation(gap(:, j), p(:, j), hardness)**2)
-               if (has_hardness) violations(2, j) = sum(max(-gap(:, j), 0.0_dp), p(:, j) >= hardness)
-            else
-               violations(1, j) = sum(min(gap(:, j), 0.0_dp)**2)
-            end if
-            if (has_hardness) violations(3, j) = count(p(:, j) <= 0.0_dp)
-            violations(4, j) = 0.0_dp
+            total = 0.0_dp
+            !$omp simd reduction(+:total)
+            do i = 1, size(gap, 1)
+               gap(i, j) = gap(i, j) - change
+               total = total + violation(gap(i, j), p(i, j), hardness)**2
+            end do
+            violations(:, j) = [total, 0.0_dp, 0.0_dp, 0.0_dp]
+            if (has_hardness) violations(2:3, j) = [sum(max(-gap(:, j), 0.0_dp), p(:, j) >= hardness), &
+                                                    real(count(p(:, j) <= 0.0_dp), dp)]
             if (half_space%is_free) violations(4, j) = sum(gap(:, j))
          end do
          sums = state%slab%column_totals(violations)
@@ -224,8 +233,8 @@ contains
       approach = abs(state%approach)*sqrt(points(1)/product(real(state%slab%points, dp)))
    end function approach_in_contact
 
-   !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign, and
-   !> points within some steps of these.
+   !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign or is
+   !> below the residual, and points within some steps of these.
    subroutine find_region(even, state, inside)
       logical, intent(in) :: even
       type(grid_state), intent(in) :: state
@@ -236,7 +245,7 @@ contains
       allocate (inside(size(state%gap, 1), size(state%gap, 2)))
       do j = 1, size(inside, 2)
          associate (p => state%pressure(:, j), gap => state%gap(:, j))
-            inside(:, j) = merge(1.0_sp, 0.0_sp, (p > 0.0_dp .or. gap < 0.0_dp) .and. &
+            inside(:, j) = merge(1.0_sp, 0.0_sp, (p > 0.0_dp .or. gap < state%residual) .and. &
                                  (p < state%hardness .or. gap > 0.0_dp))
          end associate
       end do

@@ -24,7 +24,7 @@ module wavycon_multilevel_preconditioner
       type(grid_slab) :: part                  !! the columns whose means are taken from these: all or some
       type(grid_slab) :: slab                  !! the columns of the arrays
       real(sp), allocatable :: contact(:, :)   !! part of a point's area that is in contact, 0 to 1
-      real(sp), allocatable :: values(:, :)
+      real(sp), allocatable :: values(:, :)    !! with a column before and one after those of the slab
    end type coarse_grid
 
    type :: multilevel_preconditioner
@@ -66,8 +66,9 @@ contains
             grid_k%finer = finer
             grid_k%part = finer%coarser()
             grid_k%slab = distributed_or_whole(grid_k%part)
-            allocate (grid_k%contact(grid_k%slab%points(1), grid_k%slab%columns()))
-            allocate (grid_k%values, mold=grid_k%contact)
+            associate (m => grid_k%slab%points(1), n => grid_k%slab%columns())
+               allocate (grid_k%contact(m, n), grid_k%values(m, 0:n + 1))
+            end associate
             finer = grid_k%slab
          end associate
       end do
@@ -124,8 +125,10 @@ contains
          call normalise(contact, values)
          return
       end if
-      call average(values, grids(1)%part, grids(1)%slab, grids(1)%values)
-      call extend_on(grids(2:), even, decay, grids(1)%contact, grids(1)%values)
+      associate (coarse => grids(1)%values(:, 1:grids(1)%slab%columns()))
+         call average(values, grids(1)%part, grids(1)%slab, coarse)
+         call extend_on(grids(2:), even, decay, grids(1)%contact, coarse)
+      end associate
       call fill(grids(1), even, decay, contact, values)
    end subroutine extend_on
 
@@ -150,7 +153,7 @@ contains
          return
       end if
       call adjoint_fill(grids(1), even, decay, contact, values)
-      call collect_on(grids(2:), even, decay, grids(1)%contact, grids(1)%values)
+      call collect_on(grids(2:), even, decay, grids(1)%contact, grids(1)%values(:, 1:grids(1)%slab%columns()))
       call adjoint_average(grids(1), values)
    end subroutine collect_on
 
@@ -166,7 +169,7 @@ contains
       end where
    end subroutine normalise
 
-   !> Means of two by two points; in 1-D of two.
+   !> Means of two by two points. In 1-D the only column counts twice, here and in the following procedures.
    subroutine average(fine, part, slab, coarse)
       real(sp), intent(in), contiguous :: fine(:, :)        !! own columns
       type(grid_slab), intent(in) :: part, slab             !! of the coarser grid
@@ -174,17 +177,15 @@ contains
 
       integer :: before, i, j
 
-      if (slab%points(2) == 1) then
-         coarse(:, 1) = 0.5_sp*(fine(1::2, 1) + fine(2::2, 1))
-         return
-      end if
       before = part%first - slab%first
       !$omp parallel do num_threads(threads_for(size(fine))) private(i)
       do j = 1, part%columns()
-         do i = 1, size(coarse, 1)
-            coarse(i, before + j) = 0.25_sp*((fine(2*i - 1, 2*j - 1) + fine(2*i, 2*j - 1)) &
-                                             + (fine(2*i - 1, 2*j) + fine(2*i, 2*j)))
-         end do
+         associate (other => min(2*j, size(fine, 2)))
+            do i = 1, size(coarse, 1)
+               coarse(i, before + j) = 0.25_sp*((fine(2*i - 1, 2*j - 1) + fine(2*i, 2*j - 1)) &
+                                                + (fine(2*i - 1, other) + fine(2*i, other)))
+            end do
+         end associate
       end do
       call complete(part, slab, coarse)
    end subroutine average
@@ -204,47 +205,37 @@ contains
       real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
 
       integer :: before, i, j
-      real(sp) :: part
 
-      part = 0.25_sp
-      if (coarse%slab%points(2) == 1) part = 0.5_sp
       before = coarse%part%first - coarse%slab%first
       !$omp parallel do num_threads(threads_for(size(fine))) private(i)
       do j = 1, size(fine, 2)
          do i = 1, size(coarse%values, 1)
-            fine(2*i - 1, j) = fine(2*i - 1, j) + part*coarse%values(i, before + (j + 1)/2)
-            fine(2*i, j) = fine(2*i, j) + part*coarse%values(i, before + (j + 1)/2)
+            fine(2*i - 1, j) = fine(2*i - 1, j) + 0.25_sp*coarse%values(i, before + (j + 1)/2)
+            fine(2*i, j) = fine(2*i, j) + 0.25_sp*coarse%values(i, before + (j + 1)/2)
          end do
       end do
    end subroutine adjoint_average
 
    !> Adds to a field, outside the contact, the decayed values of the coarser grid, linear between its points.
    subroutine fill(coarse, even, decay, contact, fine)
-      type(coarse_grid), intent(in) :: coarse
+      type(coarse_grid), intent(inout) :: coarse
       logical, intent(in) :: even
       real(sp), intent(in) :: decay
       real(sp), intent(in), contiguous :: contact(:, :)   !! own columns
       real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
 
       real(sp) :: line(0:size(coarse%values, 1) + 1)
-      real(sp), dimension(size(coarse%values, 1), 1) :: high, low   !! the columns beside those of the coarser grid
       integer :: before, i, j, m
 
       m = size(coarse%values, 1)
       before = coarse%part%first - coarse%slab%first
-      call coarse%slab%halo(coarse%values, even, low, high)
+      associate (values => coarse%values, n => coarse%slab%columns())
+         call coarse%slab%halo(values(:, 1:n), even, values(:, 0:0), values(:, n + 1:n + 1))
+      end associate
       !$omp parallel do num_threads(threads_for(size(fine))) private(i, line)
       do j = 1, size(fine, 2)
          associate (values => coarse%values, near => before + (j + 1)/2, other => before + (j + 1)/2 + 1 - 2*mod(j, 2))
-            if (coarse%slab%points(2) == 1) then
-               line(1:m) = decay*values(:, near)
-            else if (other < 1) then
-               line(1:m) = decay*(0.75_sp*values(:, near) + 0.25_sp*low(:, 1))
-            else if (other > size(values, 2)) then
-               line(1:m) = decay*(0.75_sp*values(:, near) + 0.25_sp*high(:, 1))
-            else
-               line(1:m) = decay*(0.75_sp*values(:, near) + 0.25_sp*values(:, other))
-            end if
+            line(1:m) = decay*(0.75_sp*values(:, near) + 0.25_sp*values(:, other))
          end associate
          line(0) = line(image_of_point(0, m, even))
          line(m + 1) = line(image_of_point(m + 1, m, even))
@@ -275,22 +266,18 @@ contains
       call coarse%finer%halo(contact, even, contact_low, contact_high)
       !$omp parallel do num_threads(threads_for(size(fine))) private(i, k, line)
       do j = 1, coarse%part%columns()
-         if (coarse%slab%points(2) == 1) then
-            line(1:m) = (1.0_sp - contact(:, 1))*fine(:, 1)
-         else
-            line = 0.0_sp
-            do k = 2*j - 2, 2*j + 1
-               associate (part => parts(k - 2*j + 3))
-                  if (k < 1) then
-                     line(1:m) = line(1:m) + part*(1.0_sp - contact_low(:, 1))*low(:, 1)
-                  else if (k > size(fine, 2)) then
-                     line(1:m) = line(1:m) + part*(1.0_sp - contact_high(:, 1))*high(:, 1)
-                  else
-                     line(1:m) = line(1:m) + part*(1.0_sp - contact(:, k))*fine(:, k)
-                  end if
-               end associate
-            end do
-         end if
+         line = 0.0_sp
+         do k = 2*j - 2, 2*j + 1
+            associate (part => parts(k - 2*j + 3))
+               if (k < 1) then
+                  line(1:m) = line(1:m) + part*(1.0_sp - contact_low(:, 1))*low(:, 1)
+               else if (k > size(fine, 2)) then
+                  line(1:m) = line(1:m) + part*(1.0_sp - contact_high(:, 1))*high(:, 1)
+               else
+                  line(1:m) = line(1:m) + part*(1.0_sp - contact(:, k))*fine(:, k)
+               end if
+            end associate
+         end do
          line(0) = line(image_of_point(0, m, even))
          line(m + 1) = line(image_of_point(m + 1, m, even))
          do i = 1, m/2
@@ -298,7 +285,7 @@ contains
                                                   + 0.25_sp*(line(2*i - 2) + line(2*i + 1)))
          end do
       end do
-      call complete(coarse%part, coarse%slab, coarse%values)
+      call complete(coarse%part, coarse%slab, coarse%values(:, 1:coarse%slab%columns()))
    end subroutine adjoint_fill
 
 end module wavycon_multilevel_preconditioner

@@ -6,7 +6,7 @@ module wavycon_pressure_load
    implicit none (type, external)
    private
 
-   public :: bounded_shift, set_load, sum_of_field
+   public :: bounded_shift, has_points_at, set_load, sum_of_field
 
 contains
 
@@ -40,6 +40,7 @@ contains
       where (changes) pressure = min(max(pressure + shift, 0.0_dp), hardness)
    end subroutine set_load
 
+   !> Whether any pressure is at the hardness or above.
    logical function has_points_at(slab, hardness, pressure)
       type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: hardness, pressure(:, :)
@@ -97,10 +98,16 @@ contains
       real(dp), intent(in) :: field(:, :)     !! shape (M, slab%columns())
 
       real(dp) :: parts(1, size(field, 2)), totals(1)
-      integer :: j
+      real(dp) :: column
+      integer :: i, j
 
       do j = 1, size(field, 2)
-         parts(1, j) = sum(field(:, j))
+         column = 0.0_dp
+         !$omp simd reduction(+:column)
+         do i = 1, size(field, 1)
+            column = column + field(i, j)
+         end do
+         parts(1, j) = column
       end do
       totals = slab%column_totals(parts)
       total = totals(1)

@@ -43,8 +43,9 @@ module wavycon_contact_tuning
    integer, parameter, public :: halo = 2
    !> Reach of the stencil that approximates S^-1, in steps.
    integer, parameter, public :: stencil_reach = 3
-   !> Part of the points in contact below which the stencil replaces the transforms of S^-1.
-   real(dp), parameter, public :: stencil_fraction = 0.01_dp
+   !> Part of the points in contact below which the stencil replaces the transforms of S^-1: at 0.01 of 1024 x 1024
+   !> points both take the same time, and the stencil 10 to 14 iterations in place of 7 to 10.
+   real(dp), parameter, public :: stencil_fraction = 0.003_dp
 
    !> The preconditioner continues the gap from the contact to the points outside. For each doubling of the distance it
    !> falls by the factor decay_alone + decay_growth*(contact area fraction)^(1/2), at most 1: by about half beside a

@@ -1,6 +1,6 @@
 !> Convolutions on a grid in double precision.
 module wavycon_grid_convolution_dp
-   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_null_ptr, c_ptr
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert, assertions_stop
    use wavycon_constants, only: pi

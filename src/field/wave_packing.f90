@@ -133,7 +133,7 @@ contains
       factor = 1.0_dp
       if (.not. present(power)) return
       factor = 0.0_dp
-      if (k > 0 .or. l > 0) factor = hypot(k*per_wave(1), l*per_wave(2))**power
+      if (k > 0 .or. l > 0) factor = sqrt((k*per_wave(1))**2 + (l*per_wave(2))**2)**power
    end function factor
 
 end module wavycon_wave_packing

@@ -45,7 +45,6 @@ module wavycon_surface
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
       real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta] of a wave, times wavelength
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
-      real(dp) :: crest_curvature = 1.0_dp      !! largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]
       real(dp) :: hardness = huge(1.0_dp)       !! H, the largest pressure that it bears [p*]; huge: it stays elastic
    contains
       procedure :: parts
@@ -56,6 +55,7 @@ module wavycon_surface
       procedure :: radii
       procedure :: is_distributed
       procedure :: has_hardness
+      procedure :: crest_curvature
       procedure :: full_contact_pressure
       procedure :: shape_at
       procedure :: sample_shape
@@ -98,7 +98,6 @@ contains
       call find_peak(divided(waves, -1.0_dp), lowest, unused)
       surface%stiffness = 1.0_dp/lowest
       surface%full_contact_peak = surface%full_contact_peak/lowest
-      call find_peak(weighted(surface%shape, surface%length, 2), surface%crest_curvature, unused)
    end function surface_of_series
 
    !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
@@ -155,10 +154,6 @@ contains
          surface%stiffness = 1.0_dp/extremes(2)
          surface%full_contact_peak = extremes(1)*surface%stiffness
       end if
-      call transform%sample(surface%shape, values, 2, per_wave)
-      extremes(1) = maxval(values)
-      call transform%slab%largest(extremes)
-      surface%crest_curvature = extremes(1)
       if (surface%has_free_edges) call set_units_without_closure(surface)
    end function surface_of_points
 
@@ -178,7 +173,6 @@ contains
       surface%form = surface%form/surface%amplitude
       surface%crest = 0.5_dp*pi
       if (dimension == 1) surface%crest(2) = 0.0_dp
-      surface%crest_curvature = 0.0_dp
       call set_units_without_closure(surface)
    end function surface_of_ball
 
@@ -199,7 +193,6 @@ contains
 
       surface%stiffness = surface%nominal_area()**(1.0_dp/surface%dimension)
       surface%full_contact_peak = huge(1.0_dp)
-      surface%crest_curvature = surface%crest_curvature + 2*sum(surface%form/surface%length**2)
    end subroutine set_units_without_closure
 
    !> What the paraboloid adds to h/Delta: its mean over the map is zero.
@@ -304,6 +297,27 @@ contains
 
       has_hardness = self%hardness < huge(self%hardness)
    end function has_hardness
+
+   !> The largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]; of a map its largest at the points.
+   real(dp) function crest_curvature(self) result(curvature)
+      class(surface_type), intent(in) :: self
+
+      type(grid_transform) :: transform
+      real(dp), allocatable :: values(:, :)
+      real(dp) :: largest(1), unused(2)
+
+      if (self%is_height_map()) then
+         call transform%start(self%points/self%parts(), even=self%mirrored)
+         allocate (values(transform%points(1), transform%slab%columns()))
+         call transform%sample(self%shape, values, 2, 1.0_dp/self%length)
+         largest = maxval(values)
+         call transform%slab%largest(largest)
+      else
+         call find_peak(weighted(self%shape, self%length, 2), largest(1), unused)
+      end if
+      curvature = largest(1)
+      if (self%has_free_edges) curvature = curvature + 2*sum(self%form/self%length**2)
+   end function crest_curvature
 
    !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave (eq. 7),
    !> sqrt2 times that for the 2-D wave (eq. 22); for any surface the largest tension, pbar - p, in full contact.
