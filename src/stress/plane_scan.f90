@@ -15,10 +15,11 @@ module wavycon_plane_scan
 contains
 
    !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10).
-   subroutine scan_plane(waves, pbar_over_pstar, points, depth, body, place, stress)
+   subroutine scan_plane(waves, pbar_over_pstar, points, first, last, depth, body, place, stress)
       type(stress_waves), intent(in) :: waves
       real(dp), intent(in) :: pbar_over_pstar   !! P
       integer, intent(in) :: points(2)   !! of the plane along X and Y
+      integer, intent(in) :: first(2), last(2)   !! of these the points to look at, from 0
       real(dp), intent(in) :: depth      !! Z [rad]
       type(elastic_body), intent(in) :: body
       integer, intent(out) :: place(2, 2)   !! of both points, from 0
@@ -28,7 +29,7 @@ contains
       real(dp) :: here(6), largest(2), mean(6), shear
       real(dp), allocatable :: above(:), below(:), squares(:), values(:, :)
       type(grid_transform) :: plane
-      integer :: i, j, last(2), number
+      integer :: i, j, number
 
       number = merge(2, 5, waves%is_even)
       allocate (spectra(0:points(1)/2, 0:points(2) - 1, number))
@@ -39,28 +40,27 @@ contains
       do i = 1, number
          call plane%sum_along_y(spectra(:, :, i))
       end do
-      last = merge(points/2, points - 1, waves%is_even)
-      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(0:last(1)), values(0:points(1) - 1, 5))
+      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(first(1):last(1)), values(0:points(1) - 1, 5))
       largest = -1.0_dp
-      do j = 0, last(2)
+      do j = first(2), last(2)
          do i = 1, number
             call plane%sample_column(spectra(:, j, i), values(:, i))
          end do
          if (waves%is_even) then
             above = values(:, 1)
             call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
-            do i = 0, last(1)
+            do i = first(1), last(1)
                associate (a => above(i), b => above(modulo(-i, points(1))), c => below(i), &
                           d => below(modulo(-i, points(1))))
                   values(i, [1, 3, 4, 5]) = 0.25_dp*[a + b + c + d, a - b - c + d, a - b + c - d, a + b - c - d]
                end associate
             end do
          end if
-         squares = values(:last(1), 1)**2
+         squares = values(first(1):last(1), 1)**2
          do i = 2, 5
-            squares = squares + values(:last(1), i)**2
+            squares = squares + values(first(1):last(1), i)**2
          end do
-         do i = 0, last(1)
+         do i = first(1), last(1)
             ! A shear stress is at most 1/sqrt3 of the von Mises stress.
             if (squares(i) <= min(largest(1), 3*largest(2)**2)) cycle
             here(xx) = values(i, 2)/3 + values(i, 1)/sqrt3

@@ -11,9 +11,9 @@ module wavycon_series_stress
    use wavycon_kinds, only: dp
    use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
-      plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, least_pressure, octave_factor, &
+      plane_points, plane_ratio, pressure_part, waves_in_depth, window_depth, window_points
    use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -318,8 +318,9 @@ contains
       end do
    end subroutine on_plane
 
-   !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
-   !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points.
+   !> The places of the largest von Mises stress and of the largest shear on planes from the bottom up, each at about
+   !> `plane_ratio` times the depth of the next one. Deeper planes need fewer points. Where few windows have all large
+   !> pressures the planes close to the surface are those of the windows.
    subroutine start_places(self, body, places, widths, stresses)
       class(series_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -327,33 +328,141 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      !> Lengths of which are fast to transform.
-      integer, parameter :: multiple = 8
-      real(dp) :: depth, most(2), step, stress(6, 2)
-      integer :: i, k, last, place(2, 2), points(2)
+      integer, allocatable :: corners(:, :)
+      real(dp), allocatable :: highest(:), pressure(:, :)
+      real(dp) :: largest, step
+      type(stress_waves) :: waves
+      integer :: i, last, points(2), shallow
 
       step = least_width(self)
       last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
-      allocate (places(3, 2*last + 2), widths(2*last + 2), stresses(6, 2*last + 2))
-      do i = 0, last
-         depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
-         ! Points that resolve the waves that reach the depth.
-         most = 2.0_dp*ubound(self%waves%wave)
-         if (i > 0) most = min(most, waves_in_depth/depth*[1.0_dp, self%side_ratio])
-         points = max(plane_points, multiple*ceiling(most/multiple))
-         if (self%dimension == 1) points(2) = 1
-         ! A plane takes less memory than there was when the series was made.
-         call scan_plane(self%waves, self%pbar_over_pstar, points, depth, body, place, stress)
-         do k = 1, 2
-            associate (n => 2*i + k)
-               widths(n) = max(depth, step)
-               places(:, n) = [2*pi*place(:, k)/points, depth] + self%first
-               stresses(:, n) = stress(:, k)
-               if (allocated(self%images)) stresses(:, n) = stresses(:, n) + matmul( &
-                                                            self%images%correction(places(:, n)), [1.0_dp, body%nu])
+      allocate (places(3, 0), widths(0), stresses(6, 0))
+      largest = 0.0_dp
+      points = points_of(self%waves, 0.0_dp)
+      shallow = -1
+      if (all(points >= 4*window_points)) then
+         shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
+         call find_windows(self, points, corners, highest, pressure)
+         if (size(highest) > product(points)/(4*window_points**2)) shallow = -1
+      end if
+      associate (region => merge(points/2, points - 1, self%waves%is_even .or. allocated(self%images)))
+         call scan(self%waves, shallow + 1, last, [0, 0], points, [0.0_dp, 0.0_dp], region/real(points, dp))
+      end associate
+      if (shallow < 0) return
+      do
+         i = maxloc(highest, dim=1)
+         ! Below a pressure of at most p the stress is hardly as large as p.
+         if (highest(i) <= largest) exit
+         call start_window(self, pressure, corners(:, i), waves)
+         call scan(waves, 0, shallow, corners(:, i), [window_points, window_points], [0.25_dp, 0.25_dp], &
+                   [0.75_dp, 0.75_dp])
+         highest(i) = -1.0_dp
+      end do
+
+   contains
+
+      !> Points that resolve the waves that reach a depth.
+      pure function points_of(waves, depth) result(number)
+         type(stress_waves), intent(in) :: waves
+         real(dp), intent(in) :: depth
+         integer :: number(2)
+
+         !> Lengths of which are fast to transform.
+         integer, parameter :: multiple = 8
+         real(dp) :: most(2)
+
+         most = 2.0_dp*ubound(waves%wave)
+         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, waves%side_ratio])
+         number = max(plane_points, multiple*ceiling(most/multiple))
+         if (self%dimension == 1) number(2) = 1
+      end function points_of
+
+      !> Scans some of the planes below the cell or a window.
+      subroutine scan(waves, first, last, corner, size, from, to)
+         type(stress_waves), intent(in) :: waves
+         integer, intent(in) :: first, last     !! planes, 0 on the surface
+         integer, intent(in) :: corner(2)       !! first point, from 0
+         integer, intent(in) :: size(2)         !! number of points
+         real(dp), intent(in) :: from(2), to(2) !! part of it to look at, over its sides
+
+         real(dp) :: depth, stress(6, 2)
+         integer :: i, k, number(2), place(2, 2)
+
+         associate (part => size/real(points, dp))
+            do i = last, first, -1
+               depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
+               number = points_of(waves, depth/part(1))
+               ! A plane takes less memory than there was when the series was made.
+               call scan_plane(waves, self%pbar_over_pstar, number, nint(from*number), floor(to*number), &
+                               depth/part(1), body, place, stress)
+               do k = 1, 2
+                  associate (here => [2*pi*(corner/real(points, dp) + part*place(:, k)/number), depth] + self%first)
+                     if (allocated(self%images)) stress(:, k) = stress(:, k) + matmul(self%images%correction(here), &
+                                                                                      [1.0_dp, body%nu])
+                     places = reshape([places, here], [3, ubound(places, 2) + 1])
+                  end associate
+                  widths = [widths, max(depth, step)]
+                  stresses = reshape([stresses, stress(:, k)], [6, ubound(stresses, 2) + 1])
+               end do
+               largest = max(largest, von_mises(stress(:, 1)))
+            end do
+         end associate
+      end subroutine scan
+
+   end subroutine start_places
+
+   !> The windows about the points with the largest pressures.
+   subroutine find_windows(stress, points, corners, highest, pressure)
+      class(series_stress), intent(in) :: stress
+      integer, intent(in) :: points(2)                     !! of the cell
+      integer, allocatable, intent(out) :: corners(:, :)   !! first point of each window, from 0, shape (2, n)
+      real(dp), allocatable, intent(out) :: highest(:)     !! largest pressure in the middle of each window
+      real(dp), allocatable, intent(out) :: pressure(:, :) !! at all points
+
+      integer, parameter :: middle = window_points/2
+      complex(dp), allocatable :: spectrum(:, :, :)
+      real(dp) :: largest
+      type(grid_transform) :: plane
+      integer :: i, j, last(2)
+
+      allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
+      call plane%start(points, even=.false., whole=.true.)
+      call stress%waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
+      call plane%sample_waves(spectrum(:, :, 1), pressure)
+      pressure = pressure + stress%pbar_over_pstar
+      largest = maxval(pressure)
+      last = merge(points/2, points - 1, stress%waves%is_even .or. allocated(stress%images))
+      allocate (corners(2, 0), highest(0))
+      do j = 0, last(2), middle
+         do i = 0, last(1), middle
+            associate (here => maxval(pressure(i:min(i + middle, last(1)), j:min(j + middle, last(2)))))
+               if (here < least_pressure*largest) cycle
+               corners = reshape([corners, [i, j] - middle/2], [2, size(highest) + 1])
+               highest = [highest, here]
             end associate
          end do
       end do
-   end subroutine start_places
+   end subroutine find_windows
+
+   !> The waves of the pressure in a window, repeated.
+   subroutine start_window(stress, pressure, corner, waves)
+      class(series_stress), intent(in) :: stress
+      real(dp), intent(in) :: pressure(0:, 0:)
+      integer, intent(in) :: corner(2)
+      type(stress_waves), intent(out) :: waves
+
+      integer, parameter :: points(2) = window_points
+      type(fourier_series) :: series
+      type(grid_transform) :: plane
+      integer :: i
+
+      call plane%start(points, even=.false., whole=.true.)
+      associate (from => [(i, i=0, window_points - 1)], n => shape(pressure))
+         call plane%series(pressure(modulo(corner(1) + from, n(1)), modulo(corner(2) + from, n(2))), series)
+         call waves%start(series, stress%side_ratio*n(1)/n(2), is_sampled=.true.)
+      end associate
+      ! What the mean of the window exceeds that of the cell by is a long wave.
+      waves%wave(0, 0) = series%c(0, 0) - stress%pbar_over_pstar
+   end subroutine start_window
 
 end module wavycon_series_stress

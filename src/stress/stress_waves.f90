@@ -158,12 +158,13 @@ contains
 
    !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
    !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
-   !> sum of the other four; waves that hardly reach the plane are left out of these.
+   !> sum of the other four; waves that hardly reach the plane are left out of these. Of one they are those of the
+   !> pressure.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
+      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 1, 2, 5, 6 or 9)
 
       complex(dp), allocatable :: here(:, :), turn_x(:), wave(:)
       real(dp), allocatable :: k(:), q(:), q_z(:), shear(:)
@@ -187,6 +188,8 @@ contains
          wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%wave(:last(1), l)*turn_x*turn_y
          shear = -(1.0_dp - 2*nu - q_z)/q**2
          select case (number)
+         case (1)
+            here(:, 1) = wave
          case (2)
             here(:, 1) = sqrt3*cmplx((0.5_dp*(k**2 - q_y**2) + k*q_y)*shear, (k + q_y)*depth, dp)*wave
             here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
