@@ -12,7 +12,7 @@ module wavycon_series_stress
    use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, least_pressure, octave_factor, &
+   use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
       plane_points, plane_ratio, pressure_part, waves_in_depth, window_depth, window_points
    use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
@@ -23,12 +23,18 @@ module wavycon_series_stress
 
    integer, parameter :: number_of_sums = 11
 
+   !> The Taylor series (S9) of the moments about a place.
+   type :: taylor_series
+      complex(dp), allocatable :: moment(:, :, :, :)
+      real(dp) :: centre(3) = 0.0_dp   !! [rad]
+   end type taylor_series
+
    type, extends(stress_fields) :: series_stress
       private
       type(stress_waves) :: waves
       real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
-      complex(dp), allocatable :: moment(:, :, :, :)   !! of the Taylor series in use
-      real(dp) :: centre(3) = 0.0_dp            !! of that series [rad]
+      type(taylor_series), allocatable :: known(:)   !! about places of the search
+      integer :: used = 0                       !! that in use
       real(dp) :: first(3) = 0.0_dp             !! X, Y, 0 of the first point of the series on the surface [rad]
       type(image_stress), allocatable :: images   !! of the load, whose stresses do not count
    contains
@@ -104,23 +110,35 @@ contains
       if (allocated(self%images)) parts = parts + self%images%correction([x, y, depth])
    end subroutine at
 
-   !> Prepares the Taylor series (S9) about a place, unless that of the last call is close enough.
+   !> Prepares the Taylor series (S9) about a place, unless a known one is accurate enough there.
    subroutine expand(self, place, width, reach, noise)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: place(3)
       real(dp), intent(in) :: width, reach
       real(dp), intent(out) :: noise
 
-      real(dp) :: distance
+      real(dp), allocatable :: distances(:)
+      integer :: i
 
-      distance = huge(distance)
-      if (allocated(self%moment)) distance = norm2(place - self%centre)
-      if (distance > centre_part*reach) then
-         self%centre = place
-         distance = 0.0_dp
-         call self%waves%find_moments(place - self%first, expansion_order, 1, self%moment)
-      end if
-      noise = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
+      if (.not. allocated(self%known)) allocate (self%known(0))
+      distances = [(norm2(place - self%known(i)%centre), i=1, size(self%known))]
+      self%used = minloc(distances, dim=1)
+      noise = huge(noise)
+      if (self%used > 0) noise = noise_at(distances(self%used))
+      if (noise <= noise_part*(reach/width)**2) return
+      self%known = [self%known, taylor_series(centre=place)]
+      self%used = size(self%known)
+      call self%waves%find_moments(place - self%first, expansion_order, 1, self%known(self%used)%moment)
+      noise = noise_at(0.0_dp)
+
+   contains
+
+      pure real(dp) function noise_at(distance)
+         real(dp), intent(in) :: distance   !! from the centre of a series [rad]
+
+         noise_at = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
+      end function noise_at
+
    end subroutine expand
 
    !> The width of a maximum at the surface [rad]: half of the shortest wave.
@@ -136,8 +154,8 @@ contains
       real(dp), intent(in) :: place(3)
       real(dp), intent(out) :: parts(6, 2)
 
-      associate (move => (place - self%centre)*[1.0_dp, self%side_ratio, 1.0_dp])
-         parts = parts_of(sums_near(self%moment(:, :, :, 1), move, place(3)))
+      associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
+         parts = parts_of(sums_near(known%moment(:, :, :, 1), (place - known%centre)*scale, place(3)))
       end associate
       if (allocated(self%images)) parts = parts + self%images%correction(place)
    end subroutine near

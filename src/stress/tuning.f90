@@ -74,9 +74,9 @@ module wavycon_stress_tuning
    integer, parameter, public :: expansion_order = 8
       !! Of the Taylor series that a series of waves is evaluated by. Smaller: the search follows its errors. Larger:
       !! more to add up for each wave.
-   real(dp), parameter, public :: centre_part = 0.25_dp
-      !! A model gets its own Taylor series where it is farther from the centre of the last one than this part of its
-      !! reach. Larger: errors of the series. Smaller: more of them.
+   real(dp), parameter, public :: noise_part = 1e-3_dp
+      !! A known series serves a model if its error there is below this part of what the stress changes by over the
+      !! model's reach. Larger: the search follows errors of the series. Smaller: more of them.
 
    ! Estimates of errors.
 
