@@ -9,7 +9,6 @@ module wavycon_series_stress
    use wavycon_grid_transform, only: grid_transform
    use wavycon_image_stress, only: image_stress, images_of
    use wavycon_kinds, only: dp
-   use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
@@ -20,6 +19,9 @@ module wavycon_series_stress
    private
 
    public :: series_stress, start_series_stress
+
+   !> Points of the middle of a window across.
+   integer, parameter :: middle = window_points/2
 
    integer, parameter :: number_of_sums = 11
 
@@ -346,35 +348,36 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      integer, allocatable :: corners(:, :)
-      real(dp), allocatable :: highest(:), pressure(:, :)
-      real(dp) :: largest, step
+      integer, parameter :: window(2) = window_points
+      real(dp), allocatable :: highest(:, :), pressure(:, :)
+      real(dp) :: largest, region, step
       type(stress_waves) :: waves
-      integer :: i, last, points(2), shallow
+      integer :: block(2), last, points(2), shallow
 
       step = least_width(self)
       last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
       allocate (places(3, 0), widths(0), stresses(6, 0))
       largest = 0.0_dp
       points = points_of(self%waves, 0.0_dp)
+      ! An even field is that of its quarter, and one with free edges has its load there.
+      region = merge(0.5_dp, 1.0_dp, self%waves%is_even .or. allocated(self%images))
       shallow = -1
-      if (all(points >= 4*window_points)) then
-         shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
-         call find_windows(self, points, corners, highest, pressure)
-         if (size(highest) > product(points)/(4*window_points**2)) shallow = -1
+      if (all(points >= 4*window)) then
+         call find_pressures(self, points, min(floor(region*points), points - 1), pressure, highest)
+         if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
+            shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
       end if
-      associate (region => merge(points/2, points - 1, self%waves%is_even .or. allocated(self%images)))
-         call scan(self%waves, shallow + 1, last, [0, 0], points, [0.0_dp, 0.0_dp], region/real(points, dp))
-      end associate
+      call scan(self%waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
       if (shallow < 0) return
       do
-         i = maxloc(highest, dim=1)
+         block = maxloc(highest)
          ! Below a pressure of at most p the stress is hardly as large as p.
-         if (highest(i) <= largest) exit
-         call start_window(self, pressure, corners(:, i), waves)
-         call scan(waves, 0, shallow, corners(:, i), [window_points, window_points], [0.25_dp, 0.25_dp], &
-                   [0.75_dp, 0.75_dp])
-         highest(i) = -1.0_dp
+         if (highest(block(1), block(2)) <= largest) exit
+         highest(block(1), block(2)) = -1.0_dp
+         associate (corner => (block - 1)*middle - middle/2)
+            call start_window(self, pressure, corner, waves)
+            call scan(waves, 0, shallow, corner, window, 0.25_dp, 0.75_dp)
+         end associate
       end do
 
    contains
@@ -401,7 +404,7 @@ contains
          integer, intent(in) :: first, last     !! planes, 0 on the surface
          integer, intent(in) :: corner(2)       !! first point, from 0
          integer, intent(in) :: size(2)         !! number of points
-         real(dp), intent(in) :: from(2), to(2) !! part of it to look at, over its sides
+         real(dp), intent(in) :: from, to       !! part of it to look at, over its sides
 
          real(dp) :: depth, stress(6, 2)
          integer :: i, k, number(2), place(2, 2)
@@ -411,8 +414,8 @@ contains
                depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
                number = points_of(waves, depth/part(1))
                ! A plane takes less memory than there was when the series was made.
-               call scan_plane(waves, self%pbar_over_pstar, number, nint(from*number), floor(to*number), &
-                               depth/part(1), body, place, stress)
+               call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
+                                     min(floor(to*number), number - 1), depth/part(1), body, place, stress)
                do k = 1, 2
                   associate (here => [2*pi*(corner/real(points, dp) + part*place(:, k)/number), depth] + self%first)
                      if (allocated(self%images)) stress(:, k) = stress(:, k) + matmul(self%images%correction(here), &
@@ -429,38 +432,26 @@ contains
 
    end subroutine start_places
 
-   !> The windows about the points with the largest pressures.
-   subroutine find_windows(stress, points, corners, highest, pressure)
+   !> The pressure at the points of the cell, and the largest ones in the middle of windows.
+   subroutine find_pressures(stress, points, region, pressure, highest)
       class(series_stress), intent(in) :: stress
-      integer, intent(in) :: points(2)                     !! of the cell
-      integer, allocatable, intent(out) :: corners(:, :)   !! first point of each window, from 0, shape (2, n)
-      real(dp), allocatable, intent(out) :: highest(:)     !! largest pressure in the middle of each window
-      real(dp), allocatable, intent(out) :: pressure(:, :) !! at all points
+      integer, intent(in) :: points(2)                       !! of the cell
+      integer, intent(in) :: region(2)                       !! last point to look at, from 0
+      real(dp), allocatable, intent(out) :: pressure(:, :)   !! [p*]
+      real(dp), allocatable, intent(out) :: highest(:, :)    !! of each `middle` points along X and Y, from 0 on
 
-      integer, parameter :: middle = window_points/2
       complex(dp), allocatable :: spectrum(:, :, :)
-      real(dp) :: largest
       type(grid_transform) :: plane
-      integer :: i, j, last(2)
+      integer :: i, j
 
       allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
       call plane%start(points, even=.false., whole=.true.)
       call stress%waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
       call plane%sample_waves(spectrum(:, :, 1), pressure)
       pressure = pressure + stress%pbar_over_pstar
-      largest = maxval(pressure)
-      last = merge(points/2, points - 1, stress%waves%is_even .or. allocated(stress%images))
-      allocate (corners(2, 0), highest(0))
-      do j = 0, last(2), middle
-         do i = 0, last(1), middle
-            associate (here => maxval(pressure(i:min(i + middle, last(1)), j:min(j + middle, last(2)))))
-               if (here < least_pressure*largest) cycle
-               corners = reshape([corners, [i, j] - middle/2], [2, size(highest) + 1])
-               highest = [highest, here]
-            end associate
-         end do
-      end do
-   end subroutine find_windows
+      highest = reshape([((maxval(pressure(i:min(i + middle, region(1)), j:min(j + middle, region(2)))), &
+                           i=0, region(1), middle), j=0, region(2), middle)], region/middle + 1)
+   end subroutine find_pressures
 
    !> The waves of the pressure in a window, repeated.
    subroutine start_window(stress, pressure, corner, waves)

@@ -30,10 +30,11 @@ module wavycon_stress_tuning
       !! Fewest points of a plane across the cell. As waves_in_depth.
 
    integer, parameter, public :: window_points = 64
-      !! Points of a window across. Larger: windows take as long as whole planes. Smaller: more planes of the whole cell.
+      !! Points of a window across, a multiple of 8. Larger: windows take as long as whole planes. Smaller: more planes
+      !! of the whole cell.
    real(dp), parameter, public :: window_depth = 0.125_dp
-      !! Depth down to which planes are those of windows, over their sides. Larger: the pressures beyond the window count.
-      !! Smaller: more planes of the whole cell.
+      !! Depth down to which planes are those of windows, over their sides. Larger: the pressures beyond the window
+      !! count. Smaller: more planes of the whole cell.
    real(dp), parameter, public :: least_pressure = 0.5_dp
       !! Largest pressure in a window over that of the cell below which there is none. Larger: a maximum may be missed.
       !! Smaller: whole planes where windows would take less time.
