@@ -338,8 +338,8 @@ contains
       end do
    end subroutine on_plane
 
-   !> The places of the largest von Mises stress and of the largest shear on planes from the bottom up, each at about
-   !> `plane_ratio` times the depth of the next one. Deeper planes need fewer points. Where few windows have all large
+   !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
+   !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points. Where few windows have all large
    !> pressures the planes close to the surface are those of the windows.
    subroutine start_places(self, body, places, widths, stresses)
       class(series_stress), intent(inout) :: self
@@ -410,7 +410,7 @@ contains
          integer :: i, k, number(2), place(2, 2)
 
          associate (part => size/real(points, dp))
-            do i = last, first, -1
+            do i = first, last
                depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
                number = points_of(waves, depth/part(1))
                ! A plane takes less memory than there was when the series was made.
