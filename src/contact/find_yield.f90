@@ -77,6 +77,8 @@ contains
       integer :: i
       !> Rounding of the logarithm of a stress.
       real(dp), parameter :: rounding = 1e-10_dp
+      !> A bracket narrower than this part of the tolerance has a jump.
+      real(dp), parameter :: part_of_enough = 0.1_dp
 
       low = -huge(low)
       at_hardness = log(solver%surface%hardness)
@@ -102,7 +104,8 @@ contains
          end if
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
          ! Where a hardness bounds the stress r hardly grows: the secant would lead to loads far too light, or up.
-         if (low <= -huge(low) .and. miss > 0.0_dp) slope = max(slope, 0.5_dp*light_slope(solver))
+         if (low <= -huge(low) .and. miss > max(0.0_dp, longest_rise*slope)) &
+            slope = max(slope, 0.5_dp*light_slope(solver))
          last_log_p = log_p
          last_miss = miss
          if (miss > 0.0_dp) high = min(high, log_p)
@@ -110,9 +113,12 @@ contains
          next = huge(next)
          if (slope > 0.0_dp) next = log_p - miss/slope
          next = min(next, log_p + longest_rise)
-         if (next <= low .or. next >= high) next = 0.5_dp*(low + high)
+         if (next <= low .or. next >= high) next = min(0.5_dp*(low + high), log_p + longest_rise)
          if (next > min(log(last_load), at_hardness - below_hardness)) exit
-         if (abs(next - log_p) <= epsilon(next)*max(1.0_dp, abs(next))) then
+         if (abs(next - log_p) <= epsilon(next)*max(1.0_dp, abs(next)) &
+             .or. (high < at_hardness .and. high - low <= part_of_enough*enough)) then
+            ! The slope of a jump is none for the next level.
+            slope = light_slope(solver)
             ! The stress of a solution on a grid jumps by rounding and the tolerance of the solver: the target may lie
             ! within a jump. This is good enough if the distance is within the error estimate.
             if (solution%is_good() .and. abs(miss) > min(error, largest_stress_error)) solution%status = not_accurate

@@ -9,11 +9,10 @@ module wavycon_series_stress
    use wavycon_grid_transform, only: grid_transform
    use wavycon_image_stress, only: image_stress, images_of
    use wavycon_kinds, only: dp
-   use wavycon_plane_scan, only: scan_plane
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
-   use wavycon_stress_tuning, only: centre_part, coarsest, expansion_order, octave_factor, plane_points, &
-      plane_ratio, pressure_part, waves_in_depth
+   use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
+      plane_points, plane_ratio, pressure_part, waves_in_depth, window_depth, window_points
    use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -21,14 +20,23 @@ module wavycon_series_stress
 
    public :: series_stress, start_series_stress
 
+   !> Points of the middle of a window across.
+   integer, parameter :: middle = window_points/2
+
    integer, parameter :: number_of_sums = 11
+
+   !> The Taylor series (S9) of the moments about a place.
+   type :: taylor_series
+      complex(dp), allocatable :: moment(:, :, :, :)
+      real(dp) :: centre(3) = 0.0_dp   !! [rad]
+   end type taylor_series
 
    type, extends(stress_fields) :: series_stress
       private
       type(stress_waves) :: waves
       real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
-      complex(dp), allocatable :: moment(:, :, :, :)   !! of the Taylor series in use
-      real(dp) :: centre(3) = 0.0_dp            !! of that series [rad]
+      type(taylor_series), allocatable :: known(:)   !! about places of the search
+      integer :: used = 0                       !! that in use
       real(dp) :: first(3) = 0.0_dp             !! X, Y, 0 of the first point of the series on the surface [rad]
       type(image_stress), allocatable :: images   !! of the load, whose stresses do not count
    contains
@@ -104,23 +112,35 @@ contains
       if (allocated(self%images)) parts = parts + self%images%correction([x, y, depth])
    end subroutine at
 
-   !> Prepares the Taylor series (S9) about a place, unless that of the last call is close enough.
+   !> Prepares the Taylor series (S9) about a place, unless a known one is accurate enough there.
    subroutine expand(self, place, width, reach, noise)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: place(3)
       real(dp), intent(in) :: width, reach
       real(dp), intent(out) :: noise
 
-      real(dp) :: distance
+      real(dp), allocatable :: distances(:)
+      integer :: i
 
-      distance = huge(distance)
-      if (allocated(self%moment)) distance = norm2(place - self%centre)
-      if (distance > centre_part*reach) then
-         self%centre = place
-         distance = 0.0_dp
-         call self%waves%find_moments(place - self%first, expansion_order, 1, self%moment)
-      end if
-      noise = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
+      if (.not. allocated(self%known)) allocate (self%known(0))
+      distances = [(norm2(place - self%known(i)%centre), i=1, size(self%known))]
+      self%used = minloc(distances, dim=1)
+      noise = huge(noise)
+      if (self%used > 0) noise = noise_at(distances(self%used))
+      if (noise <= noise_part*(reach/width)**2) return
+      self%known = [self%known, taylor_series(centre=place)]
+      self%used = size(self%known)
+      call self%waves%find_moments(place - self%first, expansion_order, 1, self%known(self%used)%moment)
+      noise = noise_at(0.0_dp)
+
+   contains
+
+      pure real(dp) function noise_at(distance)
+         real(dp), intent(in) :: distance   !! from the centre of a series [rad]
+
+         noise_at = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
+      end function noise_at
+
    end subroutine expand
 
    !> The width of a maximum at the surface [rad]: half of the shortest wave.
@@ -136,8 +156,8 @@ contains
       real(dp), intent(in) :: place(3)
       real(dp), intent(out) :: parts(6, 2)
 
-      associate (move => (place - self%centre)*[1.0_dp, self%side_ratio, 1.0_dp])
-         parts = parts_of(sums_near(self%moment(:, :, :, 1), move, place(3)))
+      associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
+         parts = parts_of(sums_near(known%moment(:, :, :, 1), (place - known%centre)*scale, place(3)))
       end associate
       if (allocated(self%images)) parts = parts + self%images%correction(place)
    end subroutine near
@@ -319,7 +339,8 @@ contains
    end subroutine on_plane
 
    !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
-   !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points.
+   !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points. Where few windows have all large
+   !> pressures the planes close to the surface are those of the windows.
    subroutine start_places(self, body, places, widths, stresses)
       class(series_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -327,33 +348,130 @@ contains
       real(dp), allocatable, intent(out) :: widths(:)
       real(dp), allocatable, intent(out) :: stresses(:, :)
 
-      !> Lengths of which are fast to transform.
-      integer, parameter :: multiple = 8
-      real(dp) :: depth, most(2), step, stress(6, 2)
-      integer :: i, k, last, place(2, 2), points(2)
+      integer, parameter :: window(2) = window_points
+      real(dp), allocatable :: highest(:, :), pressure(:, :)
+      real(dp) :: largest, region, step
+      type(stress_waves) :: waves
+      integer :: block(2), last, points(2), shallow
 
       step = least_width(self)
       last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
-      allocate (places(3, 2*last + 2), widths(2*last + 2), stresses(6, 2*last + 2))
-      do i = 0, last
-         depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
-         ! Points that resolve the waves that reach the depth.
-         most = 2.0_dp*ubound(self%waves%wave)
-         if (i > 0) most = min(most, waves_in_depth/depth*[1.0_dp, self%side_ratio])
-         points = max(plane_points, multiple*ceiling(most/multiple))
-         if (self%dimension == 1) points(2) = 1
-         ! A plane takes less memory than there was when the series was made.
-         call scan_plane(self%waves, self%pbar_over_pstar, points, depth, body, place, stress)
-         do k = 1, 2
-            associate (n => 2*i + k)
-               widths(n) = max(depth, step)
-               places(:, n) = [2*pi*place(:, k)/points, depth] + self%first
-               stresses(:, n) = stress(:, k)
-               if (allocated(self%images)) stresses(:, n) = stresses(:, n) + matmul( &
-                                                            self%images%correction(places(:, n)), [1.0_dp, body%nu])
-            end associate
-         end do
+      allocate (places(3, 0), widths(0), stresses(6, 0))
+      largest = 0.0_dp
+      points = points_of(self%waves, 0.0_dp)
+      ! An even field is that of its quarter, and one with free edges has its load there.
+      region = merge(0.5_dp, 1.0_dp, self%waves%is_even .or. allocated(self%images))
+      shallow = -1
+      if (all(points >= 4*window)) then
+         call find_pressures(self, points, min(floor(region*points), points - 1), pressure, highest)
+         if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
+            shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
+      end if
+      call scan(self%waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
+      if (shallow < 0) return
+      do
+         block = maxloc(highest)
+         ! Below a pressure of at most p the stress is hardly as large as p.
+         if (highest(block(1), block(2)) <= largest) exit
+         highest(block(1), block(2)) = -1.0_dp
+         associate (corner => (block - 1)*middle - middle/2)
+            call start_window(self, pressure, corner, waves)
+            call scan(waves, 0, shallow, corner, window, 0.25_dp, 0.75_dp)
+         end associate
       end do
+
+   contains
+
+      !> Points that resolve the waves that reach a depth.
+      pure function points_of(waves, depth) result(number)
+         type(stress_waves), intent(in) :: waves
+         real(dp), intent(in) :: depth
+         integer :: number(2)
+
+         !> Lengths of which are fast to transform.
+         integer, parameter :: multiple = 8
+         real(dp) :: most(2)
+
+         most = 2.0_dp*ubound(waves%wave)
+         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, waves%side_ratio])
+         number = max(plane_points, multiple*ceiling(most/multiple))
+         if (self%dimension == 1) number(2) = 1
+      end function points_of
+
+      !> Scans some of the planes below the cell or a window.
+      subroutine scan(waves, first, last, corner, size, from, to)
+         type(stress_waves), intent(in) :: waves
+         integer, intent(in) :: first, last     !! planes, 0 on the surface
+         integer, intent(in) :: corner(2)       !! first point, from 0
+         integer, intent(in) :: size(2)         !! number of points
+         real(dp), intent(in) :: from, to       !! part of it to look at, over its sides
+
+         real(dp) :: depth, stress(6, 2)
+         integer :: i, k, number(2), place(2, 2)
+
+         associate (part => size/real(points, dp))
+            do i = first, last
+               depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
+               number = points_of(waves, depth/part(1))
+               ! A plane takes less memory than there was when the series was made.
+               call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
+                                     min(floor(to*number), number - 1), depth/part(1), body, place, stress)
+               do k = 1, 2
+                  associate (here => [2*pi*(corner/real(points, dp) + part*place(:, k)/number), depth] + self%first)
+                     if (allocated(self%images)) stress(:, k) = stress(:, k) + matmul(self%images%correction(here), &
+                                                                                      [1.0_dp, body%nu])
+                     places = reshape([places, here], [3, ubound(places, 2) + 1])
+                  end associate
+                  widths = [widths, max(depth, step)]
+                  stresses = reshape([stresses, stress(:, k)], [6, ubound(stresses, 2) + 1])
+               end do
+               largest = max(largest, von_mises(stress(:, 1)))
+            end do
+         end associate
+      end subroutine scan
+
    end subroutine start_places
+
+   !> The pressure at the points of the cell, and the largest ones in the middle of windows.
+   subroutine find_pressures(stress, points, region, pressure, highest)
+      class(series_stress), intent(in) :: stress
+      integer, intent(in) :: points(2)                       !! of the cell
+      integer, intent(in) :: region(2)                       !! last point to look at, from 0
+      real(dp), allocatable, intent(out) :: pressure(:, :)   !! [p*]
+      real(dp), allocatable, intent(out) :: highest(:, :)    !! of each `middle` points along X and Y, from 0 on
+
+      complex(dp), allocatable :: spectrum(:, :, :)
+      type(grid_transform) :: plane
+      integer :: i, j
+
+      allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
+      call plane%start(points, even=.false., whole=.true.)
+      call stress%waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
+      call plane%sample_waves(spectrum(:, :, 1), pressure)
+      pressure = pressure + stress%pbar_over_pstar
+      highest = reshape([((maxval(pressure(i:min(i + middle, region(1)), j:min(j + middle, region(2)))), &
+                           i=0, region(1), middle), j=0, region(2), middle)], region/middle + 1)
+   end subroutine find_pressures
+
+   !> The waves of the pressure in a window, repeated.
+   subroutine start_window(stress, pressure, corner, waves)
+      class(series_stress), intent(in) :: stress
+      real(dp), intent(in) :: pressure(0:, 0:)
+      integer, intent(in) :: corner(2)
+      type(stress_waves), intent(out) :: waves
+
+      integer, parameter :: points(2) = window_points
+      type(fourier_series) :: series
+      type(grid_transform) :: plane
+      integer :: i
+
+      call plane%start(points, even=.false., whole=.true.)
+      associate (from => [(i, i=0, window_points - 1)], n => shape(pressure))
+         call plane%series(pressure(modulo(corner(1) + from, n(1)), modulo(corner(2) + from, n(2))), series)
+         call waves%start(series, stress%side_ratio*n(1)/n(2), is_sampled=.true.)
+      end associate
+      ! What the mean of the window exceeds that of the cell by is a long wave.
+      waves%wave(0, 0) = series%c(0, 0) - stress%pbar_over_pstar
+   end subroutine start_window
 
 end module wavycon_series_stress

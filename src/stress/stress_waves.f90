@@ -1,12 +1,14 @@
-!> The waves of a pressure that is a Fourier series, at a depth, about a point and in the stresses on a plane: (S3) and
-!> the waves of (S4), (S5) and (S9) of README.md in this directory.
+!> The waves of a pressure that is a Fourier series, at a depth, about a point and in the stresses on a plane: (S3), the
+!> waves of (S4), (S5) and (S9), and the search of a plane by (S10) of README.md in this directory.
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt3
+   use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
-   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: faintest_on_planes
    implicit none (type, external)
    private
@@ -29,6 +31,7 @@ module wavycon_stress_waves
       procedure :: octave_reaches
       procedure :: find_moments
       procedure :: find_spectra
+      procedure :: scan_plane
    end type stress_waves
 
 contains
@@ -158,12 +161,13 @@ contains
 
    !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
    !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
-   !> sum of the other four; waves that hardly reach the plane are left out of these.
+   !> sum of the other four; waves that hardly reach the plane are left out of these. Of one they are those of the
+   !> pressure.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
+      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 1, 2, 5, 6 or 9)
 
       complex(dp), allocatable :: here(:, :), turn_x(:), wave(:)
       real(dp), allocatable :: k(:), q(:), q_z(:), shear(:)
@@ -187,6 +191,8 @@ contains
          wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%wave(:last(1), l)*turn_x*turn_y
          shear = -(1.0_dp - 2*nu - q_z)/q**2
          select case (number)
+         case (1)
+            here(:, 1) = wave
          case (2)
             here(:, 1) = sqrt3*cmplx((0.5_dp*(k**2 - q_y**2) + k*q_y)*shear, (k + q_y)*depth, dp)*wave
             here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
@@ -222,5 +228,77 @@ contains
          end do
       end do
    end subroutine find_spectra
+
+   !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10).
+   subroutine scan_plane(self, pbar_over_pstar, points, first, last, depth, body, place, stress)
+      class(stress_waves), intent(in) :: self
+      real(dp), intent(in) :: pbar_over_pstar   !! P
+      integer, intent(in) :: points(2)   !! of the plane along X and Y
+      integer, intent(in) :: first(2), last(2)   !! of these the points to look at, from 0
+      real(dp), intent(in) :: depth      !! Z [rad]
+      type(elastic_body), intent(in) :: body
+      integer, intent(out) :: place(2, 2)   !! of both points, from 0
+      real(dp), intent(out) :: stress(6, 2) !! the deviators there
+
+      complex(dp), allocatable :: spectra(:, :, :)
+      real(dp) :: here(6), largest(2), mean(6), shear
+      real(dp), allocatable :: above(:), below(:), squares(:), values(:, :)
+      type(grid_transform) :: plane
+      integer :: i, j, number
+
+      number = merge(2, 5, self%is_even)
+      allocate (spectra(0:points(1)/2, 0:points(2) - 1, number))
+      call self%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
+      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
+      spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
+      call plane%start(points, even=.false., whole=.true.)
+      do i = 1, number
+         call plane%sum_along_y(spectra(:, :, i))
+      end do
+      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(first(1):last(1)), values(0:points(1) - 1, 5))
+      largest = -1.0_dp
+      do j = first(2), last(2)
+         do i = 1, number
+            call plane%sample_column(spectra(:, j, i), values(:, i))
+         end do
+         if (self%is_even) then
+            above = values(:, 1)
+            call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
+            do i = first(1), last(1)
+               associate (a => above(i), b => above(modulo(-i, points(1))), c => below(i), &
+                          d => below(modulo(-i, points(1))))
+                  values(i, [1, 3, 4, 5]) = 0.25_dp*[a + b + c + d, a - b - c + d, a - b + c - d, a + b - c - d]
+               end associate
+            end do
+         end if
+         squares = values(first(1):last(1), 1)**2
+         do i = 2, 5
+            squares = squares + values(first(1):last(1), i)**2
+         end do
+         do i = first(1), last(1)
+            ! A shear stress is at most 1/sqrt3 of the von Mises stress.
+            if (squares(i) <= min(largest(1), 3*largest(2)**2)) cycle
+            here(xx) = values(i, 2)/3 + values(i, 1)/sqrt3
+            here(yy) = values(i, 2)/3 - values(i, 1)/sqrt3
+            here(zz) = -2*values(i, 2)/3
+            here([xy, xz, yz]) = values(i, 3:5)/sqrt3
+            shear = largest_shear(here)
+            if (squares(i) > largest(1)) call take(1, squares(i))
+            if (shear > largest(2)) call take(2, shear)
+         end do
+      end do
+
+   contains
+
+      subroutine take(k, size)
+         integer, intent(in) :: k
+         real(dp), intent(in) :: size
+
+         largest(k) = size
+         place(:, k) = [i, j]
+         stress(:, k) = here
+      end subroutine take
+
+   end subroutine scan_plane
 
 end module wavycon_stress_waves

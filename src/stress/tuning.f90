@@ -29,6 +29,16 @@ module wavycon_stress_tuning
    integer, parameter, public :: plane_points = 24
       !! Fewest points of a plane across the cell. As waves_in_depth.
 
+   integer, parameter, public :: window_points = 64
+      !! Points of a window across, a multiple of 8. Larger: windows take as long as whole planes. Smaller: more planes
+      !! of the whole cell.
+   real(dp), parameter, public :: window_depth = 0.125_dp
+      !! Depth down to which planes are those of windows, over their sides. Larger: the pressures beyond the window
+      !! count. Smaller: more planes of the whole cell.
+   real(dp), parameter, public :: least_pressure = 0.5_dp
+      !! Largest pressure in a window over that of the cell below which there is none. Larger: a maximum may be missed.
+      !! Smaller: whole planes where windows would take less time.
+
    ! Start places of expansions. Fewer: a maximum may be missed. More: each is another place to evaluate.
 
    real(dp), parameter, public :: edge_ratios(*) = [0.5_dp, 0.9_dp, 1.0_dp, 1.1_dp, 1.4_dp]
@@ -65,9 +75,9 @@ module wavycon_stress_tuning
    integer, parameter, public :: expansion_order = 8
       !! Of the Taylor series that a series of waves is evaluated by. Smaller: the search follows its errors. Larger:
       !! more to add up for each wave.
-   real(dp), parameter, public :: centre_part = 0.25_dp
-      !! A model gets its own Taylor series where it is farther from the centre of the last one than this part of its
-      !! reach. Larger: errors of the series. Smaller: more of them.
+   real(dp), parameter, public :: noise_part = 1e-3_dp
+      !! A known series serves a model if its error there is below this part of what the stress changes by over the
+      !! model's reach. Larger: the search follows errors of the series. Smaller: more of them.
 
    ! Estimates of errors.
 
