@@ -52,9 +52,10 @@ contains
       if (unit == '') target = 'm'
       call find_factor(map%length_unit, target, factor, is_known)
       if (.not. is_known) then
-         call trouble("its lengths are in '"//excerpt(map%length_unit)//"' and cannot be converted to '"// &
-                      escaped(target)//"': both must be one of "//listed(units, ' and ')// &
-                      ', or length_unit in &scene the same as in the file')
+         call fatal_error(error, exit_bad_input, escaped(path)//": its lengths are in '"// &
+                          excerpt(map%length_unit)//"' and cannot be converted to '"//escaped(target)// &
+                          "': both must be one of "//listed(units, ' and ')// &
+                          ', or length_unit in &scene the same as in the file')
          return
       end if
       if (unit /= '') then
@@ -63,20 +64,12 @@ contains
          map%length_unit = unit
       end if
       call find_factor(map%height_unit, map%length_unit, factor, is_known)
-      if (.not. is_known) call trouble("its heights are in '"//excerpt(map%height_unit)//"' and cannot be "// &
+      if (.not. is_known) call fatal_error(error, exit_bad_input, &
+         escaped(path)//": its heights are in '"//excerpt(map%height_unit)//"' and cannot be "// &
          "converted to '"//escaped(map%length_unit)//"': they must be lengths, in one of "//listed(units, ' and ')// &
          ' (Gwyddion: Data Process > Basic Operations > Dimensions and Units)')
       if (factor > 1.0_dp .or. factor < 1.0_dp) map%height = factor*map%height
       map%height_unit = map%length_unit
-
-   contains
-
-      subroutine trouble(words)
-         character(*), intent(in) :: words
-
-         call fatal_error(error, exit_bad_input, escaped(path)//': '//words)
-      end subroutine trouble
-
    end subroutine convert_lengths
 
 end module wavycon_length_unit
