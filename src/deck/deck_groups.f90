@@ -258,9 +258,9 @@ contains
          associate (values => groups(g), names => tables(g)%keys%name)
             if (k == 0) then
                call problems%add(place, unknown_key(name, tables(g), tables))
-               ! A misspelt key is not reported as missing too, and the right one may follow.
+               ! A key that is misspelt in the deck is not reported as missing too, and the right one may follow.
                nearest = nearest_name(name, names)
-               if (nearest == 0) return
+               if (nearest == 0 .or. place > text%own) return
                if (.not. values%has(names(nearest))) call values%take(names(nearest), place)
             else if (values%has(name) .and. .not. values%is_bad(name)) then
                before = 'in line '//integer_text(text%line_of(values%place_of(name)))

@@ -7,14 +7,15 @@ module wavycon_nearest_name
 
    !> Most letters of a name that is compared; it bounds the time.
    integer, parameter :: longest = 40
-   !> Fewest letters of an abbreviation.
-   integer, parameter :: shortest_abbreviation = 3
+   !> Fewest letters of a part of a name.
+   integer, parameter :: shortest_part = 3
 
 contains
 
    !> Number of the known name nearest to the one given; 0 if none is near.
    !>
-   !> A name is near if at most a third of its letters, but at least one, are wrong, or if it abbreviates a known name.
+   !> A name is near if at most a third of its letters, but at least one, are wrong, or if it is a part of a
+   !> known name, which had better be its beginning.
    pure integer function nearest_name(name, known) result(nearest)
       character(*), intent(in) :: name      !! lower case
       character(*), intent(in) :: known(:)  !! lower case, padded with blanks
@@ -26,8 +27,9 @@ contains
       distance = [(edit_distance(name, trim(known(i))), i=1, size(known))]
       if (minval(distance) <= max(1, len(name)/3)) then
          nearest = minloc(distance, dim=1)
-      else if (len(name) >= shortest_abbreviation) then
+      else if (len(name) >= shortest_part) then
          nearest = findloc(index(known, name), 1, dim=1)
+         if (nearest == 0) nearest = findloc(index(known, name) > 1, .true., dim=1)
       end if
    end function nearest_name
 
