@@ -19,7 +19,7 @@ void wavycon_put_in_columns(int columns, const int *kinds, const int *ends, cons
         if (!isfinite(*numbers)) {
             strcpy(text, isnan(*numbers) ? "NaN" : *numbers < 0.0 ? "-Infinity" : "Infinity");
         } else if (kinds[k] == OF_INTEGERS) {
-            sprintf(text, "%.0f", *numbers);
+            snprintf(text, sizeof text, "%.0f", *numbers);
         } else {
             sprintf(text, "%.15E", *numbers);
             text[signbit(*numbers) ? 2 : 1] = '.'; /* in every locale */
