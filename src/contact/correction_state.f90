@@ -49,11 +49,10 @@ module wavycon_correction_state
 
 contains
 
-   subroutine start(self, grid, inside, allowance)
+   subroutine start(self, grid, inside)
       class(correction_state), intent(out) :: self
       type(grid_state), intent(in) :: grid      !! with pressure, gap and residual > 0; p is 0 or H outside the region
       real(sp), intent(in) :: inside(:, :)      !! > 0 at the points in and near the contact, shape of the pressure
-      real(sp), intent(in) :: allowance         !! over the residual
 
       call assert(grid%residual > 0.0_dp .and. grid%residual < huge(1.0_dp), 'the residual is positive and finite')
       if (assertions_stop) then
@@ -61,7 +60,6 @@ contains
          call assert(all(abs(grid%gap) < huge(1.0_dp)), 'the gap is finite')
       end if
       self%scale = grid%residual
-      self%allowance = allowance
       self%slab = grid%slab
       call self%region%start(inside)
       associate (n => self%region%points)

@@ -49,12 +49,13 @@ contains
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
       call assert(most_iterations > 0, 'most_iterations > 0')
-      ! Smaller overlaps may be rounding: such points would enter and leave the contact without end.
-      call state%start(grid, inside, allowance=real(overlap_part*part, sp))          ! (C8), (C3)
+      call state%start(grid, inside)                                                 ! (C3)
       allocate (field, mold=inside)
       deallocate (inside, grid%gap)
       allocate (r(state%region%points), d(state%region%points), source=0.0_sp)
       descent = 0.0_dp
+      ! Smaller overlaps may be rounding: such points would enter and leave the contact without end.
+      state%allowance = real(overlap_part*part, sp)
       iterations = 0
       do while (state%residual > part*state%scale .and. iterations < most_iterations)
          if (present(progress)) grid%interrupted = progress%shall_stop(iterations, state%residual)
