@@ -64,7 +64,7 @@ contains
       type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
       real(dp) :: last_residual, scale(3)
-      logical :: estimated, last
+      logical :: ends, has_room, last
       integer :: grid(2)
 
       plan = plan_grids(surface, points)
@@ -80,16 +80,17 @@ contains
          last = all(grid == plan%last)
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), h, answer, progress)
          if (answer%state%interrupted) return
+         ! No finer grid starts from a solution that has not converged.
+         ends = last .or. .not. answer%state%converged
+         has_room = .true.
+         if (.not. ends) has_room = fits_memory(plan%next(grid))
+         if (surface%has_hardness()) call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
          ! Only the errors of an answer are of interest.
-         estimated = last .or. all(grid >= plan%trusted) .or. .not. answer%state%converged
-         if (.not. estimated) estimated = .not. fits_memory(plan%next(grid))
+         call measure_level(surface, mean_pressure, history, &
+                            ends .or. .not. has_room .or. all(grid >= plan%trusted), answer)
          if (surface%has_hardness()) then
-            call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
-            call measure_level(surface, mean_pressure, history, estimated, answer)
             call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
             deallocate (edge_at_hardness)
-         else
-            call measure_level(surface, mean_pressure, history, estimated, answer)
          end if
          scale = 1.0_dp
          if (surface%has_free_edges) scale = answer%values
@@ -99,13 +100,10 @@ contains
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
                                       answer%state%iterations, answer%state%residual)
-         ! No finer grid starts from a solution that has not converged.
-         if (answer%accurate .or. last .or. .not. answer%state%converged) exit
+         if (answer%accurate .or. ends) exit
+         answer%out_of_memory = .not. has_room
+         if (answer%out_of_memory) exit
          grid = plan%next(grid)
-         if (.not. fits_memory(grid)) then
-            answer%out_of_memory = .true.
-            exit
-         end if
          call answer%state%slab%start(grid)
          call refine_pressure(answer%edge, answer%state%slab, answer%state%pressure)
          deallocate (answer%edge)
@@ -151,6 +149,7 @@ contains
          if (carried > 0.0_dp) then
             pressure = pressure*(load/carried)
          else
+            ! The contact of the coarser grid lies between these points.
             pressure = mean_pressure
          end if
          if (surface%has_hardness()) then
