@@ -14,7 +14,7 @@ module wavycon_run_program
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: note_command, outlive_file_size_limit
+   use wavycon_system, only: keep_memory, note_command, outlive_file_size_limit
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -68,6 +68,7 @@ contains
       logical :: quiet
 
       call use_one_thread_for_matrices()
+      call keep_memory()
       call outlive_file_size_limit()
       library = rank_library()
       call read_command_line(command_line, error)

@@ -6,7 +6,7 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: available_memory, has_memory_for
+   public :: available_memory, has_memory_for, keep_memory
    public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
    public :: note_command, note_kept, outlive_file_size_limit, process_id, terminal_columns
 
@@ -75,6 +75,12 @@ module wavycon_system
       integer(c_int64_t) function available_memory() bind(c, name='wavycon_available_memory')
          import :: c_int64_t
       end function available_memory
+
+      !> Keeps memory that is deallocated for later arrays, instead of giving it back to the system.
+      !>
+      !> N.B. It acts on the whole process: programs may call it, procedures of a library must not.
+      subroutine keep_memory() bind(c, name='wavycon_keep_memory')
+      end subroutine keep_memory
 
       type(c_ptr) function c_realpath(path, full) bind(c, name='realpath')
          import :: c_char, c_ptr
