@@ -229,17 +229,27 @@ contains
       real(dp), intent(out) :: value
       integer, intent(out) :: point(2)        !! from 1
 
-      real(dp) :: most(1), place(1)
+      real(dp) :: column, columns(size(field, 2)), most(1), place(1)
+      integer :: i, j
 
-      most = maxval(field)
+      do j = 1, size(field, 2)
+         column = -huge(column)
+         !$omp simd reduction(max:column)
+         do i = 1, size(field, 1)
+            column = max(column, field(i, j))
+         end do
+         columns(j) = column
+      end do
+      most = maxval(columns)
       call self%largest(most)
       value = most(1)
       ! Numbers of points are whole in a real number up to 2^53.
       place = -huge(place)
       associate (m => self%points(1))
-         if (any(field >= value)) then
-            point = maxloc(field)
-            place = -(point(1) - 1.0_dp + real(m, dp)*(self%first + point(2) - 2))
+         j = findloc(columns >= value, .true., dim=1)
+         if (j > 0) then
+            i = findloc(field(:, j) >= value, .true., dim=1)
+            place = -(i - 1.0_dp + real(m, dp)*(self%first + j - 2))
          end if
          call self%largest(place)
          point(2) = int(-place(1)/m)
