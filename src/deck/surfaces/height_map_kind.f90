@@ -1,8 +1,8 @@
 !> kind = 'file': a height map.
 module wavycon_height_map_kind
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_ball_kind, only: radii_of
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_formula_kinds, only: radii_of
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
    use wavycon_kinds, only: dp
