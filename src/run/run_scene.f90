@@ -152,7 +152,7 @@ contains
             call log%say_timed('largest stresses found')
             call show_stresses(results, log)
          end if
-         if (allocated(results%scene%interface_setting)) call find_interface(results, log)
+         if (allocated(results%scene%interface_setting)) call find_interface(results, log, '')
       end if
       do i = 1, size(tables)
          if (results%sharing%is_first .and. .not. (by_all(i) .or. allocated(error))) &

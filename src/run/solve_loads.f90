@@ -37,9 +37,13 @@ contains
    subroutine order_loads(results)
       type(results_type), intent(inout) :: results   !! with the solver started
 
+      integer(c_size_t) :: places(size(results%scene%target))
+
       associate (target => results%scene%target)
-         results%order = descending(merge(-target, target, results%scene%loads_by == by_mean_gap))
+         call gsl_sort_index(places, merge(target, -target, results%scene%loads_by == by_mean_gap), 1_c_size_t, &
+                             size(places, kind=c_size_t))
       end associate
+      results%order = int(places) + 1
       call results%sharing%deal_loads(results%order, length_of_block(results))
    end subroutine order_loads
 
@@ -177,22 +181,14 @@ contains
    subroutine find_interface(results, log, table)
       type(results_type), intent(inout) :: results   !! with a group &interface and all loads solved with their fields
       type(run_log), intent(inout) :: log            !! shows the progress
-      character(*), intent(in), optional :: table    !! the one table that it is for
+      character(*), intent(in) :: table              !! the one table that it is for; '': all
 
-      logical :: of_adhesion, of_slip
-
-      of_slip = .true.
-      of_adhesion = .true.
-      if (present(table)) then
-         of_slip = index(table, 'slip') > 0
-         of_adhesion = table == 'adhesion'
-      end if
       associate (setting => results%scene%interface_setting)
-         if (of_slip .and. setting%friction > 0.0_dp) then
+         if (setting%friction > 0.0_dp .and. (table == '' .or. index(table, 'slip') > 0)) then
             call find_slip(results, log)
             call log%say_timed('partial slip solved')
          end if
-         if (of_adhesion .and. setting%work > 0.0_dp) then
+         if (setting%work > 0.0_dp .and. (table == '' .or. table == 'adhesion')) then
             call find_adhesion(results, log)
             call log%say_timed('adhesion solved')
          end if
@@ -214,7 +210,7 @@ contains
                do i = 1, size(setting%tangential)
                   call log%say_progress('partial slip of '//integer_text(load)//' of '// &
                                         integer_text(size(results%loads))//' loads')
-                  call solve_partial_slip(results%solver, setting, solution, setting%tangential(i)* &
+                  call solve_partial_slip(results%solver, setting%friction, solution, setting%tangential(i)* &
                                           merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
                                           results%scene%interface%logical('slip_loop'), results%slip(i, load))
                   if (results%slip(i, load)%stick%pbar_over_pstar < 0.0_dp) call log%say( &
@@ -238,7 +234,7 @@ contains
                  loads => results%loads%pbar_over_pstar)
          call follow_curve(results%solver, work, maxval(loads), curve)
          do i = 1, size(loads)
-            call add_load(curve, results%solver, work, loads(i), i)
+            call add_load(curve, results%solver, loads(i), i)
          end do
          if (.not. all(curve%points%exists)) call log%say('note: '// &
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
@@ -266,16 +262,5 @@ contains
       end function words_of_point
 
    end subroutine find_adhesion
-
-   !> The indices of an array from its largest to its smallest value.
-   function descending(values) result(order)
-      real(dp), intent(in) :: values(:)
-      integer :: order(size(values))
-
-      integer(c_size_t) :: places(size(values))
-
-      call gsl_sort_index(places, -values, 1_c_size_t, size(values, kind=c_size_t))
-      order = int(places) + 1
-   end function descending
 
 end module wavycon_solve_loads
