@@ -94,7 +94,9 @@ contains
 
       character(:), allocatable :: solver, words
 
-      if (allocated(surface)) call values%set_default('solver', text=default_solver(surface, kind))
+      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
+      if (allocated(surface)) call values%set_default('solver', text=merge('beale', 'auto ', &
+         any(paper_kinds == kind) .and. surface%is_paper_wave()))
       call values%check_relations(problems)
       ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface) .or. values%is_bad('solver')) return
@@ -137,17 +139,6 @@ contains
             ':1 and for three equal waves at 60 degrees'
       end select
    end function refusal
-
-   !> The name of the default solver of a surface.
-   function default_solver(surface, kind) result(name)
-      type(surface_type), intent(in) :: surface
-      character(*), intent(in) :: kind           !! of the surface, as the deck names it
-      character(:), allocatable :: name
-
-      name = 'auto'
-      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
-      if (any(paper_kinds == kind) .and. surface%is_paper_wave()) name = 'beale'
-   end function default_solver
 
    !> The solvers that can solve a surface, such as "'grid' or 'auto'"; of these only those whose solutions have
    !> details, or the coefficients of a series: '' if there is none.
@@ -221,7 +212,9 @@ contains
       fitted = 'collocation fitted to the edge to within '//short_number(values%real('accuracy'))
       select type (solver)
       type is (beale_contact)
-         call solver%start(surface, beale_options(values))
+         call solver%start(surface, qp_options( &
+            values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
+            values%real('edge_level'), values%text('minimiser') == 'beale'))
          words = beale_in_words(values, surface)
       type is (closed_form_contact)
          call solver%start(surface)
@@ -315,14 +308,7 @@ contains
       symmetry = symmetry_is(values%choice('symmetry'))
    end function symmetry_of
 
-   pure type(qp_options) function beale_options(values) result(options)
-      type(group_values), intent(in) :: values   !! of &method
-
-      options = qp_options(values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
-                           values%real('edge_level'), values%text('minimiser') == 'beale')
-   end function beale_options
-
-   !> The discretisation in words.
+   !> The discretisation of 'beale' in words.
    function beale_in_words(values, surface) result(words)
       type(group_values), intent(in) :: values   !! of &method
       type(surface_type), intent(in) :: surface
