@@ -6,8 +6,7 @@
 module wavycon_read_deck
    use wavycon_deck_groups, only: deck_tables, interface_number, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, stress_number, surface_number, take_groups
-   use wavycon_deck_scanner, only: at_end, next_token, token_type
-   use wavycon_deck_text, only: deck_text_type, problem_report, read_deck_text
+   use wavycon_deck_text, only: at_end, deck_text_type, next_token, problem_report, read_deck_text, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of
    use wavycon_group_values, only: group_values
