@@ -76,7 +76,7 @@ contains
          bytes = bytes_of_grid(own)
          if (with_fields) bytes = bytes + bytes_of_point*product(int(own, int64))*loads
          words = 'at most '//megabytes(bytes)
-         if (sharing%is_shared()) words = words//' on each rank'
+         if (sharing%is_shared) words = words//' on each rank'
       end associate
       words = words//' for grids of up to '//integer_text(points(1))
       if (results%solver%surface%dimension == 2) words = words//' x '//integer_text(points(2))
@@ -84,7 +84,7 @@ contains
       available = results%sharing%memory_of_each()
       if (available < 0) return
       words = words//'; '//megabytes(available)//' available'
-      if (results%sharing%is_shared()) words = words//' to each'
+      if (results%sharing%is_shared) words = words//' to each'
    end function memory
 
    !> The time that a load takes on a grid [s], from that of transforms of a grid of at most `most` points a side.

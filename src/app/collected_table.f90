@@ -2,11 +2,12 @@
 !> summaries that the runs have written.
 module wavycon_collected_table
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
+   use wavycon_file_bytes, only: read_file
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: integer_value, key_type, real_value
    use wavycon_memory_table, only: column_list, column_name, column_unit
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped, system_words
+   use wavycon_plain_text, only: escaped, newline
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
    use wavycon_summary_tables, only: summary_columns
@@ -17,8 +18,8 @@ module wavycon_collected_table
 
    public :: check_table_file, collected_deck, list_keys, write_collected_table
 
-   !> Width of the narrowest column, as in other tables; length of the longest line of a summary.
-   integer, parameter :: narrowest = 25, longest_line = 4096
+   !> Width of the narrowest column, as in other tables.
+   integer, parameter :: narrowest = 25
 
    integer, parameter :: longest_key_name = 49
 
@@ -37,7 +38,8 @@ module wavycon_collected_table
       character(:), allocatable :: summary       !! path of its summary table
       logical :: is_written = .false.            !! whether that has been written by this run
       type(deck_key), allocatable :: keys(:)     !! the same of each deck
-      character(:), allocatable :: units         !! line of the units of the summary
+      character(:), allocatable :: units, names  !! lines of the summary
+      character(:), allocatable :: rows          !! the others, each with a newline
    end type collected_deck
 
 contains
@@ -129,19 +131,30 @@ contains
    !> Errors: exit_file_trouble, also for a summary that cannot be read.
    subroutine write_collected_table(path, decks, settings, error)
       character(*), intent(in) :: path                !! of the file
-      type(collected_deck), intent(inout) :: decks(:)
+      type(collected_deck), intent(in) :: decks(:)
       type(setting_type), intent(in) :: settings(:)   !! of the command line
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: line, names, units
-      integer, allocatable :: columns(:), solved(:), width(:)   ! solved: decks with a summary
+      integer, allocatable :: columns(:), width(:)
+      type(collected_deck), allocatable :: solved(:)   ! decks with a summary
       type(output_file) :: file
-      integer :: d, k
-      logical :: agree
+      integer :: d, first, k, last
 
-      solved = pack([(d, d=1, size(decks))], decks%is_written)
-      call choose_columns(decks, solved, settings, columns)
+      allocate (solved(count(decks%is_written)))
+      solved = decks(pack([(d, d=1, size(decks))], decks%is_written))
+      call choose_columns(solved, settings, columns)
       allocate (width(2 + size(columns)), source=narrowest)
+      do d = 1, size(solved)
+         call read_summary(solved(d), error)
+         if (allocated(error)) return
+         width(:2) = max(width(:2), [len(without_blanks(solved(d)%path)), len(solved(d)%case)] + 1)
+         do k = 1, size(columns)
+            associate (key => solved(d)%keys(columns(k)))
+               width(2 + k) = max(width(2 + k), len(key%word) + 1, len_trim(key%name) + 1)
+            end associate
+         end do
+      end do
       names = ''
       units = ''
       associate (summary => column_list(summary_columns))
@@ -150,20 +163,10 @@ contains
             units = units//' ['//trim(column_unit(summary(k)))//']'
          end do
       end associate
-      agree = size(solved) > 0
-      do d = 1, size(solved)
-         associate (deck => decks(solved(d)))
-            call read_summary(deck, names, error)
-            if (allocated(error)) return
-            agree = agree .and. deck%units == decks(solved(1))%units
-            width(:2) = max(width(:2), [len(without_blanks(deck%path)), len(deck%case)] + 1)
-            do k = 1, size(columns)
-               width(2 + k) = max(width(2 + k), len(deck%keys(columns(k))%word) + 1, &
-                                  len_trim(deck%keys(columns(k))%name) + 1)
-            end do
-         end associate
-      end do
-      if (agree) units = decks(solved(1))%units
+      if (size(solved) > 0) then
+         names = solved(1)%names
+         if (all([(solved(d)%units == solved(1)%units, d=1, size(solved))])) units = solved(1)%units
+      end if
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
       call file%put('# wavycon '//version//' ('//revision//')')
       do d = 1, size(decks)
@@ -176,18 +179,20 @@ contains
       call file%put('#'//line(2:)//' '//units)
       line = cell(1, 'deck')//cell(2, 'case')
       do k = 1, size(columns)
-         line = line//cell(2 + k, trim(decks(solved(1))%keys(columns(k))%name))
+         line = line//cell(2 + k, trim(solved(1)%keys(columns(k))%name))
       end do
       call file%put(line//names)
       do d = 1, size(solved)
-         associate (deck => decks(solved(d)))
-            line = cell(1, without_blanks(deck%path))//cell(2, deck%case)
-            do k = 1, size(columns)
-               line = line//cell(2 + k, deck%keys(columns(k))%word)
-            end do
-            call read_summary(deck, names, error, file, line)
-            if (allocated(error)) return
-         end associate
+         line = cell(1, without_blanks(solved(d)%path))//cell(2, solved(d)%case)
+         do k = 1, size(columns)
+            line = line//cell(2 + k, solved(d)%keys(columns(k))%word)
+         end do
+         first = 1
+         do while (first <= len(solved(d)%rows))
+            last = first + index(solved(d)%rows(first:), newline) - 1
+            call file%put(line//solved(d)%rows(first:last - 1))
+            first = last + 1
+         end do
       end do
       call file%finish(error)
 
@@ -204,45 +209,27 @@ contains
 
    end subroutine write_collected_table
 
-   !> Reads the lines of the units and the names of a summary, or adds its rows to the table. Errors: exit_file_trouble.
-   subroutine read_summary(deck, names, error, file, before)
+   !> Reads a summary: a head, whose last line has the units, a line of names, and rows. Errors: exit_file_trouble.
+   subroutine read_summary(deck, error)
       type(collected_deck), intent(inout) :: deck
-      character(:), allocatable, intent(inout) :: names
       type(error_type), allocatable, intent(out) :: error
-      type(output_file), intent(inout), optional :: file   !! rows are added to it
-      character(*), intent(in), optional :: before         !! of each row
 
-      character(longest_line) :: line
-      character(200) :: message
-      integer :: status, unit
-      logical :: in_head
+      character(:), allocatable :: text
+      integer :: names, rows, units   ! where they begin
 
-      open (newunit=unit, file=deck%summary, status='old', action='read', iostat=status, iomsg=message)
-      if (status /= 0) then
-         call fatal_error(error, exit_file_trouble, escaped(deck%summary)//': cannot be read: '//system_words(message))
-         return
-      end if
-      in_head = .true.
-      do
-         read (unit, '(a)', iostat=status) line
-         if (status /= 0) exit
-         if (line(1:1) == '#') then
-            deck%units = trim(line(2:))
-         else if (in_head) then
-            in_head = .false.
-            names = trim(line)
-            if (.not. present(file)) exit
-         else
-            call file%put(before//trim(line))
-         end if
-      end do
-      close (unit)
+      call read_file(deck%summary, huge(names), text, error)
+      if (allocated(error)) return
+      units = index(text, newline//'#', back=.true.) + 2
+      names = units + index(text(units:), newline)
+      rows = names + index(text(names:), newline)
+      deck%units = text(units:names - 2)
+      deck%names = text(names:rows - 2)
+      deck%rows = text(rows:)
    end subroutine read_summary
 
    !> The keys that have a column, in the order of the first deck in which they have an effect.
-   subroutine choose_columns(decks, solved, settings, columns)
-      type(collected_deck), intent(in) :: decks(:)
-      integer, intent(in) :: solved(:)                !! those in the table
+   subroutine choose_columns(decks, settings, columns)
+      type(collected_deck), intent(in) :: decks(:)    !! those in the table
       type(setting_type), intent(in) :: settings(:)
       integer, allocatable, intent(out) :: columns(:)
 
@@ -251,14 +238,14 @@ contains
       logical :: is_set
 
       allocate (columns(0))
-      if (size(solved) == 0) return
-      differs = [(.false., k=1, size(decks(solved(1))%keys))]
-      do d = 2, size(solved)
-         differs = differs .or. [(decks(solved(d))%keys(k)%word /= decks(solved(1))%keys(k)%word, k=1, size(differs))]
+      if (size(decks) == 0) return
+      differs = [(.false., k=1, size(decks(1)%keys))]
+      do d = 2, size(decks)
+         differs = differs .or. [(decks(d)%keys(k)%word /= decks(1)%keys(k)%word, k=1, size(differs))]
       end do
-      do d = 1, size(solved)
+      do d = 1, size(decks)
          do k = 1, size(differs)
-            associate (key => decks(solved(d))%keys(k))
+            associate (key => decks(d)%keys(k))
                if (any(columns == k) .or. .not. key%in_effect) cycle
                is_set = any([(settings(i)%group//'_'//settings(i)%key == key%name, i=1, size(settings))])
                if (is_set .or. (key%given .and. differs(k))) columns = [columns, k]

@@ -3,7 +3,7 @@ module wavycon_command_line
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_key_reference, only: add_wrapped, key_reference
-   use wavycon_key_table, only: integer_value, key_group_type, key_index, key_type, logical_value, text_value
+   use wavycon_key_table, only: integer_value, key_group_type, key_type, logical_value, text_value
    use wavycon_key_values, only: must_be, read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
@@ -81,14 +81,14 @@ contains
       decks = 0
       sweeps = 0
       value = ''
+      word = ''
       options_over = .false.
       i = 0
-      do while (i < command_argument_count())
+      do while (i < command_argument_count() .and. .not. allocated(trouble))
          i = i + 1
          word = argument(i)
          if (options_over .or. index(word, '-') /= 1) then
-            if (word == '') call fatal_error(error, exit_bad_input, 'the name of a deck is empty')
-            if (allocated(error)) return
+            if (word == '') trouble = 'the name of a deck is empty'
             decks = decks + 1
             deck(decks)%path = word
             cycle
@@ -97,14 +97,11 @@ contains
          if (options_over) cycle
          if (word == '-h') word = '--help'
          equals = index(word//'=', '=')
-         k = key_index(option_keys, word(:equals - 1))
-         if (k > 0) then
-            if (option_keys(k)%kind == logical_value .and. equals <= len(word)) k = 0
-         end if
+         k = findloc(option_keys%name == word(:equals - 1) .and. &
+                     (option_keys%kind /= logical_value .or. equals > len(word)), .true., dim=1)
          if (k == 0) then
-            call fatal_error(error, exit_bad_input, "unknown option '"//escaped(word)//"'"// &
-                             did_you_mean(word, option_keys%name, '', ''))
-            return
+            trouble = "unknown option '"//escaped(word)//"'"//did_you_mean(word, option_keys%name, '', '')
+            cycle
          end if
          key = option_keys(k)
          if (key%kind == logical_value) then
@@ -128,14 +125,12 @@ contains
             if (read%repeats > 1) trouble = must_be(key, value)
             if (.not. allocated(trouble)) call command_line%options%take(key%name, 1, [read%number], read%text)
          end if
-         if (allocated(trouble)) then
-            call fatal_error(error, exit_bad_input, trouble)
-            return
-         end if
       end do
       associate (options => command_line%options)
-         if (decks == 0 .and. .not. (options%logical('--version') .or. options%logical('--help'))) then
-            call fatal_error(error, exit_bad_input, 'no deck is given')
+         if (decks == 0 .and. .not. (options%logical('--version') .or. options%logical('--help') .or. &
+                                     allocated(trouble))) trouble = 'no deck is given'
+         if (allocated(trouble)) then
+            call fatal_error(error, exit_bad_input, trouble)
             return
          end if
          if (options%has('--output')) then

@@ -2,7 +2,6 @@
    that nothing is left if all are interrupted. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -12,6 +11,7 @@
 enum { places = 128, streams = 2 };
 
 static struct job {
+    int number;    /* of the job */
     pid_t process; /* 0: not started, or ended */
     int status;    /* exit status, or 128 and the number of the signal that ended it */
     FILE *files[streams]; /* standard output, standard error */
@@ -21,6 +21,7 @@ static struct job {
 int wavycon_begin_job(int number)
 {
     struct job *job = &jobs[number % places];
+    job->number = number;
     for (int i = 0; i < streams; i++)
         if ((job->files[i] = tmpfile()) == NULL)
             return -1;
@@ -32,13 +33,8 @@ int wavycon_begin_job(int number)
     return 1;
 }
 
-bool wavycon_job_has_ended(int number)
-{
-    return jobs[number % places].process == 0;
-}
-
-/* Waits for any process to end. */
-void wavycon_await_job(void)
+/* Waits for any process to end. Returns the number of its job, 0 if it is none. */
+int wavycon_await_job(void)
 {
     int how;
     pid_t process;
@@ -49,7 +45,9 @@ void wavycon_await_job(void)
         if (process > 0 && jobs[i].process == process) {
             jobs[i].process = 0;
             jobs[i].status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
+            return jobs[i].number;
         }
+    return 0;
 }
 
 /* Prints what the process of a job that has ended has printed. Returns its status. */

@@ -2,7 +2,7 @@
 !>
 !> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
-   use, intrinsic :: iso_c_binding, only: c_bool, c_int, c_null_char
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
@@ -36,14 +36,10 @@ module wavycon_run_program
          integer(c_int), value :: job
       end function begin_job
 
-      logical(c_bool) function job_has_ended(job) bind(c, name='wavycon_job_has_ended')
-         import :: c_bool, c_int
-         integer(c_int), value :: job   !! that was begun
-      end function job_has_ended
-
-      !> Waits for any process to end.
-      subroutine await_job() bind(c, name='wavycon_await_job')
-      end subroutine await_job
+      !> Waits for any process to end: the number of its job, 0 if it is none.
+      integer(c_int) function await_job() bind(c, name='wavycon_await_job')
+         import :: c_int
+      end function await_job
 
       !> Prints what a job that has ended has printed: its exit status, or signal_status and more.
       integer(c_int) function show_job(job) bind(c, name='wavycon_show_job')
@@ -160,6 +156,7 @@ contains
 
       type(error_type), allocatable :: error
       integer :: begun, i, jobs, running, status(size(scenes))
+      logical :: has_ended(0:size(scenes))   ! of each job
       logical :: is_good(size(scenes)), keep_going, with_table
 
       jobs = command_line%options%integer('--jobs')
@@ -174,6 +171,7 @@ contains
       status = exit_bad_input
       begun = 0
       running = 0
+      has_ended = .false.
       do i = 1, size(scenes)
          if (is_good(i) .and. jobs == 1) then
             call run_one(i, status(i), error)
@@ -240,8 +238,8 @@ contains
                running = running + 1
                deallocate (scenes(begun)%scene)
             end do
-            if (job_has_ended(i)) exit
-            call await_job()
+            if (has_ended(i)) exit
+            has_ended(await_job()) = .true.
             running = running - 1
          end do
          flush (output_unit)

@@ -1,8 +1,7 @@
 !> The groups of a deck: their tables of keys, and their values, which are read from its text.
 module wavycon_deck_groups
-   use wavycon_deck_scanner, only: at_end, is_broken_word, is_comma, is_equals, is_group, is_slash, is_word, &
-      next_token, quotes, starts_entry, token_type
-   use wavycon_deck_text, only: deck_text_type
+   use wavycon_deck_text, only: at_end, deck_text_type, is_broken_word, is_comma, is_equals, is_group, is_slash, &
+      is_word, next_token, quotes, starts_entry, token_type
    use wavycon_group_values, only: group_values
    use wavycon_interface_group, only: interface_keys
    use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, text_value

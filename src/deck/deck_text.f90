@@ -1,15 +1,17 @@
-!> The text of a deck file, the line of each of its bytes, and the report of problems in it. Options of the command line
-!> that set keys of the deck stand behind it, each as a line, so that problems with them have a place too.
+!> The text of a deck file: its lines; its tokens, which are words, names of groups, and what separates them; and the
+!> report of problems in it. Any bytes are tokens. Options of the command line that set keys of the deck stand behind
+!> it, each as a line, so that problems with them have a place too.
 module wavycon_deck_text
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark, read_file
-   use wavycon_plain_text, only: character_count, escaped, integer_text, newline
+   use wavycon_plain_text, only: character_count, escaped, integer_text, lower_case, newline
    use wavycon_problems, only: most_kept, problem_list_type
    use wavycon_ranks, only: is_first_rank, share_error, share_text
    implicit none (type, external)
    private
 
    public :: deck_text_type, problem_report, read_deck_text
+   public :: token_type, next_token, starts_entry
 
    !> A place is the number of a byte of the text, counted from 1.
    type :: deck_text_type
@@ -25,7 +27,21 @@ module wavycon_deck_text
       module procedure new_deck_text
    end interface deck_text_type
 
-   character(*), parameter :: carriage_return = achar(13)
+   !> Kinds of tokens. A group token is '&' and the name; a broken word has a quote that is not closed.
+   integer, parameter, public :: at_end = 0, is_word = 1, is_broken_word = 2, is_equals = 3, is_comma = 4, &
+      is_slash = 5, is_group = 6
+
+   !> The bytes `first` to `last` of the deck's text; behind the last byte at its end.
+   type :: token_type
+      integer :: kind = at_end, first = 1, last = 0
+   end type token_type
+
+   character(*), parameter :: carriage_return = achar(13), line_ends = newline//carriage_return
+   character(*), parameter :: blanks = ' '//achar(9)//line_ends
+   character(*), parameter, public :: quotes = '"'''
+   !> In the order of their kinds, which follow that of the broken word.
+   character(*), parameter :: separators = '=,/&'
+   character(*), parameter :: word_ends = blanks//separators//'!'
 
    !> Most bytes of a deck. The longest list of loads takes a tenth of this.
    integer, parameter :: largest = 64*1024*1024
@@ -65,9 +81,8 @@ contains
       integer, intent(in) :: place   !! not of a line end
       integer, intent(out) :: first, last
 
-      first = scan(self%content(:place - 1), newline//carriage_return, back=.true.) + 1
-      last = scan(self%content(place:), newline//carriage_return) + place - 2
-      if (last < place) last = len(self%content)
+      first = scan(self%content(:place - 1), line_ends, back=.true.) + 1
+      last = end_before(self%content, place, line_ends)
    end subroutine line_bounds
 
    !> Reads the text of a deck file. Errors: exit_file_trouble.
@@ -85,6 +100,79 @@ contains
       call share_text(0, content)
       text = deck_text_type(path, content)
    end subroutine read_deck_text
+
+   !> The first token from a place on.
+   pure type(token_type) function next_token(content, place) result(token)
+      character(*), intent(in) :: content
+      integer, intent(in) :: place
+
+      integer :: skipped
+
+      token%first = place
+      do
+         skipped = verify(content(token%first:), blanks) - 1
+         if (skipped < 0) then
+            token = token_type(at_end, len(content) + 1, len(content))
+            return
+         end if
+         token%first = token%first + skipped
+         if (content(token%first:token%first) /= '!') exit
+         token%first = end_before(content, token%first, line_ends) + 1
+      end do
+      token%last = token%first
+      token%kind = is_broken_word + index(separators, content(token%first:token%first))
+      if (token%kind == is_group) then
+         token%last = end_before(content, token%first + 1, word_ends)
+         ! Before Fortran 90 '&end' closed a group.
+         if (lower_case(content(token%first:token%last)) == '&end') token%kind = is_slash
+      else if (token%kind == is_broken_word) then
+         call find_word_end(content, token)
+      end if
+   end function next_token
+
+   !> The place before the first byte of a set at or after `place`; the last place if there is none.
+   pure integer function end_before(content, place, set)
+      character(*), intent(in) :: content, set
+      integer, intent(in) :: place
+
+      end_before = scan(content(place:), set) + place - 2
+      if (end_before < place - 1) end_before = len(content)
+   end function end_before
+
+   !> Finds the end of a word: the closing quote, or the byte before the next separator. If a quote is not closed on its
+   !> line, the word is broken.
+   pure subroutine find_word_end(content, token)
+      character(*), intent(in) :: content
+      type(token_type), intent(inout) :: token
+
+      character(1) :: quote
+
+      token%kind = is_word
+      token%last = end_before(content, token%first, word_ends//quotes)
+      if (token%last == len(content)) return
+      quote = content(token%last + 1:token%last + 1)
+      if (index(quotes, quote) == 0) return
+      do
+         token%last = end_before(content, token%last + 2, quote//line_ends)
+         if (token%last == len(content)) exit
+         if (content(token%last + 1:token%last + 1) /= quote) exit
+         token%last = token%last + 1
+         if (token%last == len(content)) return
+         if (content(token%last + 1:token%last + 1) /= quote) return
+      end do
+      token%kind = is_broken_word
+   end subroutine find_word_end
+
+   !> Whether a token begins an entry `key = values`: a word followed by '='.
+   pure logical function starts_entry(content, token)
+      character(*), intent(in) :: content
+      type(token_type), intent(in) :: token
+
+      type(token_type) :: next
+
+      next = next_token(content, token%last + 1)
+      starts_entry = token%kind == is_word .and. next%kind == is_equals
+   end function starts_entry
 
    !> The report of all problems in a deck, as the message of one error: in the order of their places, numbered, each
    !> with its line and a caret.

@@ -2,12 +2,13 @@
 module wavycon_interface_group
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_group_values, only: group_values
-   use wavycon_interface_setting, only: dundurs_beta, interface_setting, shear_factors
    use wavycon_key_table, only: choice_value, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
+   use wavycon_partial_slip, only: dundurs_beta, shear_factors
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
+   use wavycon_scene, only: interface_setting
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

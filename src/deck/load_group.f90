@@ -88,13 +88,12 @@ contains
 
    !> Reports loads that the surface cannot have: a mean gap above that before load, an area above the nominal one, a
    !> pressure of more than largest_pbar_over_pstar p*, a gap or an area on a flat surface, with free edges what needs
-   !> p*, and on a ball without sides what needs them.
-   subroutine check_loads_of_surface(values, surface, p_star, problems, has_own_sides)
+   !> p*.
+   subroutine check_loads_of_surface(values, surface, p_star, problems)
       type(group_values), intent(in) :: values               !! of a &load group without problems
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star                         !! p* [pressure]; 0: the surface is flat
       type(problem_list_type), intent(inout) :: problems
-      logical, intent(in) :: has_own_sides                   !! whether the sides do not follow from the loads
 
       character(:), allocatable :: given, key, limit
       integer :: loads_by
@@ -108,9 +107,6 @@ contains
          if (any(periodic_lists == key)) then
             call values%complain(problems, given, given//' needs a surface that is repeated: one with free edges '// &
                'has no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
-         else if (.not. has_own_sides .and. any(key == ['mean_pressure        ', 'contact_area_fraction'])) then
-            call values%complain(problems, key, key//' needs the sides of the ball, length_x and length_y: give '// &
-                                 'them, or force, approach or contact_area')
          else if (loads_by == by_approach .and. surface%dimension == 1) then
             call values%complain(problems, key, 'the approach of a profile with free edges is not defined: it '// &
                'grows with the logarithm of the length over which it is measured. Give force or contact_area')

@@ -1,11 +1,10 @@
 !> The &output group: which files are written, and where.
 module wavycon_output_group
    use wavycon_cell_file, only: text_side
-   use wavycon_grid_keys, only: points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, text_value
-   use wavycon_methods, only: traits_of
+   use wavycon_methods, only: points_of_grid, traits_of
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type

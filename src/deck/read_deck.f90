@@ -4,13 +4,13 @@
 !> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is that of
 !> NAMELIST.
 module wavycon_read_deck
-   use wavycon_ball_kind, only: set_ball_sides
    use wavycon_deck_groups, only: deck_tables, interface_number, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, stress_number, surface_number, take_groups
-   use wavycon_deck_scanner, only: at_end, next_token, token_type
-   use wavycon_deck_text, only: deck_text_type, problem_report, read_deck_text
+   use wavycon_deck_text, only: at_end, deck_text_type, next_token, problem_report, read_deck_text, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_formula_kinds, only: radii_of
    use wavycon_group_values, only: group_values
+   use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_interface_group, only: check_interface_group, make_interface_setting
    use wavycon_key_table, only: allowed_values, choice_value, key_group_type, text_value
    use wavycon_kinds, only: dp
@@ -102,9 +102,7 @@ contains
       call check_load_group(scene%load, scene%interface%has('work_of_adhesion'), problems)
       if (problems%number == before .and. .not. (scene%material%any_bad() .or. scene%load%any_bad()) .and. &
           scene%load%place > 0 .and. allocated(scene%surface)) &
-         call check_loads_of_surface(scene%load, scene%surface, scene%p_star, problems, &
-                                     has_own_sides=scene%surface_values%text('kind') /= 'ball' .or. &
-                                                   scene%surface_values%has('length_x'))
+         call check_loads_of_surface(scene%load, scene%surface, scene%p_star, problems)
       call check_stress_group(scene%stress, scene%material, scene%load, problems, scene%surface)
       call check_method_group(scene%method, scene%surface_values%text('kind'), scene%surface, problems)
       call check_interface_group(scene%interface, scene%material, scene%method, problems, scene%surface)
@@ -132,8 +130,7 @@ contains
          before = problems%number
          call check_surface_group(values, problems)
          if (problems%number > before .or. values%any_bad()) return
-         if (values%text('kind') == 'ball') call set_sides_of_loads(scene, problems)
-         if (problems%number > before) return
+         if (values%text('kind') == 'ball') call set_ball_sides(scene, problems)
          if (labels%has('length_unit')) values%length_unit = labels%text('length_unit')
          call make_surface(values, scene%surface, scene%map, error, heights)
          if (allocated(error)) return
@@ -143,37 +140,55 @@ contains
       end associate
    end subroutine read_surface
 
-   !> Sets the default sides of a ball, which follow from its loads. If &material or &load has problems, which are
-   !> reported later, the sides stay as they are.
-   subroutine set_sides_of_loads(scene, problems)
+   !> Sets the default sides of a ball: some half axes of Hertz's contact at the largest load, or what carries it at the
+   !> hardness. If &material or &load has problems, which are reported later, they stay as they are.
+   subroutine set_ball_sides(scene, problems)
       type(scene_type), intent(inout) :: scene
       type(problem_list_type), intent(inout) :: problems
 
+      !> Twice the contact, so that a hardness or a rough estimate of the load does not bring its edge to the border.
+      real(dp), parameter :: sides_over_half_axes = 4.0_dp
       character(:), allocatable :: key
       integer :: loads_by
-      real(dp) :: hardness
+      real(dp) :: e_star, half_axis(2), largest, radii(2)
       real(dp), allocatable :: loads(:)
+      type(hertz_ball) :: contact
 
-      if (scene%material%any_bad() .or. scene%load%any_bad()) return
       associate (ball => scene%surface_values)
-         allocate (loads(0))
-         if (scene%load%place > 0) then
-            call given_loads(scene%load, key, loads_by, loads)
-         else if (.not. ball%has('length_x')) then
-            call ball%complain(problems, 'kind', "without loads kind = 'ball' needs length_x")
-         end if
-         if (size(loads) == 0) then
-            key = ''
-            loads = [0.0_dp]
-         end if
-         hardness = huge(hardness)
-         if (scene%material%has('hardness')) hardness = scene%material%real('hardness')
+         if (ball%has('length_x')) call ball%set_default('length_y', [ball%real('length_x')])
+         if (ball%has('length_x') .or. scene%material%any_bad() .or. scene%load%any_bad()) return
+         if (scene%load%place == 0) call ball%complain(problems, 'kind', "without loads kind = 'ball' needs length_x")
+         call given_loads(scene%load, key, loads_by, loads)
+         if (any(key == ['mean_pressure        ', 'contact_area_fraction'])) call scene%load%complain(problems, key, &
+            key//' needs the sides of the ball, length_x and length_y: give them, or force, approach or contact_area')
+         largest = max(0.0_dp, maxval(abs(loads)))
          ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
          if (key == 'yield' .and. .not. scene%stress%any_bad()) &
-            loads = 2*loads*max(0.0_dp, scene%stress%real('yield_stress'))
-         call set_ball_sides(ball, plane_strain_modulus(scene%material), hardness, key, maxval(abs(loads)))
+            largest = 2*largest*max(0.0_dp, scene%stress%real('yield_stress'))
+         e_star = plane_strain_modulus(scene%material)
+         radii = radii_of(ball, 'radius')
+         select case (key)
+         case ('force')
+            contact = hertz_contact(radii, e_star, force=largest)
+         case ('approach')
+            contact = hertz_contact(radii, e_star, approach=largest)
+         case ('contact_area')
+            contact = hertz_contact(radii, e_star, area=largest)
+         case default
+            contact = hertz_contact(radii, e_star, peak_pressure=largest)
+         end select
+         half_axis = contact%half_axis
+         ! Without load any rectangle will do.
+         if (.not. minval(half_axis) > 0.0_dp) then
+            half_axis = minval(radii)/10
+         else if (scene%material%has('hardness')) then
+            half_axis = half_axis*max(1.0_dp, sqrt(contact%force/(scene%material%real('hardness') &
+                                                                   *contact%contact_area())))
+         end if
+         call ball%set_default('length_x', sides_over_half_axes*half_axis(1:1))
+         call ball%set_default('length_y', sides_over_half_axes*half_axis(2:2))
       end associate
-   end subroutine set_sides_of_loads
+   end subroutine set_ball_sides
 
    !> Sets what follows from the values of a deck without problems: loads, labels, settings, the resolved deck.
    subroutine complete(scene)

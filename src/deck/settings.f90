@@ -1,6 +1,6 @@
 !> Keys that the command line sets: `--set surface.amplitude=2e-6`. They are read and checked as if the deck gave them.
 module wavycon_settings
-   use wavycon_deck_scanner, only: quotes
+   use wavycon_deck_text, only: quotes
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: is_read, key_group_type, key_index, words_of
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted

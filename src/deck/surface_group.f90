@@ -1,8 +1,8 @@
 !> The &surface group: the gap between the bodies.
 module wavycon_surface_group
-   use wavycon_ball_kind, only: ball_surface
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_formula_kinds, only: check_sum, formula_surface
    use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: surface_of_file, surface_of_heights
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, of, real_value, &
@@ -15,7 +15,6 @@ module wavycon_surface_group
    use wavycon_problems, only: problem_list_type
    use wavycon_self_affine_kind, only: check_self_affine, self_affine_of
    use wavycon_surface, only: surface_type
-   use wavycon_wave_kinds, only: check_sum, wave_surface
    implicit none (type, external)
    private
 
@@ -236,10 +235,8 @@ contains
             call surface_of_file(values, surface, map, error)
          case ('self_affine')
             call self_affine_of(values, surface, map, error)
-         case ('ball')
-            surface = ball_surface(values)
          case default
-            surface = wave_surface(values)
+            surface = formula_surface(values)
          end select
       end if
       if (.not. allocated(error)) then

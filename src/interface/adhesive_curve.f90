@@ -46,6 +46,7 @@ module wavycon_adhesive_curve
       type(adhesive_point), allocatable :: at_loads(:)   !! the stable and the unstable points of loads asked for
       !> P1 at its ends: of a wave `least` from 0 and from 1, of a ball from `least` to `most` [p*].
       real(dp), private :: least = 0.0_dp, most = 1.0_dp
+      real(dp), private :: work = 0.0_dp                 !! w' > 0 [p* Delta]
    end type adhesive_curve
 
 contains
@@ -61,18 +62,21 @@ contains
       type(adhesive_point) :: point
       integer :: i
 
+      curve%work = work
       ! Pull-off lies at P1 = (3/(4 pi)) w' or above (I18).
       curve%least = min(2e-3_dp*work, 1e-4_dp)
       if (solver%surface%is_ball()) then
          ! P = P1 - 2 sqrt(pull P1) by (I20), which is least at P1 = pull.
-         call solve_point(solver, work, 1.0_dp, point)
+         curve%least = 1.0_dp
+         call solve_point(curve, solver, 0.0_dp, point)
          pull = (0.5_dp*(1.0_dp - point%load))**2
          curve%least = 1e-3_dp*pull
          curve%most = (sqrt(pull) + sqrt(pull + max(1.01_dp*largest_load, 4*pull)))**2
       end if
       allocate (curve%points(curve_points))
       do i = 1, curve_points
-         call solve_point(solver, work, load_at(curve, solver, i*t_step), curve%points(i))
+         call solve_point(curve, solver, i*t_step, point)
+         curve%points(i) = point
       end do
       allocate (curve%critical(0), curve%at_loads(0))
       do i = 2, curve_points
@@ -84,7 +88,7 @@ contains
             point = here
             point%kind = not_reliable
             if (all(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) <= most_release)) &
-               call find_extreme(curve, solver, work, i*t_step, point)
+               call find_extreme(curve, solver, i*t_step, point)
             curve%critical = [curve%critical, point]
          end associate
       end do
@@ -92,11 +96,11 @@ contains
 
    !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off
    !> and jump none of them is stable: the bodies are separated, or in full contact.
-   subroutine add_load(curve, solver, work, load, number)
+   subroutine add_load(curve, solver, load, number)
       type(adhesive_curve), intent(inout) :: curve
       class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: work, load   !! w' [p* Delta], P [p*]
-      integer, intent(in) :: number        !! of the load
+      real(dp), intent(in) :: load    !! P [p*]
+      integer, intent(in) :: number   !! of the load
 
       type(adhesive_point) :: point
       integer :: i
@@ -112,7 +116,7 @@ contains
                point = here
                point%kind = not_reliable
             else
-               call find_crossing(curve, solver, work, load, i, point)
+               call find_crossing(curve, solver, load, i, point)
                point%kind = merge(stable_point, unstable_point, after%load > here%load)
             end if
          end associate
@@ -131,32 +135,22 @@ contains
       curve%at_loads = [curve%at_loads, point]
    end subroutine add_load
 
-   !> P1 [p*] of a parameter t: in equal steps of ln(P1/(1 - P1)), of a ball of ln P1.
-   pure real(dp) function load_at(curve, solver, t) result(p1)
+   !> The point of a parameter t: (I15) to (I17). Its P1 goes in equal steps of ln(P1/(1 - P1)), of a ball of ln P1.
+   subroutine solve_point(curve, solver, t, point)
       type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(in) :: solver
-      real(dp), intent(in) :: t
-
-      if (solver%surface%is_ball()) then
-         p1 = curve%least*(curve%most/curve%least)**t
-      else
-         p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
-      end if
-   end function load_at
-
-   !> The point at P1: (I15) to (I17).
-   subroutine solve_point(solver, work, p1, point)
       class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: work, p1
+      real(dp), intent(in) :: t
       type(adhesive_point), intent(out) :: point
 
       type(contact_solution) :: solution
       type(load_derivatives) :: slopes
-      real(dp) :: tension, tension_error
+      real(dp) :: p1, tension, tension_error
 
       if (solver%surface%is_ball()) then
+         p1 = curve%least*(curve%most/curve%least)**t
          call solve_ball(solver, p1, solution%measures, slopes)
       else
+         p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
          call solver%solve(p1, solution)
          if (solution%is_good()) call solution%derivatives(solver%surface, slopes)
       end if
@@ -164,7 +158,7 @@ contains
       point%exists = is_known(slopes%area_slope) .and. is_known(slopes%gap_curvature) &
          .and. min(slopes%area_slope, slopes%gap_curvature) > 0.0_dp
       if (.not. point%exists) return
-      tension = sqrt(2*work*slopes%area_slope/slopes%gap_curvature)
+      tension = sqrt(2*curve%work*slopes%area_slope/slopes%gap_curvature)
       tension_error = 0.5_dp*tension*(slopes%area_slope_error/slopes%area_slope &
                                       + slopes%gap_curvature_error/slopes%gap_curvature)
       point%load = p1 - tension
@@ -203,10 +197,10 @@ contains
    end subroutine solve_ball
 
    !> An extreme of P next to a point, by parabolas through three points that come closer.
-   subroutine find_extreme(curve, solver, work, t, point)
+   subroutine find_extreme(curve, solver, t, point)
       type(adhesive_curve), intent(in) :: curve
       class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: work, t
+      real(dp), intent(in) :: t
       type(adhesive_point), intent(inout) :: point   !! at t, then at the extreme
 
       integer, parameter :: steps = 5
@@ -219,24 +213,24 @@ contains
       width = t_step
       kind = unstable_point
       do i = 1, steps
-         call solve_point(solver, work, load_at(curve, solver, here - width), before)
-         call solve_point(solver, work, load_at(curve, solver, here + width), after)
+         call solve_point(curve, solver, here - width, before)
+         call solve_point(curve, solver, here + width, after)
          if (.not. (before%exists .and. after%exists)) exit
          bend = before%load - 2*point%load + after%load
          kind = merge(pull_off_point, jump_point, bend > 0.0_dp)
          if (.not. abs(bend) > 0.0_dp) exit
          here = here + width*min(max(0.5_dp*(before%load - after%load)/bend, -1.0_dp), 1.0_dp)
-         call solve_point(solver, work, load_at(curve, solver, here), point)
+         call solve_point(curve, solver, here, point)
          width = narrowing*width
       end do
       point%kind = kind
    end subroutine find_extreme
 
    !> The point of a load between two points of the curve, by the secant method in a bracket (Illinois).
-   subroutine find_crossing(curve, solver, work, load, i, point)
+   subroutine find_crossing(curve, solver, load, i, point)
       type(adhesive_curve), intent(in) :: curve
       class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: work, load
+      real(dp), intent(in) :: load
       integer, intent(in) :: i                      !! of the first point
       type(adhesive_point), intent(out) :: point
 
@@ -249,7 +243,7 @@ contains
       miss = [curve%points(i)%load, curve%points(i + 1)%load] - load
       do step = 1, most_steps
          t_new = t(2) - miss(2)*(t(2) - t(1))/(miss(2) - miss(1))
-         call solve_point(solver, work, load_at(curve, solver, t_new), point)
+         call solve_point(curve, solver, t_new, point)
          if (.not. point%exists .or. abs(t_new - t(2)) <= rounding) return
          if ((point%load - load)*miss(2) <= 0.0_dp) then
             t(1) = t(2)

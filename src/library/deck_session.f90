@@ -6,7 +6,6 @@ module wavycon_deck_session
    use wavycon_deck_groups, only: load_number, read_group_text
    use wavycon_deck_text, only: deck_text_type, problem_report, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_find_interface, only: find_interface
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, take_loads
@@ -20,7 +19,7 @@ module wavycon_deck_session
    use wavycon_run_scene, only: start_results
    use wavycon_scene, only: by_yield, scene_type
    use wavycon_settings, only: read_setting, setting_type
-   use wavycon_solve_loads, only: find_stresses, order_loads, solve_target
+   use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
    use wavycon_tables, only: find_table
@@ -150,8 +149,7 @@ contains
       call read_group_text(load_number, quantity//' = '//exact_number(value), values, text, problems)
       call check_load_group(values, self%results%scene%interface%has('work_of_adhesion'), problems)
       if (problems%number == 0) &
-         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems, &
-                                     has_own_sides=.true.)
+         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
       if (problems%number > 0) then
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
          return

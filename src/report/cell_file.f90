@@ -56,7 +56,7 @@ contains
                              self%points*[1, merge(product(planes), 1, size(planes) > 1)])
       self%side = results%solver%surface%sides()
       self%offset = map_offset(results, self%points)
-      self%is_here = results%sharing%is_first()
+      self%is_here = results%sharing%is_first
       if (.not. self%is_here) return
       if (self%as_text) then
          call results%open_table(trim(table%file), table%columns, self%file)

@@ -54,7 +54,7 @@ contains
       type(results_type), intent(in) :: results
       character(:), allocatable :: name
 
-      name = name_of_rank(results, merge(results%sharing%rank, alone, results%sharing%is_shared()))
+      name = name_of_rank(results, merge(results%sharing%rank, alone, results%sharing%is_shared))
    end function checkpoint_name
 
    !> The path of the checkpoint of any rank.
@@ -73,9 +73,9 @@ contains
 
       integer :: rank
 
-      if (.not. results%sharing%is_first()) return
-      if (results%sharing%is_shared()) call remove_file(name_of_rank(results, alone))
-      rank = merge(results%sharing%ranks, 0, results%sharing%is_shared())
+      if (.not. results%sharing%is_first) return
+      if (results%sharing%is_shared) call remove_file(name_of_rank(results, alone))
+      rank = merge(results%sharing%ranks, 0, results%sharing%is_shared)
       do while (path_kind(name_of_rank(results, rank)) == path_file)
          call remove_file(name_of_rank(results, rank))
          rank = rank + 1

@@ -97,7 +97,7 @@ contains
       real(dp) :: first
 
       associate (surface => results%solver%surface)
-         is_here = results%sharing%is_first()
+         is_here = results%sharing%is_first
          points = surface%points/surface%parts()
          if (all(points == 0)) points = map_points(results)
          if (associated(results%memory)) then

@@ -3,6 +3,7 @@
 module wavycon_table
    use wavycon_contact_solver, only: solver_traits
    use wavycon_error, only: error_type
+   use wavycon_formula_kinds, only: paper_waves
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_index, logical_value, text_value
    use wavycon_kinds, only: dp
@@ -13,7 +14,6 @@ module wavycon_table
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: solver_names
    use wavycon_surface, only: surface_type
-   use wavycon_wave_kinds, only: paper_waves
    implicit none (type, external)
    private
 

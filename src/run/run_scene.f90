@@ -3,7 +3,6 @@ module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
-   use wavycon_find_interface, only: find_interface
    use wavycon_kinds, only: dp
    use wavycon_methods, only: start_solver
    use wavycon_notes, only: show_scene, sum_up
@@ -16,7 +15,7 @@ module wavycon_run_scene
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
-   use wavycon_solve_loads, only: find_stresses, order_loads, solve_loads
+   use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
    use wavycon_system, only: has_memory_for, make_directories
    use wavycon_table, only: add_table, table_type
    use wavycon_tables, only: all_tables
@@ -49,11 +48,11 @@ contains
       call show_scene(results, log)
       if (results%sharing%kind == distributed_grids) call collect(results, tables, error)
       if (allocated(error)) return
-      if (results%sharing%is_shared()) then
+      if (results%sharing%is_shared) then
          call solve_and_write(results, tables, resume, log, status, error)
       else
          call results%sharing%work_alone(.true.)
-         if (results%sharing%is_first()) call solve_and_write(results, tables, resume, log, status, error)
+         if (results%sharing%is_first) call solve_and_write(results, tables, resume, log, status, error)
          call results%sharing%work_alone(.false.)
          call results%sharing%share_error(error)
          status_of_all = status
@@ -105,7 +104,7 @@ contains
       call order_loads(results)
       if (resume) call take_checkpoint(results, known, log, error)
       if (allocated(error)) return
-      if (results%sharing%is_first()) call prepare_directory(results%scene, error)
+      if (results%sharing%is_first) call prepare_directory(results%scene, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
 
@@ -147,16 +146,16 @@ contains
          if (allocated(error)) return
          call results%sharing%work_alone(.true.)
       end if
-      if (results%sharing%is_first() .or. .not. are_distributed) then
+      if (results%sharing%is_first .or. .not. are_distributed) then
          if (asks_for_largest(results%scene)) then
             call find_stresses(results, log)
             call log%say_timed('largest stresses found')
             call show_stresses(results, log)
          end if
-         if (allocated(results%scene%interface_setting)) call find_interface(results, log)
+         if (allocated(results%scene%interface_setting)) call find_interface(results, log, '')
       end if
       do i = 1, size(tables)
-         if (results%sharing%is_first() .and. .not. (by_all(i) .or. allocated(error))) &
+         if (results%sharing%is_first .and. .not. (by_all(i) .or. allocated(error))) &
             call tables(i)%write(results, error)
       end do
       if (are_distributed) call results%sharing%work_alone(.false.)
@@ -202,7 +201,7 @@ contains
       end associate
       deallocate (results%scene%surface)
       if (results%sharing%kind /= distributed_grids) &
-         call gather_series(results%solver%surface%shape, first_only=.not. results%sharing%is_shared())
+         call gather_series(results%solver%surface%shape, first_only=.not. results%sharing%is_shared)
    end subroutine start_results
 
    !> Whether the solutions keep their fields.
@@ -289,7 +288,7 @@ contains
       ! The series, and twice as much while it is gathered.
       if (surface .and. results%solver%surface%is_distributed()) &
          numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
-      if (results%sharing%is_first()) then
+      if (results%sharing%is_first) then
          if (.not. has_memory_for(numbers)) call fatal_error(error, exit_file_trouble, &
             'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
             'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &

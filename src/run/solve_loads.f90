@@ -1,8 +1,9 @@
-!> Solves all loads of a scene and finds their largest stresses. Where the ranks share the loads, each does so of its
-!> own, and all then have the results.
+!> Solves all loads of a scene and finds their largest stresses, partial slip and adhesion. Where the ranks share the
+!> loads, each solves its own and finds their stresses, and all then have the results.
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_adhesive_curve, only: add_load, adhesive_point, follow_curve, point_names
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
@@ -11,7 +12,8 @@ module wavycon_solve_loads
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
-   use wavycon_plain_text, only: integer_text
+   use wavycon_partial_slip, only: solve_partial_slip
+   use wavycon_plain_text, only: integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_yield
@@ -22,7 +24,7 @@ module wavycon_solve_loads
    implicit none (type, external)
    private
 
-   public :: find_stresses, order_loads, solve_loads, solve_target
+   public :: find_interface, find_stresses, order_loads, solve_loads, solve_target
 
    !> Loads of a block where each starts from the last one and loads are distributed. The first of a block starts as the
    !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
@@ -35,9 +37,13 @@ contains
    subroutine order_loads(results)
       type(results_type), intent(inout) :: results   !! with the solver started
 
+      integer(c_size_t) :: places(size(results%scene%target))
+
       associate (target => results%scene%target)
-         results%order = descending(merge(-target, target, results%scene%loads_by == by_mean_gap))
+         call gsl_sort_index(places, merge(target, -target, results%scene%loads_by == by_mean_gap), 1_c_size_t, &
+                             size(places, kind=c_size_t))
       end associate
+      results%order = int(places) + 1
       call results%sharing%deal_loads(results%order, length_of_block(results))
    end subroutine order_loads
 
@@ -171,15 +177,90 @@ contains
       stresses = reshape(transfer(words, stresses), shape(stresses))
    end subroutine share_stresses
 
-   !> The indices of an array from its largest to its smallest value.
-   function descending(values) result(order)
-      real(dp), intent(in) :: values(:)
-      integer :: order(size(values))
+   !> Solves partial slip of all loads and tangential loads, and the curve of the contact with adhesion.
+   subroutine find_interface(results, log, table)
+      type(results_type), intent(inout) :: results   !! with a group &interface and all loads solved with their fields
+      type(run_log), intent(inout) :: log            !! shows the progress
+      character(*), intent(in) :: table              !! the one table that it is for; '': all
 
-      integer(c_size_t) :: places(size(values))
+      associate (setting => results%scene%interface_setting)
+         if (setting%friction > 0.0_dp .and. (table == '' .or. index(table, 'slip') > 0)) then
+            call find_slip(results, log)
+            call log%say_timed('partial slip solved')
+         end if
+         if (setting%work > 0.0_dp .and. (table == '' .or. table == 'adhesion')) then
+            call find_adhesion(results, log)
+            call log%say_timed('adhesion solved')
+         end if
+      end associate
+   end subroutine find_interface
 
-      call gsl_sort_index(places, -values, 1_c_size_t, size(values, kind=c_size_t))
-      order = int(places) + 1
-   end function descending
+   subroutine find_slip(results, log)
+      type(results_type), intent(inout) :: results
+      type(run_log), intent(inout) :: log
+
+      integer :: i, load
+
+      associate (setting => results%scene%interface_setting)
+         if (abs(setting%beta) > 0.0_dp) call log%say('note: partial slip neglects the coupling of normal and '// &
+            "tangential displacements of unlike bodies, Dundurs' beta = "//short_number(setting%beta))
+         allocate (results%slip(size(setting%tangential), size(results%loads)))
+         do load = 1, size(results%loads)
+            associate (solution => results%loads(load))
+               do i = 1, size(setting%tangential)
+                  call log%say_progress('partial slip of '//integer_text(load)//' of '// &
+                                        integer_text(size(results%loads))//' loads')
+                  call solve_partial_slip(results%solver, setting%friction, solution, setting%tangential(i)* &
+                                          merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
+                                          results%scene%interface%logical('slip_loop'), results%slip(i, load))
+                  if (results%slip(i, load)%stick%pbar_over_pstar < 0.0_dp) call log%say( &
+                     'note: under load '//integer_text(load)//' tangential load '//integer_text(i)// &
+                     ' is more than friction times the mean pressure: the bodies slide')
+               end do
+            end associate
+         end do
+      end associate
+   end subroutine find_slip
+
+   !> The loads are the mean pressures of the contact with adhesion.
+   subroutine find_adhesion(results, log)
+      type(results_type), intent(inout) :: results
+      type(run_log), intent(inout) :: log
+
+      integer :: i
+
+      allocate (results%adhesion)
+      associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
+                 loads => results%loads%pbar_over_pstar)
+         call follow_curve(results%solver, work, maxval(loads), curve)
+         do i = 1, size(loads)
+            call add_load(curve, results%solver, loads(i), i)
+         end do
+         if (.not. all(curve%points%exists)) call log%say('note: '// &
+            integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
+            ' points of the curve have no solution')
+         do i = 1, size(curve%critical)
+            call log%say('adhesion: '//trim(point_names(curve%critical(i)%kind))//words_of_point(curve%critical(i)))
+         end do
+      end associate
+   contains
+
+      !> The load, with free edges as a force, and the area.
+      function words_of_point(point) result(words)
+         type(adhesive_point), intent(in) :: point
+         character(:), allocatable :: words
+
+         associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
+            if (surface%has_free_edges) then
+               words = ', force = '//short_number(mean_pressure*surface%nominal_area())//', area = '// &
+                       short_number(surface%nominal_area()*point%area)
+            else
+               words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
+                       ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
+            end if
+         end associate
+      end function words_of_point
+
+   end subroutine find_adhesion
 
 end module wavycon_solve_loads

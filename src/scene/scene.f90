@@ -2,7 +2,6 @@
 !> loads in the program's normalisation (pressures in p*, gaps in Delta).
 module wavycon_scene
    use wavycon_group_values, only: group_values
-   use wavycon_interface_setting, only: interface_setting
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_roughness, only: roughness_type
@@ -11,13 +10,26 @@ module wavycon_scene
    implicit none (type, external)
    private
 
-   public :: scene_type
+   public :: scene_type, interface_setting
 
    !> The quantity by which a deck gives its loads.
    integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3, by_yield = 4, by_approach = 5
    !> The same as headings.
    character(19), parameter, public :: target_words(5) = [character(19) :: 'pbar/p*', 'gap/Delta', 'area/A0', &
       'stress/yield stress', 'approach/Delta']
+
+   !> What a scene asks of the interface. Equations (I..) are those of src/interface/README.md.
+   type :: interface_setting
+      real(dp) :: resistivity = 0.0_dp   !! rho_1 + rho_2, in the deck's unit; 0: not given
+      real(dp) :: friction = 0.0_dp      !! f; 0: not given
+      !> Q, the mean tangential traction [p*] or, if `over_mean_pressure`, over the mean pressure.
+      real(dp), allocatable :: tangential(:)
+      logical :: over_mean_pressure = .false.
+      !> kappa, the tangential compliance of a wave over the normal one (I12); its least and its largest value.
+      real(dp) :: kappa(3) = 1.0_dp
+      real(dp) :: beta = 0.0_dp          !! Dundurs' second parameter, which partial slip neglects
+      real(dp) :: work = 0.0_dp          !! of adhesion, w' = w/(p* Delta); 0: not given
+   end type interface_setting
 
    type :: scene_type
       character(:), allocatable :: deck_path        !! the deck's file, as the caller named it

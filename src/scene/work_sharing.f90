@@ -28,10 +28,10 @@ module wavycon_work_sharing
       integer :: kind = first_rank_only   !! one of the names above
       integer :: ranks = 1                !! their number
       integer :: rank = 0                 !! the number of this one, from 0
+      logical :: is_first = .true.        !! whether this one writes log and tables
+      logical :: is_shared = .false.      !! whether more than one rank works
       integer, allocatable, private :: rank_of_load(:)   !! the rank that solves each load, if these are distributed
    contains
-      procedure :: is_shared
-      procedure :: is_first
       procedure :: memory_of_each
       procedure :: words
       procedure :: deal_loads
@@ -62,6 +62,7 @@ contains
 
       sharing%ranks = rank_count()
       sharing%rank = this_rank()
+      sharing%is_first = sharing%rank == 0
       if (sharing%ranks == 1) return
       call slab%start(max(traits%finest_grid, 1))
       can_distribute_loads = loads >= sharing%ranks .and. .not. need_fields
@@ -72,28 +73,15 @@ contains
       else if (can_distribute_loads) then
          sharing%kind = distributed_loads
       end if
+      sharing%is_shared = sharing%kind /= first_rank_only
    end function choose_sharing
-
-   !> Whether more than one rank works.
-   pure logical function is_shared(self)
-      class(work_sharing), intent(in) :: self
-
-      is_shared = self%kind /= first_rank_only
-   end function is_shared
-
-   !> Whether this rank writes log and tables.
-   pure logical function is_first(self)
-      class(work_sharing), intent(in) :: self
-
-      is_first = self%rank == 0
-   end function is_first
 
    !> The memory that is available to each rank that works, on this machine [byte]; -1: unknown.
    integer(int64) function memory_of_each(self) result(bytes)
       class(work_sharing), intent(in) :: self
 
       bytes = available_memory()
-      if (self%is_shared() .and. bytes >= 0) bytes = bytes/ranks_on_this_machine()
+      if (self%is_shared .and. bytes >= 0) bytes = bytes/ranks_on_this_machine()
    end function memory_of_each
 
    !> Deals the loads to the ranks in blocks, if they are distributed: the digits do not depend on the number of ranks

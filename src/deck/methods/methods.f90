@@ -1,31 +1,38 @@
 !> What decks say about solvers: their names, their keys of &method, what they refuse, and how values start them.
 module wavycon_methods
    use wavycon_auto_contact, only: auto_contact, has_closed_form, has_expansions
-   use wavycon_beale_contact, only: beale_contact, qp_options
-   use wavycon_beale_keys, only: beale_in_words, beale_options, check_beale_keys, most_constraint_points, most_harmonics
+   use wavycon_beale_contact, only: beale_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
+   use wavycon_constraint_points, only: choose_points
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_formula_kinds, only: paper_kinds, paper_waves
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options
-   use wavycon_grid_keys, only: check_grid_keys, grid_in_words, points_of_grid
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
       words_of
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: in_quotes, listed, short_number
+   use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
-   use wavycon_wave_kinds, only: paper_kinds, paper_waves
    implicit none (type, external)
    private
 
-   public :: method_table, check_method_group, default_solver, solvers_for, traits_of, &
-      start_solver, why_chosen
+   public :: method_table, check_method_group, points_of_grid, solvers_for, traits_of, start_solver, why_chosen
 
    !> All solvers, in the order of the key reference.
    character(*), parameter :: names = 'beale grid fitted closed_form auto'
+
+   !> Largest values of 'beale' accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for
+   !> hours.
+   integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
+   !> Most elements of its constraints' matrix. A few copies of it exist at a time, each of 160 MB.
+   real(dp), parameter :: most_elements = 2.0e7_dp
+   !> The choices of its `symmetry`, in the order of the key.
+   integer, parameter :: symmetry_is(*) = [symmetry_full, symmetry_diagonal, symmetry_none]
 
 contains
 
@@ -87,7 +94,9 @@ contains
 
       character(:), allocatable :: solver, words
 
-      if (allocated(surface)) call values%set_default('solver', text=default_solver(surface, kind))
+      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
+      if (allocated(surface)) call values%set_default('solver', text=merge('beale', 'auto ', &
+         any(paper_kinds == kind) .and. surface%is_paper_wave()))
       call values%check_relations(problems)
       ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface) .or. values%is_bad('solver')) return
@@ -130,17 +139,6 @@ contains
             ':1 and for three equal waves at 60 degrees'
       end select
    end function refusal
-
-   !> The name of the default solver of a surface.
-   function default_solver(surface, kind) result(name)
-      type(surface_type), intent(in) :: surface
-      character(*), intent(in) :: kind           !! of the surface, as the deck names it
-      character(:), allocatable :: name
-
-      name = 'auto'
-      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
-      if (any(paper_kinds == kind) .and. surface%is_paper_wave()) name = 'beale'
-   end function default_solver
 
    !> The solvers that can solve a surface, such as "'grid' or 'auto'"; of these only those whose solutions have
    !> details, or the coefficients of a series: '' if there is none.
@@ -214,7 +212,9 @@ contains
       fitted = 'collocation fitted to the edge to within '//short_number(values%real('accuracy'))
       select type (solver)
       type is (beale_contact)
-         call solver%start(surface, beale_options(values))
+         call solver%start(surface, qp_options( &
+            values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
+            values%real('edge_level'), values%text('minimiser') == 'beale'))
          words = beale_in_words(values, surface)
       type is (closed_form_contact)
          call solver%start(surface)
@@ -249,5 +249,141 @@ contains
 
       words = trim(reasons(traits%choice))
    end function why_chosen
+
+   !> Sets the defaults that depend on the surface, and reports numbers that do not fit each other or the memory.
+   subroutine check_beale_keys(values, surface, problems)
+      type(group_values), intent(inout) :: values
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      integer :: constraints, harmonics, points, unknowns
+
+      call values%set_default('harmonics', [real(paper_harmonics(surface%dimension), dp)])
+      call values%set_default('constraint_points', &
+                              [real(paper_constraint_points(surface%dimension, values%integer('harmonics')), dp)])
+      if (surface%dimension == 1) then
+         call values%leave_out('symmetry')
+         if (values%has('symmetry')) call values%complain(problems, 'symmetry', &
+                                                          'symmetry means nothing in 1-D: leave it out')
+      end if
+      if (values%is_bad('harmonics') .or. values%is_bad('constraint_points')) return
+      harmonics = values%integer('harmonics')
+      points = values%integer('constraint_points')
+      if (points > most_constraint_points(surface%dimension)) then
+         call values%complain(problems, 'constraint_points', 'constraint_points must be at most '// &
+            integer_text(most_constraint_points(surface%dimension))//' in '//integer_text(surface%dimension)// &
+            '-D, got '//integer_text(points))
+      else if (points <= harmonics) then
+         call problems%add(max(values%place_of('harmonics'), values%place_of('constraint_points')), &
+            'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
+            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
+      else if (.not. values%is_bad('symmetry')) then
+         call find_size(values, surface, unknowns, constraints)
+         if (real(unknowns, dp)*constraints*merge(2, 1, surface%has_hardness()) > most_elements) &
+            call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
+               ' and constraint_points = '//integer_text(points)//' make '//integer_text(unknowns)// &
+               ' unknowns and '//integer_text(constraints)//' constraints: too many for the memory. Give fewer '// &
+               'constraint_points (harmonics + 1 serve well), or a symmetry')
+      end if
+   end subroutine check_beale_keys
+
+   !> The size of the quadratic programme.
+   subroutine find_size(values, surface, unknowns, constraints)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      integer, intent(out) :: unknowns, constraints   !! without those of a hardness, which are as many again
+
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+
+      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
+      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
+      unknowns = terms%count()
+      constraints = size(k)
+   end subroutine find_size
+
+   pure integer function symmetry_of(values) result(symmetry)
+      type(group_values), intent(in) :: values
+
+      symmetry = symmetry_is(values%choice('symmetry'))
+   end function symmetry_of
+
+   !> The discretisation of 'beale' in words.
+   function beale_in_words(values, surface) result(words)
+      type(group_values), intent(in) :: values   !! of &method
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      integer :: constraints, unknowns
+
+      call find_size(values, surface, unknowns, constraints)
+      words = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
+              integer_text(constraints*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
+              short_number(values%real('edge_level'))
+   end function beale_in_words
+
+   !> The grid in effect on the whole cell, along x and y: that of the deck, which refers to surface%parts(), or,
+   !> without an accuracy, that which the surface was given on. Zeros if the accuracy decides.
+   pure function points_of_grid(values, surface) result(points)
+      type(group_values), intent(in) :: values     !! of &method
+      type(surface_type), intent(in) :: surface
+      integer :: points(2)
+
+      points = surface%parts()*nint(values%pair('grid_points'))
+      if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
+   end function points_of_grid
+
+   !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
+   !> solved on one given grid. Writes grid_points in full to the resolved deck. Reports a residual without a given
+   !> grid, and odd numbers of points.
+   subroutine check_grid_keys(values, surface, problems)
+      type(group_values), intent(inout) :: values  !! of &method
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      real(dp) :: points(2)
+
+      if (values%has('grid_points') .and. .not. values%is_bad('grid_points')) then
+         points = values%pair('grid_points')
+         call values%set('grid_points', points(:surface%dimension))
+      end if
+      if (.not. values%has('accuracy') .and. (values%has('grid_points') .or. all(surface%points > 0))) then
+         call values%set_default('accuracy', [0.0_dp])
+         call values%leave_out('accuracy')
+      end if
+      if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
+         call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on '// &
+                              'its own points: other grids have the residual that their accuracy takes')
+      if (.not. surface%mirrored .and. any(mod(nint(values%reals('grid_points')), 2) /= 0)) &
+         call values%complain(problems, 'grid_points', &
+         'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
+   end subroutine check_grid_keys
+
+   !> The grid in words.
+   pure function grid_in_words(values, surface) result(words)
+      type(group_values), intent(in) :: values     !! of &method
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      integer :: points(2)
+
+      points = points_of_grid(values, surface)/surface%parts()
+      if (all(points > 0)) then
+         words = 'a grid of '//integer_text(points(1))
+         if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
+         words = words//' points'
+         if (values%real('residual') > 0.0_dp) words = words//' to a residual of '// &
+                                                    short_number(values%real('residual'))
+      else
+         words = 'grids refined until mean gap, area and peak pressure are within '// &
+                 short_number(values%real('accuracy'))
+      end if
+      if (surface%mirrored) then
+         words = words//', on the map without its mirror images'
+      else if (surface%shape%is_even()) then
+         words = words//', on a quarter of the cell'
+      end if
+      if (all(points == 0) .and. surface%has_smaller_cell()) words = words//' turned by 45 degrees'
+   end function grid_in_words
 
 end module wavycon_methods

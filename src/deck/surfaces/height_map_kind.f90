@@ -1,8 +1,8 @@
 !> kind = 'file': a height map.
 module wavycon_height_map_kind
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_ball_kind, only: radii_of
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_formula_kinds, only: radii_of
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
    use wavycon_kinds, only: dp
@@ -87,12 +87,10 @@ contains
       call check_map_size(source, shape(heights), error)
       if (.not. allocated(error)) call check_room(source, shape(heights), error)
       if (allocated(error)) return
-      measured%missing = ieee_is_nan(heights)
       allocate (measured%height, source=heights)
-      if (any(measured%missing)) then
+      if (any(ieee_is_nan(heights))) then
+         measured%missing = ieee_is_nan(heights)
          where (measured%missing) measured%height = 0.0_dp
-      else
-         deallocate (measured%missing)
       end if
       call make_of(source, values, measured, surface, map, error)
    end subroutine surface_of_heights

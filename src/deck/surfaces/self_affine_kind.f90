@@ -1,7 +1,7 @@
 !> kind = 'self_affine': a random rough surface, made from its spectrum.
 module wavycon_self_affine_kind
-   use wavycon_ball_kind, only: radii_of
    use wavycon_error, only: error_type
+   use wavycon_formula_kinds, only: radii_of
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics

@@ -1,17 +1,17 @@
-!> The kinds of surface that are cosine waves: 'wave_1d', 'wave_2d', 'crossed_1d' and 'hexagonal' of one, two or three,
-!> and 'sum' of any.
-module wavycon_wave_kinds
+!> The kinds of surface that are formulas: cosine waves, 'wave_1d', 'wave_2d', 'crossed_1d' and 'hexagonal' of one, two
+!> or three and 'sum' of any; and 'ball', a ball, or a body with two radii of curvature, pressed on a half-space.
+module wavycon_formula_kinds
    use wavycon_constants, only: pi
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
-   use wavycon_surface, only: surface_type
+   use wavycon_surface, only: surface_of_ball, surface_type
    use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    implicit none (type, external)
    private
 
-   public :: check_sum, wave_surface
+   public :: check_sum, formula_surface, radii_of
 
    !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions.
    character(*), parameter, public :: paper_kinds(*) = ['wave_1d   ', 'wave_2d   ', 'crossed_1d'], &
@@ -49,7 +49,7 @@ contains
    end subroutine check_sum
 
    !> The surface of a kind of this module.
-   function wave_surface(values) result(surface)
+   function formula_surface(values) result(surface)
       type(group_values), intent(inout) :: values   !! of &surface, without problems
       type(surface_type) :: surface
 
@@ -67,7 +67,22 @@ contains
       case ('sum')
          surface = wave_sum([values%real('length_x'), values%real('length_y')], values%reals('amplitudes'), &
                             nint(values%reals('waves_x')), nint(values%reals('waves_y')), values%reals('phases')*pi/180)
+      case ('ball')
+         surface = surface_of_ball([values%real('length_x'), values%real('length_y')], radii_of(values, 'radius'), 2)
+         if (values%has('points')) surface%points = surface%parts()*nint(values%pair('points'))
       end select
-   end function wave_surface
+   end function formula_surface
 
-end module wavycon_wave_kinds
+   !> The radii along x and y that the keys `name`, or `name_x` and `name_y`, give [length]; huge where they give none.
+   pure function radii_of(values, name) result(radii)
+      type(group_values), intent(in) :: values
+      character(*), intent(in) :: name
+      real(dp) :: radii(2)
+
+      radii = huge(radii)
+      if (values%has(name)) radii = values%real(name)
+      if (values%has(name//'_x')) radii(1) = values%real(name//'_x')
+      if (values%has(name//'_y')) radii(2) = values%real(name//'_y')
+   end function radii_of
+
+end module wavycon_formula_kinds
