@@ -18,7 +18,7 @@ module wavycon_run_scene
    use wavycon_settings, only: setting_type
    use wavycon_solve_loads, only: find_stresses, order_loads, solve_loads
    use wavycon_system, only: has_memory_for, make_directories
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    use wavycon_tables, only: all_tables
    use wavycon_work_sharing, only: choose_sharing, distributed_grids
    implicit none (type, external)
@@ -180,18 +180,14 @@ contains
 
       logical :: keep
       character(:), allocatable :: description
-      type(table_type), allocatable :: every(:)
       integer :: i
 
       call move_alloc(scene, results%scene)
-      call all_tables(every)
-      allocate (tables(0))
+      call all_tables(tables)
       associate (scene => results%scene)
-         do i = 1, size(every)
-            ! p* and Delta of a flat surface are zero.
-            if (scene%p_star <= 0.0_dp .and. .not. every(i)%is_for_flat_surfaces) cycle
-            if (every(i)%is_requested(scene)) call add_table(tables, every(i))
-         end do
+         ! p* and Delta of a flat surface are zero.
+         tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
+                       [(tables(i)%is_requested(scene), i=1, size(tables))])
          keep = keep_fields(scene, tables)
          if (present(with_fields)) keep = with_fields
          call start_solver(scene%surface, scene%method, keep, results%solver, description)
