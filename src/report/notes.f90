@@ -174,20 +174,19 @@ contains
       type(run_log), intent(inout) :: log
 
       character(:), allocatable :: limit
-      integer :: i, unreached
+      integer :: last
+      logical :: is_unreached(size(results%loads))
 
-      unreached = 0
-      do i = 1, size(results%loads)
-         associate (solution => results%loads(i), measures => results%loads(i)%measures)
-            if (solution%status /= not_found .or. solution%pbar_over_pstar > 0.0_dp) cycle
-            unreached = unreached + 1
-            limit = ' mean gaps are above the largest that the grid shows, '// &
-                    short_number(measures%mean_gap_over_amplitude)
-            if (results%scene%loads_by == by_contact_area) limit = &
-               ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
-         end associate
-      end do
-      if (unreached > 0) call log%say('note: '//integer_text(unreached)//' of '//integer_text(size(results%loads))// &
+      is_unreached = results%loads%status == not_found .and. .not. results%loads%pbar_over_pstar > 0.0_dp
+      last = findloc(is_unreached, .true., dim=1, back=.true.)
+      if (last == 0) return
+      associate (measures => results%loads(last)%measures)
+         limit = ' mean gaps are above the largest that the grid shows, '// &
+                 short_number(measures%mean_gap_over_amplitude)
+         if (results%scene%loads_by == by_contact_area) limit = &
+            ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
+      end associate
+      call log%say('note: '//integer_text(count(is_unreached))//' of '//integer_text(size(is_unreached))// &
          limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
          "accuracy; solver = 'fitted' has no such limit")
    end subroutine note_unreached
