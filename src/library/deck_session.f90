@@ -262,7 +262,6 @@ contains
 
       character(:), allocatable :: trouble
       integer :: i
-      logical :: of_stresses
       type(table_type), allocatable :: tables(:)
 
       call check_ready(self, error, solved)
@@ -275,12 +274,11 @@ contains
          return
       end if
       writer = tables(i)
-      of_stresses = writer%group == 'stress'
-      if (of_stresses .and. .not. allocated(self%results%scene%stress_setting)) then
+      if (writer%group == 'stress' .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
       else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then
          trouble = 'the deck has no group &interface that asks for it'
-      else if ((of_stresses .or. writer%needs_fields) .and. .not. self%keeps_fields) then
+      else if ((writer%group == 'stress' .or. writer%needs_fields) .and. .not. self%keeps_fields) then
          trouble = 'the session was opened without fields'
       else if (self%scale%p_star <= 0.0_dp .and. writer%needs_surface) then
          trouble = 'the surface is flat'

@@ -69,11 +69,9 @@ contains
             call solution%derivatives(surface, slopes)
             if (slopes%gap_slope < 0.0_dp) stiffness = [-1.0_dp, or_nan(slopes%gap_slope_error)/slopes%gap_slope] &
                                                        /slopes%gap_slope
-            associate (length => 0.5_dp*scene%e_star/scene%p_star*surface%amplitude)
-               if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) &
-                  resistance = scene%interface_setting%resistivity*length &
-                               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
-            end associate
+            if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) resistance = &
+               scene%interface_setting%resistivity*(0.5_dp*scene%e_star/scene%p_star*surface%amplitude) &
+               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
          end if
          call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
                             results%mean_pressure(load), stiffness*scene%p_star/surface%amplitude, &

@@ -24,7 +24,6 @@ module wavycon_line_tables
       integer :: number = 0
       integer :: direction(2) = 0             !! of the line in X, Y
       real(dp), allocatable :: angle(:, :)    !! X, Y of each point, shape (2, n) [rad]
-      real(dp), allocatable :: place(:, :)    !! x, y of each point, shape (2, n) [length]
       real(dp), allocatable :: distance(:)    !! from the first point, shape (n) [length]
       real(dp), allocatable :: t(:)           !! the angles are those of the first point and t times the direction [rad]
    end type surface_line
@@ -89,11 +88,9 @@ contains
          else if (surface%shape%is_even() .and. all(abs(surface%crest) <= 0.0_dp)) then
             intervals = intervals/2
          end if
-         allocate (line%angle(2, 0:intervals), line%place(2, 0:intervals), line%distance(0:intervals), &
-                   line%t(0:intervals))
+         allocate (line%angle(2, 0:intervals), line%distance(0:intervals), line%t(0:intervals))
          do k = 0, intervals
             line%angle(:, k) = start + k*way
-            line%place(:, k) = surface%length*line%angle(:, k)/(2*pi)
             line%distance(k) = norm2(surface%length*k*way)/(2*pi)
             line%t(k) = maxval(line%angle(:, k) - start)
          end do
@@ -113,7 +110,8 @@ contains
 
       if (line%number > 1) call file%put('')
       do k = 0, ubound(values, 2)
-         call file%put_row([real(dp) :: load, line%number, line%distance(k), line%place(:, k), &
+         call file%put_row([real(dp) :: load, line%number, line%distance(k), &
+                            results%solver%surface%length*line%angle(:, k)/(2*pi), &
                             results%in_p_star(results%loads(load)%pbar_over_pstar), values(:, k)])
       end do
    end subroutine put_surface_line

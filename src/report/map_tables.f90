@@ -47,15 +47,14 @@ contains
       type(results_type), intent(in) :: results
 
       class(contact_fields), allocatable :: fields
-      integer :: grid(2), load, points(2)
+      integer :: load, points(2)
       integer(int64), allocatable :: own(:)
 
       points = map_points(results)
       is_written_by_all = .not. is_text(results%scene%output%text('map_format'), points)
       if (.not. is_written_by_all) return
       if (.not. allocated(results%loads)) then
-         grid = results%traits%given_grid
-         is_written_by_all = all(points == grid .or. points == 2*grid)
+         is_written_by_all = all(points == results%traits%given_grid .or. points == 2*results%traits%given_grid)
          return
       end if
       own = [(results%loads(load)%distributed_points(), load=1, size(results%loads))]
@@ -171,8 +170,10 @@ contains
                end associate
                do l = 1, map%points(2)
                   if (results%slip(i, load)%stick%is_good()) then
+                     ! The state is 0 where the gap is open, 1 slip, 2 stick.
                      values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
-                                                 p_star*p(:, l), state(p(:, l), p_of_stick(:, l))], &
+                                                 p_star*p(:, l), merge(1.0_dp, 0.0_dp, p(:, l) > 0.0_dp) + &
+                                                 merge(1.0_dp, 0.0_dp, p_of_stick(:, l) > 0.0_dp)], &
                                                 [map%points(1), 3]))
                   else
                      values = spread([not_a_number(), not_a_number(), not_a_number()], 2, map%points(1))
@@ -184,12 +185,5 @@ contains
       end associate
       call map%file%finish(error)
    end subroutine write_slip_map
-
-   !> 0 open, 1 slip, 2 stick.
-   elemental real(dp) function state(pressure, pressure_of_stick)
-      real(dp), intent(in) :: pressure, pressure_of_stick
-
-      state = merge(1.0_dp, 0.0_dp, pressure > 0.0_dp) + merge(1.0_dp, 0.0_dp, pressure_of_stick > 0.0_dp)
-   end function state
 
 end module wavycon_map_tables

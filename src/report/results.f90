@@ -123,9 +123,7 @@ contains
       integer, intent(in) :: load
       real(dp) :: approach(2)
 
-      associate (measures => self%loads(load)%measures)
-         approach = [measures%approach_over_amplitude, or_nan(measures%mean_gap_error)]
-      end associate
+      approach = [self%loads(load)%measures%approach_over_amplitude, or_nan(self%loads(load)%measures%mean_gap_error)]
       if (.not. self%traits%has_errors) approach(2) = not_a_number()
       if (self%solver%surface%has_free_edges .and. self%solver%surface%dimension == 1) approach = not_a_number()
    end function approach_over_amplitude

@@ -91,8 +91,7 @@ contains
          numbers = not_a_number()
          if (allocated(regions%spots)) then
             spots = regions%spots%area_fraction
-            pools = regions%pools%area_fraction
-            pools = pack(pools, regions%pools%is_closed())
+            pools = pack(regions%pools%area_fraction, regions%pools%is_closed())
             numbers = [real(dp) :: size(spots), sum(spots), max(0.0_dp, maxval(spots)), &
                        size(pools), sum(pools), max(0.0_dp, maxval(pools)), regions%perimeter(), &
                        (merge(1, 0, any(regions%spots%percolates(i))), i=1, 2), &

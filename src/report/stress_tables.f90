@@ -157,7 +157,8 @@ contains
                if (i > 1 .and. present(line)) call file%put('')
                do k = 1, points
                   place = [depths(i), depths(i)/side(1)]
-                  if (present(line)) place = [line%distance(k - 1), line%place(:, k - 1), depths(i)]
+                  if (present(line)) &
+                     place = [line%distance(k - 1), surface%length*line%angle(:, k - 1)/(2*pi), depths(i)]
                   call file%put_row([real(dp) :: load, body, place, stress_numbers( &
                                      bodies(body)%stress(parts(:, :, k, i), fields%pbar_over_pstar), errors(k, i), &
                                      results%scene%p_star)])

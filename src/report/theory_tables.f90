@@ -61,15 +61,27 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      real(dp) :: of_ball(5), of_line(5), of_plane(12)
+      type(hertz_ball) :: contact
+      !> Area, approach, peak pressure and half axes of Hertz's contact of the ball.
+      real(dp) :: of_ball(5)
+      real(dp) :: force, of_line(5), of_plane(12), radii(2), roller(2)
 
       of_ball = not_a_number()
       of_line = not_a_number()
       of_plane = not_a_number()
-      associate (p => results%loads(load)%pbar_over_pstar, wavelength => results%solver%surface%paper_wavelength())
-         if (results%solver%surface%has_free_edges) then
-            of_ball = values_of_ball(results, load)
-         else if (results%solver%surface%dimension == 1) then
+      force = results%solver%surface%nominal_area()*results%mean_pressure(load)
+      associate (p => results%loads(load)%pbar_over_pstar, surface => results%solver%surface, &
+                 wavelength => results%solver%surface%paper_wavelength())
+         if (surface%has_free_edges) then
+            radii = surface%radii()
+            if (surface%dimension == 1) then
+               roller = hertz_roller(radii(1), results%scene%e_star, force)
+               of_ball([1, 3, 4]) = [2*roller(1), roller(2), roller(1)]
+            else
+               contact = hertz_contact(radii, results%scene%e_star, force=force)
+               of_ball = [contact%contact_area(), contact%approach, contact%peak_pressure, contact%half_axis]
+            end if
+         else if (surface%dimension == 1) then
             of_line = &
                [kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
                 westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
@@ -84,34 +96,9 @@ contains
                 wavelength*hertz_point_radius_over_wavelength(p), &
                 wavelength*penny_crack_radius_over_wavelength(p)]
          end if
-         call file%put_row([real(dp) :: load, results%in_p_star(p), &
-                            results%solver%surface%nominal_area()*results%mean_pressure(load), &
-                            of_line, of_plane, of_ball])
+         call file%put_row([real(dp) :: load, results%in_p_star(p), force, of_line, of_plane, of_ball])
       end associate
    end subroutine put_theory
-
-   !> Area, approach, peak pressure and half axes of Hertz's contact.
-   function values_of_ball(results, load) result(values)
-      type(results_type), intent(in) :: results
-      integer, intent(in) :: load
-      real(dp) :: values(5)
-
-      type(hertz_ball) :: contact
-      real(dp) :: radii(2), roller(2)
-
-      associate (surface => results%solver%surface, &
-                 force => results%solver%surface%nominal_area()*results%mean_pressure(load))
-         radii = surface%radii()
-         values = not_a_number()
-         if (surface%dimension == 1) then
-            roller = hertz_roller(radii(1), results%scene%e_star, force)
-            values([1, 3, 4]) = [2*roller(1), roller(2), roller(1)]
-         else
-            contact = hertz_contact(radii, results%scene%e_star, force=force)
-            values = [contact%contact_area(), contact%approach, contact%peak_pressure, contact%half_axis]
-         end if
-      end associate
-   end function values_of_ball
 
    subroutine put_theory_lines(results, load, file)
       type(results_type), intent(in) :: results
@@ -164,14 +151,11 @@ contains
    pure real(dp) function nearest_crest(phi, theta)
       real(dp), intent(in) :: phi, theta
 
-      nearest_crest = min(hypot(reduced(phi), reduced(theta)), hypot(reduced(phi - pi), reduced(theta - pi)))/(2*pi)
+      real(dp) :: from(4)   !! phi and theta from two crests, between -pi and pi
+
+      from = [phi, theta, phi - pi, theta - pi]
+      from = from - 2*pi*nint(from/(2*pi))
+      nearest_crest = min(hypot(from(1), from(2)), hypot(from(3), from(4)))/(2*pi)
    end function nearest_crest
-
-   !> An angle between -pi and pi.
-   elemental real(dp) function reduced(angle)
-      real(dp), intent(in) :: angle
-
-      reduced = angle - 2*pi*nint(angle/(2*pi))
-   end function reduced
 
 end module wavycon_theory_tables

@@ -6,12 +6,11 @@ module wavycon_run_scene
    use wavycon_find_interface, only: find_interface
    use wavycon_kinds, only: dp
    use wavycon_methods, only: start_solver
-   use wavycon_notes, only: show_scene, sum_up
+   use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_own_waves, only: gather_series
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_read_deck, only: read_deck
-   use wavycon_result_lines, only: show_loads, show_stresses
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
