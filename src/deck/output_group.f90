@@ -41,7 +41,7 @@ contains
       allocate (rows(0))
       do i = 1, size(tables)
          if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
-         rows = [rows, key_type(logical_value, trim(tables(i)%key), '.false.', '', tables(i)%meaning)]
+         rows = [rows, key_type(logical_value, trim(tables(i)%key), '.false.', '', trim(tables(i)%meaning))]
       end do
       table = key_group_type('output', 'which files are written, and where', [ &
          key_type(text_value, 'directory', "'outputs/<case>'", '', &

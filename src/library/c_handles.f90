@@ -124,14 +124,18 @@ contains
       ignored = close_call(error_handle, error)
    end function close_new
 
-   !> A new object of a kind.
-   function new_handle(kind) result(made)
+   !> A new object of a kind. Its owner, if it has one, lives as long as it.
+   function new_handle(kind, owner) result(made)
       character(*), intent(in) :: kind
+      type(handle_type), pointer, intent(in), optional :: owner
       type(handle_type), pointer :: made
 
       allocate (made)
       made%kind = kind
       made%error%message = ''
+      if (.not. present(owner)) return
+      made%owner => owner
+      owner%users = owner%users + 1
    end function new_handle
 
    !> The contents of a handle; those of `nothing`, without a kind, if it is null or none of ours.

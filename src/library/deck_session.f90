@@ -11,7 +11,7 @@ module wavycon_deck_session
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, take_loads
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen
-   use wavycon_plain_text, only: exact_number, integer_text, newline
+   use wavycon_plain_text, only: exact_number, integer_text, listed, newline
    use wavycon_problems, only: problem_list_type
    use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type
@@ -22,7 +22,7 @@ module wavycon_deck_session
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
-   use wavycon_tables, only: find_table
+   use wavycon_tables, only: all_tables
    use wavycon_unit_scale, only: scale_of, unit_scale
    implicit none (type, external)
    private
@@ -258,24 +258,27 @@ contains
       type(table_type), allocatable, intent(out) :: writer
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: names, trouble
-      logical :: of_stresses
+      character(:), allocatable :: trouble
+      integer :: i
+      type(table_type), allocatable :: tables(:)
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
-      call find_table(name, writer, names)
-      if (.not. allocated(writer)) then
-         call fatal_error(error, exit_bad_input, "there is no table '"//name//"'. The tables are "//names)
+      call all_tables(tables)
+      i = findloc(tables%name() == name, .true., dim=1)
+      if (i == 0) then
+         call fatal_error(error, exit_bad_input, "there is no table '"//name//"'. The tables are "// &
+                          listed(tables%name(), ' and '))
          return
       end if
-      of_stresses = writer%group == 'stress'
-      if (of_stresses .and. .not. allocated(self%results%scene%stress_setting)) then
+      writer = tables(i)
+      if (writer%group == 'stress' .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
       else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then
          trouble = 'the deck has no group &interface that asks for it'
-      else if ((of_stresses .or. writer%needs_fields) .and. .not. self%keeps_fields) then
+      else if ((writer%group == 'stress' .or. writer%needs_fields) .and. .not. self%keeps_fields) then
          trouble = 'the session was opened without fields'
-      else if (self%scale%p_star <= 0.0_dp .and. .not. writer%is_for_flat_surfaces) then
+      else if (self%scale%p_star <= 0.0_dp .and. writer%needs_surface) then
          trouble = 'the surface is flat'
       else
          trouble = writer%refusal(self%results%traits, self%results%solver%surface)
@@ -354,10 +357,8 @@ contains
          else if (name == 'resolved_deck') then
             words = scene%resolved_deck
          else if (name == 'order') then
-            words = ''
-            do i = 1, size(self%results%order)
-               words = words//integer_text(self%results%order(i))//' '
-            end do
+            allocate (character(12*size(self%results%order)) :: words)
+            write (words, '(*(i0, :, 1x))') self%results%order
             words = trim(words)
          end if
       end associate

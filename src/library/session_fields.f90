@@ -71,17 +71,19 @@ contains
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
       integer, intent(in) :: points(2)                    !! N_x, N_y >= 1; N_y = 1 for a profile
-      real(dp), intent(in) :: offset(2)                   !! of the first point, in steps
+      real(dp), intent(in), optional :: offset(2)         !! of the first point, in steps; absent: 0
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(out), optional, dimension(points(1), points(2)) :: pressure, gap, displacement
 
+      real(dp) :: first(2)
       real(dp), allocatable :: g(:, :), p(:, :), u(:, :)
 
       call prepare_fields(session, solved, error)
-      if (.not. allocated(error)) call check_points(session, points, offset, 0.0_dp, numbers_of_fields, error)
+      if (.not. allocated(error)) &
+         call check_points(session, points, offset, 0.0_dp, numbers_of_fields, first, error)
       if (allocated(error)) return
       if (session%scale%p_star > 0.0_dp) then
-         call solved%fields%on_grid(points, offset_on(session, offset), p, u, g)
+         call solved%fields%on_grid(points, first, p, u, g)
          if (present(pressure)) pressure = session%scale%p_star*p
          if (present(gap)) gap = session%scale%amplitude*g
          if (present(displacement)) displacement = session%scale%amplitude*u
@@ -166,7 +168,7 @@ contains
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
       integer, intent(in) :: points(2)            !! as of fields_on_grid
-      real(dp), intent(in) :: offset(2)
+      real(dp), intent(in), optional :: offset(2)
       real(dp), intent(in) :: depth               !! >= 0 [length]
       real(dp), intent(in) :: nu                  !! as of stresses_at
       character(*), intent(in) :: lateral
@@ -175,15 +177,16 @@ contains
       real(dp), intent(out), optional :: stress_error(points(1), points(2))
 
       type(elastic_body) :: body
+      real(dp) :: first(2)
       real(dp), allocatable :: errors(:, :), over_p_star(:, :, :)
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
-      if (.not. allocated(error)) call check_points(session, points, offset, depth, numbers_of_stresses, error)
+      if (.not. allocated(error)) &
+         call check_points(session, points, offset, depth, numbers_of_stresses, first, error)
       if (allocated(error)) return
       if (allocated(solved%stresses)) then
-         call solved%stresses%on_plane(points, offset_on(session, offset), session%scale%depth_angle(depth), body, &
-                                       over_p_star, errors)
+         call solved%stresses%on_plane(points, first, session%scale%depth_angle(depth), body, over_p_star, errors)
          do i = 1, 6
             stress(i, :, :) = session%scale%p_star*over_p_star(:, :, i)
          end do
@@ -220,15 +223,13 @@ contains
 
       !> Series, their waves and copies of them, in numbers a point of the grid.
       integer(int64), parameter :: numbers = 8
-      integer :: points(2)
-      real(dp) :: offset(2)
       type(deck_text_type) :: text
       type(group_values) :: material, values
       type(problem_list_type) :: problems
       type(key_group_type), pointer :: tables(:)
       type(stress_setting), allocatable :: setting
 
-      call own_points(session, solved, points, offset, error)
+      call prepare_fields(session, solved, error)
       if (allocated(error)) return
       call read_group_text(stress_number, 'nu = '//exact_number(nu)//', lateral = '//quoted(lateral), values, text, &
                            problems)
@@ -241,22 +242,12 @@ contains
       call make_stress_setting(values, material, 0.0_dp, setting)
       body = setting%body(1)
       if (allocated(solved%stresses) .or. .not. session%scale%p_star > 0.0_dp) return
-      if (has_memory_for(numbers*product(int(points, int64)))) then
+      if (has_memory_for(numbers*product(int(solved%fields%own_points, int64)))) then
          call solved%solution%stresses(session%results%solver%surface, solved%stresses)
       else
          call fatal_error(error, exit_file_trouble, 'there is not the memory for the stresses')
       end if
    end subroutine prepare_stresses
-
-   !> The offset of the first point; there is none along y of a profile.
-   pure function offset_on(session, offset) result(first)
-      type(deck_session), intent(in) :: session
-      real(dp), intent(in) :: offset(2)
-      real(dp) :: first(2)
-
-      first = offset
-      if (session%results%solver%surface%dimension == 1) first(2) = 0.0_dp
-   end function offset_on
 
    !> Errors: exit_bad_input for a number of points below 1, or above that of a plane.
    subroutine check_number(points, error)
@@ -283,15 +274,19 @@ contains
       end associate
    end subroutine check_places
 
-   subroutine check_points(session, points, offset, depth, numbers, error)
+   subroutine check_points(session, points, offset, depth, numbers, first, error)
       type(deck_session), intent(in) :: session
       integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2), depth
+      real(dp), intent(in), optional :: offset(2)
+      real(dp), intent(in) :: depth
       integer(int64), intent(in) :: numbers    !! of double precision that a point needs
+      real(dp), intent(out) :: first(2)        !! the offset, 0 if absent and along y of a profile
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: got
 
+      first = 0.0_dp
+      if (present(offset)) first = offset
       got = integer_text(points(1))//' x '//integer_text(points(2))
       if (any(points < 1) .or. product(int(points, int64)) > most_points) then
          call fatal_error(error, exit_bad_input, 'a grid needs 1 or more points a side and at most '// &
@@ -301,8 +296,9 @@ contains
       else if (.not. has_memory_for(numbers*product(int(points, int64)))) then
          call fatal_error(error, exit_file_trouble, 'there is not the memory for '//got//' points')
       else
-         call check_places(session, offset(1:1), offset(2:2), [depth], error)
+         call check_places(session, first(1:1), first(2:2), [depth], error)
       end if
+      if (session%results%solver%surface%dimension == 1) first(2) = 0.0_dp
    end subroutine check_points
 
 end module wavycon_session_fields

@@ -4,7 +4,7 @@ module wavycon_cell_file
    use, intrinsic :: iso_fortran_env, only: int64, int8
    use wavycon_contact_fields, only: contact_fields
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: column_list, column_name, longest_column
+   use wavycon_memory_table, only: column_kind, column_list, column_name, longest_column, of_integers
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: integer_text, newline
    use wavycon_results, only: results_type
@@ -39,16 +39,16 @@ contains
 
    !> Opens <case>.<kind>.dat or <case>.<kind>.npy, on the first rank. `file%is_open` says whether there is the memory
    !> too.
-   subroutine open_cell_file(self, results, table, numbers, planes, numbers_a_point, what)
+   subroutine open_cell_file(self, results, table, planes, numbers_a_point, what)
       class(cell_file), intent(out) :: self
       type(results_type), intent(in) :: results
-      class(table_type), intent(in) :: table    !! with columns of integers, x, y and others
-      integer, intent(in) :: numbers            !! of columns of integers, which the file of numpy does not have
+      !> With columns of integers, which the file of numpy does not have, x, y and others.
+      class(table_type), intent(in) :: table
       integer, intent(in) :: planes(:)          !! their number along each of the first indices of the file of numpy
       integer, intent(in) :: numbers_a_point    !! that are in memory at a time
       character(*), intent(in) :: what          !! before the number of points, for the message on memory
 
-      character(longest_column), allocatable :: names(:)
+      character(longest_column), allocatable :: columns(:)
 
       self%points = map_points(results)
       ! A table with more than one plane a load counts all of them.
@@ -61,9 +61,10 @@ contains
       if (self%as_text) then
          call results%open_table(trim(table%file), table%columns, self%file)
       else
-         names = column_name(column_list(table%columns))
+         columns = column_list(table%columns)
+         columns = pack(columns, column_kind(columns) /= of_integers)
          call self%file%open(results%scene%directory, results%scene%case//'.'//trim(table%file)//'.npy', &
-                             npy_header([planes, self%points([2, 1])], names(numbers + 1:)))
+                             npy_header([planes, self%points([2, 1])], column_name(columns)))
       end if
       call check_memory(self%file, self%points, numbers_a_point, what)
    end subroutine open_cell_file

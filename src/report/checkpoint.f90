@@ -38,7 +38,8 @@ module wavycon_checkpoint
    type :: checkpoint_file
       logical :: is_complete = .false.                         !! whether all solutions added so far were written
       integer, private :: unit = -1
-      integer, private :: kept = 0, loads = 0                  !! solutions added; all loads of the run
+      integer, private :: kept = -1                            !! solutions written; -1: not even the description
+      integer, private :: loads = 0                            !! all loads of the run
       integer(int64), private :: bytes = 0                     !! written
       character(:), allocatable, private :: name, name_now     !! final name; present name, temporary at first
    contains
@@ -101,10 +102,9 @@ contains
             action='write', iostat=status)
       self%is_complete = status == 0
       if (self%is_complete) write (self%unit, iostat=status) mark
+      self%loads = size(results%loads)
       text = description(results)
       call put(self, transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64]))
-      self%loads = size(results%loads)
-      call note_kept(kept_words(self)//c_null_char)
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
@@ -128,20 +128,10 @@ contains
       call pack_solution(solution, words)
       if (allocated(words)) then
          call put(self, [int(load, int64), words])
-         self%kept = self%kept + 1
-         call note_kept(kept_words(self)//c_null_char)
       else
          call close_file(self)
       end if
    end subroutine add
-
-   !> What an interruption leaves, for the user.
-   pure function kept_words(self) result(words)
-      type(checkpoint_file), intent(in) :: self
-      character(:), allocatable :: words
-
-      words = integer_text(self%kept)//' of '//integer_text(self%loads)//' loads are kept in '//self%name
-   end function kept_words
 
    !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile: as `put` sees
    !> by its size.
@@ -163,8 +153,8 @@ contains
       self%is_complete = .false.
    end subroutine close_file
 
-   !> Writes a record and compares the file's size: gfortran 12 does not report a full disk. Nothing is written any
-   !> more once another run has replaced the file.
+   !> Writes a record, compares the file's size, as gfortran 12 does not report a full disk, and says what an
+   !> interruption leaves from now on. Nothing is written any more once another run has replaced the file.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
@@ -180,6 +170,10 @@ contains
          if (file_size(self%name_now) /= self%bytes) status = 1
       end if
       if (status /= 0) call close_file(self)
+      if (status /= 0) return
+      self%kept = self%kept + 1
+      call note_kept(integer_text(self%kept)//' of '//integer_text(self%loads)//' loads are kept in '//self%name// &
+                     c_null_char)
    end subroutine put
 
    !> Reads the next record of a file.
@@ -242,8 +236,8 @@ contains
       character(len(mark)) :: start
       character(200) :: message
       integer(int64), allocatable :: words(:)
-      integer :: status, unit
-      logical :: understood
+      integer :: load, status, unit
+      logical :: understood   ! whether the record is the description, or a solution of a load of this deck
 
       open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status, iomsg=message)
@@ -263,32 +257,18 @@ contains
          do while (understood .and. .not. allocated(error))
             call get(unit, words)
             if (.not. allocated(words)) exit
-            call take_solution(words, results, known, understood)
+            understood = size(words) > 0
+            if (understood) understood = words(1) >= 1 .and. words(1) <= size(known)
+            if (.not. understood) exit
+            load = int(words(1))
+            if (.not. known(load) .and. results%sharing%is_own_load(load)) call unpack_solution( &
+               words(2:), results%sharing%kind /= distributed_grids, results%loads(load), known(load), understood)
          end do
          if (.not. understood) &
             call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
       end if
       close (unit)
    end subroutine read_checkpoint
-
-   !> Restores the solution of a record, if it is one of an own load.
-   subroutine take_solution(words, results, known, understood)
-      integer(int64), intent(in) :: words(:)    !! number of the load; words of pack_solution
-      type(results_type), intent(inout) :: results
-      logical, intent(inout) :: known(:)        !! of each load
-      logical, intent(out) :: understood        !! .false.: the record is no solution of a load of this deck
-
-      integer :: load
-
-      understood = .false.
-      if (size(words) == 0) return
-      understood = words(1) >= 1 .and. words(1) <= size(known)
-      if (.not. understood) return
-      load = int(words(1))
-      if (known(load) .or. .not. results%sharing%is_own_load(load)) return
-      call unpack_solution(words(2:), results%sharing%kind /= distributed_grids, results%loads(load), known(load), &
-                           understood)
-   end subroutine take_solution
 
    !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
    !> results.
@@ -311,10 +291,8 @@ contains
 
       if (before == now) return
       ! The first byte that differs, and the number of its line.
-      k = 1
-      do while (k <= min(len(before), len(now)))
+      do k = 1, min(len(before), len(now))
          if (before(k:k) /= now(k:k)) exit
-         k = k + 1
       end do
       select case (count([(now(i:i) == newline, i=1, k - 1)]))
       case (0)

@@ -1,7 +1,6 @@
 !> The lines that say what is solved: the head of tables and, with short numbers, of the log.
 module wavycon_head_lines
    use wavycon_kinds, only: dp
-   use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: clauses, escaped, exact_number, integer_text, newline, percent, short_number
    use wavycon_prepare_map, only: map_changes
    use wavycon_scene, only: scene_type
@@ -42,7 +41,23 @@ contains
             words = words//', mirrored'
          end if
          call add('surface: '//words)
-         if (allocated(scene%map)) call add_map(scene%map)
+         ! The statistics of a height map, and what was done to it.
+         if (allocated(scene%map)) then
+            associate (map => scene%map, roughness => scene%roughness)
+               call add('map: points_x[-] = '//integer_text(map%points(1))// &
+                        ', points_y[-] = '//integer_text(map%points(2))//number('lowest', length, map%lowest)// &
+                        number('highest', length, map%highest)//number('rms_height', length, map%rms)// &
+                        ', format = '//trim(map%format))
+               if (map%assumed_sides /= '') call add('sides: '//map%assumed_sides)
+               words = preparation_words(map%changes, length)
+               if (words /= '') call add('prepared: '//words)
+               if (map%rms > 0.0_dp) call add('roughness: skewness[-] = '//text_of(map%skewness)// &
+                  number('kurtosis', '-', map%kurtosis)//number('rms_slope', '-', roughness%slope)// &
+                  number('rms_slope_by_differences', '-', map%slope_by_differences)// &
+                  number('rms_curvature', '1/'//length, roughness%curvature)// &
+                  number('rms_curvature_by_differences', '1/'//length, map%curvature_by_differences))
+            end associate
+         end if
          words = 'e_star['//pressure//'] = '//text_of(scene%e_star)
          if (.not. surface%has_free_edges) words = words//number('p*', pressure, scene%p_star)
          if (surface%has_hardness()) words = words//number('hardness', pressure, surface%hardness*scene%p_star)
@@ -57,26 +72,6 @@ contains
 
          lines = lines//newline//prefix//line
       end subroutine add
-
-      !> The statistics of a height map, and what was done to it.
-      subroutine add_map(map)
-         type(map_statistics), intent(in) :: map
-
-         associate (roughness => scene%roughness, unit => scene%length_unit)
-            call add('map: points_x[-] = '//integer_text(map%points(1))// &
-                     ', points_y[-] = '//integer_text(map%points(2))//number('lowest', unit, map%lowest)// &
-                     number('highest', unit, map%highest)//number('rms_height', unit, map%rms)// &
-                     ', format = '//trim(map%format))
-            if (map%assumed_sides /= '') call add('sides: '//map%assumed_sides)
-            words = preparation_words(map%changes, unit)
-            if (words /= '') call add('prepared: '//words)
-            if (map%rms > 0.0_dp) call add('roughness: skewness[-] = '//text_of(map%skewness)// &
-               number('kurtosis', '-', map%kurtosis)//number('rms_slope', '-', roughness%slope)// &
-               number('rms_slope_by_differences', '-', map%slope_by_differences)// &
-               number('rms_curvature', '1/'//unit, roughness%curvature)// &
-               number('rms_curvature_by_differences', '1/'//unit, map%curvature_by_differences))
-         end associate
-      end subroutine add_map
 
       !> Such as ', rms_height[mm] = 0.1'.
       pure function number(name, unit, value) result(text)

@@ -14,41 +14,41 @@ module wavycon_interface_tables
    use wavycon_partial_slip, only: cycle_energy, relative_displacement
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: add_interface_tables
+   public :: interface_tables
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_interface_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function interface_tables() result(tables)
+      type(table_type) :: tables(4)
 
-      call add_table(tables, table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
+      tables(1) = table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
          columns='load[#] pbar_over_pstar[-] mean_pressure[pressure] '// &
          'contact_stiffness[pressure/length] contact_stiffness_error[pressure/length] '// &
          'contact_stiffness_normalised[-] contact_stiffness_normalised_error[-] contact_area_slope[-] '// &
          'contact_area_slope_error[-] mean_gap_curvature[-] mean_gap_curvature_error[-] '// &
          'contact_resistance[resistivity*length] contact_resistance_error[resistivity*length] status_code[#] '// &
-         'status[word]'))
-      call add_table(tables, table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
+         'status[word]')
+      tables(2) = table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
          needs_fields=.true., put_load=put_slip, &
          columns='load[#] tangential[#] mean_pressure[pressure] tangential_load[pressure] '// &
          'tangential_over_limit[-] stick_pbar_over_pstar[-] contact_area_fraction[-] stick_area_fraction[-] '// &
          'stick_area_error[-] displacement[length] displacement_error[length] least_displacement[length] '// &
          'most_displacement[length] tangential_stiffness[pressure/length] cycle_energy[pressure*length] '// &
-         'cycle_energy_error[pressure*length] status_code[#] status[word]'))
-      call add_table(tables, table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
-         columns='load[#] tangential[#] branch[#] tangential_load[pressure] displacement[length]'))
-      call add_table(tables, table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
-         ''], needs_fields=.true., put_all=put_adhesion, &
+         'cycle_energy_error[pressure*length] status_code[#] status[word]')
+      tables(3) = table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
+         columns='load[#] tangential[#] branch[#] tangential_load[pressure] displacement[length]')
+      tables(4) = table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
+         ''], needs_fields=.true., blocks=3, put_load=put_adhesion, &
          columns='load[#] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
          'force[force] mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
          'contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] least_release_over_w[-] '// &
-         'most_release_over_w[-] point[word]'))
-   end subroutine add_interface_tables
+         'most_release_over_w[-] point[word]')
+   end function interface_tables
 
    !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
    !> resistance of a nominal area follows from it (I8).
@@ -69,11 +69,9 @@ contains
             call solution%derivatives(surface, slopes)
             if (slopes%gap_slope < 0.0_dp) stiffness = [-1.0_dp, or_nan(slopes%gap_slope_error)/slopes%gap_slope] &
                                                        /slopes%gap_slope
-            associate (length => 0.5_dp*scene%e_star/scene%p_star*surface%amplitude)
-               if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) &
-                  resistance = scene%interface_setting%resistivity*length &
-                               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
-            end associate
+            if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) resistance = &
+               scene%interface_setting%resistivity*(0.5_dp*scene%e_star/scene%p_star*surface%amplitude) &
+               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
          end if
          call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
                             results%mean_pressure(load), stiffness*scene%p_star/surface%amplitude, &
@@ -157,44 +155,44 @@ contains
       end associate
    end subroutine put_loop
 
-   subroutine put_adhesion(results, file)
+   !> Block 1 is the curve, 2 its critical points, 3 the loads.
+   subroutine put_adhesion(results, block, file)
       type(results_type), intent(in) :: results
+      integer, intent(in) :: block
       type(output_file), intent(inout) :: file
 
-      associate (curve => results%adhesion)
-         call put_block('the curve, by the pressure P1 of the contact without adhesion', curve%points)
-         call put_block('pull-off and jump into full contact', curve%critical)
-         call put_block('the loads: stable and unstable points', curve%at_loads)
+      character(*), parameter :: titles(3) = &
+         [character(64) :: 'the curve, by the pressure P1 of the contact without adhesion', &
+          'pull-off and jump into full contact', 'the loads: stable and unstable points']
+      type(adhesive_point), allocatable :: points(:)
+      integer :: i
+      real(dp) :: mean_pressure, numbers(12)
+
+      call file%begin_block(trim(titles(block)))
+      select case (block)
+      case (1)
+         allocate (points, source=results%adhesion%points)
+      case (2)
+         allocate (points, source=results%adhesion%critical)
+      case default
+         allocate (points, source=results%adhesion%at_loads)
+      end select
+      associate (surface => results%solver%surface)
+         do i = 1, size(points)
+            associate (point => points(i))
+               mean_pressure = results%scene%p_star*point%load
+               numbers = not_a_number()
+               if (point%exists) numbers = &
+                  [results%in_p_star([point%load, point%load_error]), mean_pressure, &
+                   mean_pressure*surface%nominal_area(), &
+                   results%in_p_star([1.0_dp - point%approach, point%approach_error]), &
+                   surface%amplitude*point%approach, point%area, point%area_error, &
+                   surface%nominal_area()*point%area, point%release_range]
+               call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
+                                 [merge(point_names(point%kind), 'none                ', point%exists)])
+            end associate
+         end do
       end associate
-
-   contains
-
-      subroutine put_block(title, points)
-         character(*), intent(in) :: title
-         type(adhesive_point), intent(in) :: points(:)
-
-         integer :: i
-         real(dp) :: mean_pressure, numbers(12)
-
-         call file%begin_block(title)
-         associate (surface => results%solver%surface)
-            do i = 1, size(points)
-               associate (point => points(i))
-                  mean_pressure = results%scene%p_star*point%load
-                  numbers = not_a_number()
-                  if (point%exists) numbers = &
-                     [results%in_p_star([point%load, point%load_error]), mean_pressure, &
-                      mean_pressure*surface%nominal_area(), &
-                      results%in_p_star([1.0_dp - point%approach, point%approach_error]), &
-                      surface%amplitude*point%approach, point%area, point%area_error, &
-                      surface%nominal_area()*point%area, point%release_range]
-                  call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
-                                    [merge(point_names(point%kind), 'none                ', point%exists)])
-               end associate
-            end do
-         end associate
-      end subroutine put_block
-
    end subroutine put_adhesion
 
 end module wavycon_interface_tables

@@ -10,11 +10,11 @@ module wavycon_line_tables
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: add_line_tables, put_surface_line, start_surface_line, surface_line
+   public :: line_tables, put_surface_line, start_surface_line, surface_line
 
    !> Columns of a line, before those of its values.
    character(*), parameter, public :: line_columns = &
@@ -24,23 +24,21 @@ module wavycon_line_tables
       integer :: number = 0
       integer :: direction(2) = 0             !! of the line in X, Y
       real(dp), allocatable :: angle(:, :)    !! X, Y of each point, shape (2, n) [rad]
-      real(dp), allocatable :: place(:, :)    !! x, y of each point, shape (2, n) [length]
       real(dp), allocatable :: distance(:)    !! from the first point, shape (n) [length]
-   contains
-      procedure :: parameter => line_parameter
+      real(dp), allocatable :: t(:)           !! the angles are those of the first point and t times the direction [rad]
    end type surface_line
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_line_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function line_tables() result(tables)
+      type(table_type) :: tables(1)
 
-      call add_table(tables, table_type('lines', 'lines', needs_fields=.true., put_load=put_lines, &
+      tables(1) = table_type('lines', 'lines', needs_fields=.true., put_load=put_lines, &
          columns=line_columns//' pressure_over_pstar[-] displacement_over_amplitude[-] '// &
          'gap_over_amplitude[-] undeformed_gap_over_amplitude[-] pressure[pressure] displacement[length] gap[length]', &
-         meaning='Pressures and gaps along lines.'))
-   end subroutine add_line_tables
+         meaning='Pressures and gaps along lines.')
+   end function line_tables
 
    subroutine put_lines(results, load, file)
       type(results_type), intent(in) :: results
@@ -57,16 +55,14 @@ contains
          call results%loads(load)%fields(surface, fields)
          do number = 1, surface%dimension
             call start_surface_line(line, results, number)
-            associate (n => size(line%distance))
-               allocate (p(n), u(n), gap(n), shape(n))
-            end associate
-            shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%parameter()) &
+            allocate (p, u, gap, mold=line%t)
+            shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%t) &
                     - surface%form_gap(line%angle(1, :), line%angle(2, :))
             call fields%at_points(line%angle, shape, p, u, gap)
             call put_surface_line(line, results, load, transpose(reshape( &
                [results%in_p_star(p), u, gap, 1.0_dp - shape, p_star*p, surface%amplitude*u, surface%amplitude*gap], &
                [size(p), 7])), file)
-            deallocate (p, u, gap, shape)
+            deallocate (p, u, gap)
          end do
       end associate
    end subroutine put_lines
@@ -92,24 +88,14 @@ contains
          else if (surface%shape%is_even() .and. all(abs(surface%crest) <= 0.0_dp)) then
             intervals = intervals/2
          end if
-         allocate (line%angle(2, 0:intervals), line%place(2, 0:intervals), line%distance(0:intervals))
+         allocate (line%angle(2, 0:intervals), line%distance(0:intervals), line%t(0:intervals))
          do k = 0, intervals
             line%angle(:, k) = start + k*way
-            line%place(:, k) = surface%length*line%angle(:, k)/(2*pi)
             line%distance(k) = norm2(surface%length*k*way)/(2*pi)
+            line%t(k) = maxval(line%angle(:, k) - start)
          end do
       end associate
    end subroutine start_surface_line
-
-   !> t of each point, whose angles are those of the first one and t times the direction.
-   pure function line_parameter(self) result(t)
-      class(surface_line), intent(in) :: self
-      real(dp), allocatable :: t(:)   !! [rad]
-
-      integer :: k
-
-      allocate (t, source=[(maxval(self%angle(:, k) - self%angle(:, 0)), k=0, ubound(self%angle, 2))])
-   end function line_parameter
 
    !> Writes a row for each point of a line: load, line, distance, x, y, mean pressure and values. A blank line is
    !> between the lines of a load.
@@ -124,7 +110,8 @@ contains
 
       if (line%number > 1) call file%put('')
       do k = 0, ubound(values, 2)
-         call file%put_row([real(dp) :: load, line%number, line%distance(k), line%place(:, k), &
+         call file%put_row([real(dp) :: load, line%number, line%distance(k), &
+                            results%solver%surface%length*line%angle(:, k)/(2*pi), &
                             results%in_p_star(results%loads(load)%pbar_over_pstar), values(:, k)])
       end do
    end subroutine put_surface_line

@@ -14,11 +14,11 @@ module wavycon_map_tables
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: add_map_tables
+   public :: map_tables
 
    !> Numbers in memory for each point of a map: three fields and the surface, the spectrum of one, and those of the
    !> solution; of a slip map: three fields of two contacts.
@@ -29,38 +29,36 @@ module wavycon_map_tables
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_map_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function map_tables() result(tables)
+      type(table_type) :: tables(2)
 
-      call add_table(tables, table_type('map', 'map', needs_fields=.true., written_by_all=is_written_by_all, &
+      tables(1) = table_type('map', 'map', needs_fields=.true., written_by_all=is_written_by_all, &
          write_all=write_map_table, columns='load[#] x[length] y[length] pressure[pressure] gap[length] '// &
          'displacement[length] undeformed_gap[length]', &
-         meaning='Pressures and gaps over the whole cell.'))
-      call add_table(tables, table_type('slip_map', 'slip_map', 'interface', needs_fields=.true., &
+         meaning='Pressures and gaps over the whole cell.')
+      tables(2) = table_type('slip_map', 'slip_map', 'interface', needs_fields=.true., &
          write_all=write_slip_map, columns='load[#] tangential[#] x[length] y[length] traction[pressure] '// &
-         'pressure[pressure] slip_state[-]'))
-   end subroutine add_map_tables
+         'pressure[pressure] slip_state[-]')
+   end function map_tables
 
    !> All ranks write a map in numpy's format at the points of the grid that all loads are solved on.
    logical function is_written_by_all(results)
       type(results_type), intent(in) :: results
 
       class(contact_fields), allocatable :: fields
-      integer :: grid(2), load, points(2)
-      integer(int64) :: number
+      integer :: load, points(2)
+      integer(int64), allocatable :: own(:)
 
       points = map_points(results)
       is_written_by_all = .not. is_text(results%scene%output%text('map_format'), points)
       if (.not. is_written_by_all) return
       if (.not. allocated(results%loads)) then
-         grid = results%traits%given_grid
-         is_written_by_all = all(points == grid .or. points == 2*grid)
+         is_written_by_all = all(points == results%traits%given_grid .or. points == 2*results%traits%given_grid)
          return
       end if
-      number = results%loads(1)%distributed_points()
-      is_written_by_all = number > 0 .and. &
-         all([(results%loads(load)%distributed_points() == number, load=1, size(results%loads))])
+      own = [(results%loads(load)%distributed_points(), load=1, size(results%loads))]
+      is_written_by_all = minval(own) > 0 .and. maxval(own) == minval(own)
       if (.not. is_written_by_all) return
       call results%loads(1)%fields(results%solver%surface, fields)
       is_written_by_all = all(points == fields%own_points)
@@ -79,74 +77,71 @@ contains
       logical :: by_all
 
       by_all = results%loads(1)%distributed_points() > 0
-      call map%open(results, table, 1, [size(results%loads)], merge(0, numbers_a_point, by_all), '')
+      call map%open(results, table, [size(results%loads)], merge(0, numbers_a_point, by_all), '')
       associate (surface => results%solver%surface)
          do load = 1, size(results%loads)
             if (.not. (map%file%is_open() .or. by_all)) exit
             if (map%as_text) call results%begin_block(map%file, load)
             call results%loads(load)%fields(surface, fields)
             if (by_all) then
-               call put_distributed(results, load, fields, map)
+               call put_distributed()
                cycle
             end if
             call fields%on_grid(map%points, map%offset, p, u, gap)
             call surface%sample_shape(map%points, map%offset, shape)
             do l = 1, map%points(2)
-               call map%put_row([load], l, row_of(results, p(:, l), gap(:, l), u(:, l), shape(:, l)))
+               call map%put_row([load], l, row_of(p(:, l), gap(:, l), u(:, l), shape(:, l)))
             end do
          end do
       end associate
       if (map%is_here) call map%file%finish(error)
+
+   contains
+
+      !> Writes the load, whose columns are distributed over the ranks: the first rank takes them one by one.
+      subroutine put_distributed()
+         integer :: column, k, l
+         integer :: image(map%points(1))
+         logical :: is_own
+         real(dp), dimension(fields%own_slab%points(1)) :: gap, p, u
+         real(dp), allocatable :: shape(:, :)
+         real(dp) :: values(numbers_of_map, map%points(1))
+         type(grid_transform) :: transform
+
+         associate (slab => fields%own_slab, series => results%solver%surface%shape)
+            allocate (shape(slab%points(1), slab%columns()))
+            call transform%start(slab%points, series%is_even())
+            call transform%sample(series, shape)
+            ! Of a quarter of the cell the mirror images follow.
+            image = image_of_point([(k, k=1, size(image))], slab%points(1), size(image) > slab%points(1))
+            do l = 1, map%points(2)
+               column = image_of_point(l, slab%points(2), map%points(2) > slab%points(2))
+               is_own = column >= slab%first .and. column <= slab%last
+               if (is_own) then
+                  associate (own => shape(:, column - slab%first + 1))
+                     call fields%at_own_column(column, own, p, u, gap)
+                     values = row_of(p(image), gap(image), u(image), own(image))
+                  end associate
+               end if
+               call results%sharing%share_numbers(is_own, values)
+               call map%put_row([load], l, values)
+            end do
+         end associate
+      end subroutine put_distributed
+
+      !> The numbers of a row of points, in the deck's units.
+      pure function row_of(p, gap, u, shape) result(values)
+         real(dp), intent(in) :: p(:), gap(:), u(:)   !! p/p*, gap/Delta and u/Delta
+         real(dp), intent(in) :: shape(:)             !! 1 - h/Delta
+         real(dp) :: values(numbers_of_map, size(p))
+
+         values(1, :) = results%scene%p_star*p
+         values(2, :) = results%solver%surface%amplitude*gap
+         values(3, :) = results%solver%surface%amplitude*u
+         values(4, :) = results%solver%surface%amplitude*(1.0_dp - shape)
+      end function row_of
+
    end subroutine write_map_table
-
-   !> Writes a load whose columns are distributed over the ranks: the first rank takes them one by one.
-   subroutine put_distributed(results, load, fields, map)
-      type(results_type), intent(in) :: results
-      integer, intent(in) :: load
-      class(contact_fields), intent(in) :: fields
-      type(cell_file), intent(inout) :: map
-
-      integer :: column, k, l
-      integer :: image(map%points(1))
-      logical :: is_own
-      real(dp), dimension(fields%own_slab%points(1)) :: gap, p, u
-      real(dp), allocatable :: shape(:, :)
-      real(dp) :: values(numbers_of_map, map%points(1))
-      type(grid_transform) :: transform
-
-      associate (slab => fields%own_slab, series => results%solver%surface%shape)
-         allocate (shape(slab%points(1), slab%columns()))
-         call transform%start(slab%points, series%is_even())
-         call transform%sample(series, shape)
-         ! Of a quarter of the cell the mirror images follow.
-         image = image_of_point([(k, k=1, size(image))], slab%points(1), size(image) > slab%points(1))
-         do l = 1, map%points(2)
-            column = image_of_point(l, slab%points(2), map%points(2) > slab%points(2))
-            is_own = column >= slab%first .and. column <= slab%last
-            if (is_own) then
-               associate (own => shape(:, column - slab%first + 1))
-                  call fields%at_own_column(column, own, p, u, gap)
-                  values = row_of(results, p(image), gap(image), u(image), own(image))
-               end associate
-            end if
-            call results%sharing%share_numbers(is_own, values)
-            call map%put_row([load], l, values)
-         end do
-      end associate
-   end subroutine put_distributed
-
-   !> The numbers of a row of points, in the deck's units.
-   pure function row_of(results, p, gap, u, shape) result(values)
-      type(results_type), intent(in) :: results
-      real(dp), intent(in) :: p(:), gap(:), u(:)   !! p/p*, gap/Delta and u/Delta
-      real(dp), intent(in) :: shape(:)             !! 1 - h/Delta
-      real(dp) :: values(numbers_of_map, size(p))
-
-      values(1, :) = results%scene%p_star*p
-      values(2, :) = results%solver%surface%amplitude*gap
-      values(3, :) = results%solver%surface%amplitude*u
-      values(4, :) = results%solver%surface%amplitude*(1.0_dp - shape)
-   end function row_of
 
    !> Errors: exit_file_trouble.
    subroutine write_slip_map(table, results, error)
@@ -159,7 +154,7 @@ contains
       real(dp), allocatable :: gap(:, :), p(:, :), p_of_stick(:, :), u(:, :), values(:, :)
       integer :: i, l, load
 
-      call map%open(results, table, 2, [size(results%loads), size(results%slip, 1)], numbers_a_slip_point, '')
+      call map%open(results, table, [size(results%loads), size(results%slip, 1)], numbers_a_slip_point, '')
       associate (surface => results%solver%surface, p_star => results%scene%p_star, &
                  friction => results%scene%interface_setting%friction)
          do load = 1, size(results%loads)
@@ -175,8 +170,10 @@ contains
                end associate
                do l = 1, map%points(2)
                   if (results%slip(i, load)%stick%is_good()) then
+                     ! The state is 0 where the gap is open, 1 slip, 2 stick.
                      values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
-                                                 p_star*p(:, l), state(p(:, l), p_of_stick(:, l))], &
+                                                 p_star*p(:, l), merge(1.0_dp, 0.0_dp, p(:, l) > 0.0_dp) + &
+                                                 merge(1.0_dp, 0.0_dp, p_of_stick(:, l) > 0.0_dp)], &
                                                 [map%points(1), 3]))
                   else
                      values = spread([not_a_number(), not_a_number(), not_a_number()], 2, map%points(1))
@@ -188,12 +185,5 @@ contains
       end associate
       call map%file%finish(error)
    end subroutine write_slip_map
-
-   !> 0 open, 1 slip, 2 stick.
-   elemental real(dp) function state(pressure, pressure_of_stick)
-      real(dp), intent(in) :: pressure, pressure_of_stick
-
-      state = merge(1.0_dp, 0.0_dp, pressure > 0.0_dp) + merge(1.0_dp, 0.0_dp, pressure_of_stick > 0.0_dp)
-   end function state
 
 end module wavycon_map_tables

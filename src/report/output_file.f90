@@ -66,15 +66,12 @@ contains
       character(*), intent(in) :: name           !! of the file in the directory
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
 
-      character(:), allocatable :: form
-      form = 'formatted'
-      if (present(head)) form = 'unformatted'
       self%name = directory//'/'//name
       self%working_name = directory//'/.'//name//'.'//integer_text(process_id())//'.part'
       call remove_when_interrupted(self%working_name//c_null_char)
       ! As a stream, because close_file needs the number of bytes written.
-      open (newunit=self%unit, file=self%working_name, access='stream', form=form, status='replace', &
-            action='write', iostat=self%status, iomsg=self%message)
+      open (newunit=self%unit, file=self%working_name, access='stream', status='replace', action='write', &
+            form=merge('unformatted', 'formatted  ', present(head)), iostat=self%status, iomsg=self%message)
       self%opened = self%status == 0
       if (self%opened .and. present(head)) write (self%unit, iostat=self%status, iomsg=self%message) head
       call check(self)

@@ -57,9 +57,6 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
 
-      character(longest_unit), allocatable :: units(:)
-      integer :: i
-
       if (associated(self%memory)) then
          file%memory => self%memory
       else
@@ -67,17 +64,13 @@ contains
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
       end if
       associate (names => column_list(columns))
-         allocate (units(size(names)))
-         do i = 1, size(names)
-            units(i) = self%unit_in_words(trim(column_unit(names(i))))
-         end do
-         call file%put_columns(column_name(names), units, column_kind(names))
+         call file%put_columns(column_name(names), self%unit_in_words(column_unit(names)), column_kind(names))
       end associate
    end subroutine open_table
 
    !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
    !> them; others as they are.
-   pure recursive function unit_in_words(self, unit) result(words)
+   elemental recursive function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit
       character(longest_unit) :: words
@@ -130,9 +123,7 @@ contains
       integer, intent(in) :: load
       real(dp) :: approach(2)
 
-      associate (measures => self%loads(load)%measures)
-         approach = [measures%approach_over_amplitude, or_nan(measures%mean_gap_error)]
-      end associate
+      approach = [self%loads(load)%measures%approach_over_amplitude, or_nan(self%loads(load)%measures%mean_gap_error)]
       if (.not. self%traits%has_errors) approach(2) = not_a_number()
       if (self%solver%surface%has_free_edges .and. self%solver%surface%dimension == 1) approach = not_a_number()
    end function approach_over_amplitude

@@ -60,7 +60,9 @@ contains
       integer :: ignored
 
       if (self%quiet) return
-      call clear_progress(self)
+      ! Blanks over the progress line.
+      if (self%shown > 0) write (output_unit, '(3a)', advance='no') achar(13), repeat(' ', self%shown), achar(13)
+      self%shown = 0
       ! A closed or full standard output must not stop the run: the results go to files.
       write (output_unit, '(a)', iostat=ignored) line
    end subroutine say
@@ -148,15 +150,6 @@ contains
       flush (output_unit)
       self%shown = width
    end subroutine say_progress
-
-   !> Overwrites the progress line with blanks.
-   subroutine clear_progress(self)
-      class(run_log), intent(inout) :: self
-
-      if (self%shown == 0) return
-      write (output_unit, '(3a)', advance='no') achar(13), repeat(' ', self%shown), achar(13)
-      self%shown = 0
-   end subroutine clear_progress
 
    !> Time since the start [s].
    real(dp) function elapsed(self)

@@ -23,37 +23,37 @@ module wavycon_spot_tables
    use wavycon_measure_tuning, only: line_samples, plane_samples
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: add_spot_tables
+   public :: spot_tables
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_spot_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function spot_tables() result(tables)
+      type(table_type) :: tables(4)
 
-      call add_table(tables, table_type('contour', 'contours', needs_fields=.true., put_load=put_curves, &
+      tables(1) = table_type('contour', 'contours', needs_fields=.true., put_load=put_curves, &
          columns='load[#] curve[#] x[length] y[length]', &
-         meaning='The edge of contact as closed curves.'))
-      call add_table(tables, table_type('spots', 'spots', needs_fields=.true., put_load=put_spots, &
+         meaning='The edge of contact as closed curves.')
+      tables(2) = table_type('spots', 'spots', needs_fields=.true., put_load=put_spots, &
          columns='load[#] pbar_over_pstar[-] contact_area_fraction[-] spots[#] '// &
          'spots_area_fraction[-] largest_spot_area_fraction[-] closed_pools[#] closed_pools_area_fraction[-] '// &
          'largest_pool_area_fraction[-] perimeter[length] contact_percolates_x[#] contact_percolates_y[#] '// &
          'gap_percolates_x[#] gap_percolates_y[#] status_code[#] status[word]', &
-         meaning='Number and sizes of contact spots and of pools of gap; percolation of both.'))
-      call add_table(tables, table_type('spot_sizes', asked_by=[character(16) :: 'spots', ''], needs_fields=.true., &
+         meaning='Number and sizes of contact spots and of pools of gap; percolation of both.')
+      tables(3) = table_type('spot_sizes', asked_by=[character(16) :: 'spots', ''], needs_fields=.true., &
          put_load=put_spot_sizes, &
          columns='load[#] rank[#] area[area] area_fraction[-] equivalent_radius[length] '// &
          'perimeter[length] load_fraction[-] mean_pressure[pressure] x[length] y[length] holes[#] percolates_x[#] '// &
-         'percolates_y[#] region[word]'))
-      call add_table(tables, table_type('histogram', 'histograms', needs_fields=.true., put_load=put_histogram, &
+         'percolates_y[#] region[word]')
+      tables(4) = table_type('histogram', 'histograms', needs_fields=.true., put_load=put_histogram, &
          columns='load[#] bin[#] pressure[pressure] pressure_mean[pressure] pressure_fraction[-] '// &
          'pressure_density[1/pressure] gap[length] gap_mean[length] gap_fraction[-] gap_density[1/length]', &
-         meaning='How pressures are distributed over the contact, and gaps over the open area.'))
-   end subroutine add_spot_tables
+         meaning='How pressures are distributed over the contact, and gaps over the open area.')
+   end function spot_tables
 
    subroutine put_curves(results, load, file)
       type(results_type), intent(in) :: results
@@ -91,8 +91,7 @@ contains
          numbers = not_a_number()
          if (allocated(regions%spots)) then
             spots = regions%spots%area_fraction
-            pools = regions%pools%area_fraction
-            pools = pack(pools, regions%pools%is_closed())
+            pools = pack(regions%pools%area_fraction, regions%pools%is_closed())
             numbers = [real(dp) :: size(spots), sum(spots), max(0.0_dp, maxval(spots)), &
                        size(pools), sum(pools), max(0.0_dp, maxval(pools)), regions%perimeter(), &
                        (merge(1, 0, any(regions%spots%percolates(i))), i=1, 2), &
@@ -114,38 +113,38 @@ contains
       call results%loads(load)%spots(results%solver%surface, regions)
       if (.not. allocated(regions%spots)) return
       call results%begin_block(file, load)
-      call put_regions(results, file, load, regions%spots, 'spot')
+      call put_regions(regions%spots, 'spot')
       if (size(regions%spots) > 0 .and. size(regions%pools) > 0) call file%put('')
-      call put_regions(results, file, load, regions%pools, 'pool')
+      call put_regions(regions%pools, 'pool')
+
+   contains
+
+      !> Writes the regions of one kind, a row for each.
+      subroutine put_regions(regions, kind)
+         type(contact_region), intent(in) :: regions(:)   !! the largest first
+         character(*), intent(in) :: kind                 !! 'spot' or 'pool'
+
+         real(dp) :: area, mean_pressure, radius
+         integer :: i
+
+         associate (surface => results%solver%surface)
+            do i = 1, size(regions)
+               associate (region => regions(i))
+                  area = region%area_fraction*surface%nominal_area()
+                  ! That of the disc of this area; of a strip half its width.
+                  radius = merge(0.5_dp*area, sqrt(area/pi), surface%dimension == 1)
+                  mean_pressure = not_a_number()
+                  if (region%area_fraction > 0.0_dp) &
+                     mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
+                  call file%put_row([real(dp) :: load, i, area, region%area_fraction, radius, region%perimeter, &
+                                     region%load_fraction, mean_pressure, surface%length*region%centre/(2*pi), &
+                                     region%holes, merge(1, 0, region%percolates)], [kind])
+               end associate
+            end do
+         end associate
+      end subroutine put_regions
+
    end subroutine put_spot_sizes
-
-   !> Writes the regions of one kind, a row for each.
-   subroutine put_regions(results, file, load, regions, kind)
-      type(results_type), intent(in) :: results
-      type(output_file), intent(inout) :: file
-      integer, intent(in) :: load
-      type(contact_region), intent(in) :: regions(:)   !! the largest first
-      character(*), intent(in) :: kind                 !! 'spot' or 'pool'
-
-      real(dp) :: area, mean_pressure, radius
-      integer :: i
-
-      associate (surface => results%solver%surface)
-         do i = 1, size(regions)
-            associate (region => regions(i))
-               area = region%area_fraction*surface%nominal_area()
-               ! That of the disc of this area; of a strip half its width.
-               radius = merge(0.5_dp*area, sqrt(area/pi), surface%dimension == 1)
-               mean_pressure = not_a_number()
-               if (region%area_fraction > 0.0_dp) &
-                  mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
-               call file%put_row([real(dp) :: load, i, area, region%area_fraction, radius, region%perimeter, &
-                                  region%load_fraction, mean_pressure, surface%length*region%centre/(2*pi), &
-                                  region%holes, merge(1, 0, region%percolates)], [kind])
-            end associate
-         end do
-      end associate
-   end subroutine put_regions
 
    !> Writes the block of a load, if it has a solution.
    subroutine put_histogram(results, load, file)

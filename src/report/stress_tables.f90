@@ -19,11 +19,11 @@ module wavycon_stress_tables
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
    use wavycon_surface, only: surface_type
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: add_stress_tables, stress_depths, stress_numbers
+   public :: stress_tables, stress_depths, stress_numbers
 
    !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
    character(*), parameter :: stress_columns = &
@@ -37,29 +37,29 @@ module wavycon_stress_tables
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_stress_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function stress_tables() result(tables)
+      type(table_type) :: tables(4)
 
       ! The ratio to the yield stress is that of the criterion in use.
-      call add_table(tables, table_type('stress_largest', 'largest', 'stress', put_load=put_largest_stresses, &
+      tables(1) = table_type('stress_largest', 'largest', 'stress', put_load=put_largest_stresses, &
          columns='load[#] body[#] nu[-] pbar_over_pstar[-] '// &
          'largest_von_mises_over_pstar[-] largest_von_mises_over_pstar_error[-] largest_shear_over_pstar[-] '// &
          'largest_shear_over_pstar_error[-] stress_over_yield_stress[-] stress_over_yield_stress_error[-] '// &
          'mean_pressure[pressure] largest_von_mises[pressure] largest_von_mises_error[pressure] '// &
          'von_mises_x[length] '// &
          'von_mises_y[length] von_mises_depth[length] largest_shear[pressure] largest_shear_error[pressure] '// &
-         'shear_x[length] shear_y[length] shear_depth[length] status_code[#] status[word]'))
-      call add_table(tables, table_type('stress_line', 'line', 'stress', needs_fields=.true., put_load=put_line, &
-         columns='load[#] body[#] depth[length] depth_over_cell_x[-] '//stress_columns))
-      call add_table(tables, table_type('stress_section', 'section', 'stress', needs_fields=.true., &
+         'shear_x[length] shear_y[length] shear_depth[length] status_code[#] status[word]')
+      tables(2) = table_type('stress_line', 'line', 'stress', needs_fields=.true., put_load=put_line, &
+         columns='load[#] body[#] depth[length] depth_over_cell_x[-] '//stress_columns)
+      tables(3) = table_type('stress_section', 'section', 'stress', needs_fields=.true., &
          put_load=put_section, &
          columns='load[#] body[#] distance[length] x[length] y[length] depth[length] '// &
-         stress_columns))
-      call add_table(tables, table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
+         stress_columns)
+      tables(4) = table_type('stress_planes', 'planes', 'stress', needs_fields=.true., &
          write_all=write_stress_planes_table, &
-         columns='load[#] body[#] x[length] y[length] depth[length] '//stress_columns))
-   end subroutine add_stress_tables
+         columns='load[#] body[#] x[length] y[length] depth[length] '//stress_columns)
+   end function stress_tables
 
    !> The largest stresses are found before the tables are written.
    subroutine put_largest_stresses(results, load, file)
@@ -104,23 +104,7 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      class(stress_fields), allocatable :: fields
-      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), places(:, :, :)
-      real(dp) :: side(2)
-      integer :: i
-
-      associate (surface => results%solver%surface)
-         side = surface%sides()
-         call stress_depths(results%scene%stress, surface, .false., depths)
-         allocate (parts(6, 2, size(depths), 1), errors(size(depths), 1), places(2, size(depths), 1))
-         call results%loads(load)%stresses(surface, fields)
-         do i = 1, size(depths)
-            call fields%at(surface%crest(1), surface%crest(2), 2*pi*depths(i)/surface%length(1), parts(:, :, i, 1), &
-                           errors(i, 1))
-            places(:, i, 1) = [depths(i), depths(i)/side(1)]
-         end do
-      end associate
-      call put_stresses(results, load, fields%pbar_over_pstar, places, parts, errors, file)
+      call put_below(results, load, file)
    end subroutine put_line
 
    subroutine put_section(results, load, file)
@@ -128,30 +112,61 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      class(stress_fields), allocatable :: fields
-      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), places(:, :, :), t(:)
       type(surface_line) :: line
-      integer :: i, number
 
       ! A table in memory may be asked for although the deck has section = 'none': it is that along x.
-      number = max(1, findloc(['x       ', 'diagonal', 'y       '] == results%scene%stress%text('section'), .true., &
-                              dim=1))
-      call start_surface_line(line, results, number)
-      associate (surface => results%solver%surface)
+      call start_surface_line(line, results, max(1, findloc(['x       ', 'diagonal', 'y       '] == &
+                              results%scene%stress%text('section'), .true., dim=1)))
+      call put_below(results, load, file, line)
+   end subroutine put_section
+
+   !> Writes the stresses below the crest or below a line of the surface: a block for each body, below a line with a
+   !> blank line between depths.
+   subroutine put_below(results, load, file, line)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      !> With the columns 'load', 'body', below the crest depth and depth over cell, below a line distance, x, y and
+      !> depth, and stresses.
+      type(output_file), intent(inout) :: file
+      type(surface_line), intent(in), optional :: line   !! absent: the crest alone
+
+      class(stress_fields), allocatable :: fields
+      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), place(:)
+      real(dp) :: side(2)
+      integer :: body, i, k, points
+
+      points = 1
+      if (present(line)) points = size(line%t)
+      associate (surface => results%solver%surface, bodies => results%scene%stress_setting%body)
+         side = surface%sides()
          call stress_depths(results%scene%stress, surface, .false., depths)
-         t = line%parameter()
-         allocate (parts(6, 2, size(t), size(depths)), errors(size(t), size(depths)), places(4, size(t), size(depths)))
+         allocate (parts(6, 2, points, size(depths)), errors(points, size(depths)))
          call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)
-            call fields%on_line(line%angle(:, 0), line%direction, t, 2*pi*depths(i)/surface%length(1), &
-                                parts(:, :, :, i), errors(:, i))
-            places(1, :, i) = line%distance
-            places(2:3, :, i) = line%place
-            places(4, :, i) = depths(i)
+            associate (depth => 2*pi*depths(i)/surface%length(1))
+               if (present(line)) then
+                  call fields%on_line(line%angle(:, 0), line%direction, line%t, depth, parts(:, :, :, i), errors(:, i))
+               else
+                  call fields%at(surface%crest(1), surface%crest(2), depth, parts(:, :, 1, i), errors(1, i))
+               end if
+            end associate
+         end do
+         do body = 1, size(bodies)
+            call results%begin_block(file, load)
+            do i = 1, size(depths)
+               if (i > 1 .and. present(line)) call file%put('')
+               do k = 1, points
+                  place = [depths(i), depths(i)/side(1)]
+                  if (present(line)) &
+                     place = [line%distance(k - 1), surface%length*line%angle(:, k - 1)/(2*pi), depths(i)]
+                  call file%put_row([real(dp) :: load, body, place, stress_numbers( &
+                                     bodies(body)%stress(parts(:, :, k, i), fields%pbar_over_pstar), errors(k, i), &
+                                     results%scene%p_star)])
+               end do
+            end do
          end do
       end associate
-      call put_stresses(results, load, fields%pbar_over_pstar, places, parts, errors, file)
-   end subroutine put_section
+   end subroutine put_below
 
    !> Errors: exit_file_trouble.
    subroutine write_stress_planes_table(table, results, error)
@@ -167,7 +182,7 @@ contains
       associate (scene => results%scene, surface => results%solver%surface, &
                  bodies => size(results%scene%stress_setting%body))
          call stress_depths(scene%stress, surface, .true., depths)
-         call planes%open(results, table, 2, [size(results%loads), bodies, size(depths)], numbers_a_point, 'planes of ')
+         call planes%open(results, table, [size(results%loads), bodies, size(depths)], numbers_a_point, 'planes of ')
          allocate (values(1 + numbers_of_stress, planes%points(1)))
          do load = 1, size(results%loads)
             if (.not. planes%file%is_open()) exit
@@ -203,31 +218,6 @@ contains
       numbers = p_star*[stress, principal, von_mises(stress), 0.5_dp*(principal(1) - principal(3)), &
                         stress_pressure(stress), error]
    end function stress_numbers
-
-   !> Writes the stresses at points: a block for each body, with a blank line between the rows of points.
-   subroutine put_stresses(results, load, pbar_over_pstar, places, parts, errors, file)
-      type(results_type), intent(in) :: results
-      integer, intent(in) :: load
-      real(dp), intent(in) :: pbar_over_pstar         !! of the stresses
-      real(dp), intent(in) :: places(:, :, :)   !! of the columns before the stresses, shape (columns, points, rows)
-      real(dp), intent(in) :: parts(:, :, :, :)       !! as of `stress_fields`, shape (6, 2, points, rows)
-      real(dp), intent(in) :: errors(:, :)            !! of the stresses [p*], shape (points, rows)
-      type(output_file), intent(inout) :: file   !! with the columns 'load', 'body', those of the places, and stresses
-
-      integer :: body, i, k
-
-      do body = 1, size(results%scene%stress_setting%body)
-         call results%begin_block(file, load)
-         do i = 1, size(places, 3)
-            if (i > 1) call file%put('')
-            do k = 1, size(places, 2)
-               call file%put_row([real(dp) :: load, body, places(:, k, i), stress_numbers( &
-                                  results%scene%stress_setting%body(body)%stress(parts(:, :, k, i), pbar_over_pstar), &
-                                  errors(k, i), results%scene%p_star)])
-            end do
-         end do
-      end do
-   end subroutine put_stresses
 
    !> The depths of a table: those of planes are the list of depths, if there is one, and those of line and section the
    !> range, if there is one.

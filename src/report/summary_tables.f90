@@ -15,11 +15,11 @@ module wavycon_summary_tables
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_solution_record, only: solver_names
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: add_summary_tables
+   public :: summary_tables
 
    !> With free edges numbers in p* are NaN. The errors are estimates, NaN if unknown or if the solver has none. NaN
    !> too: what is at the hardness without a hardness, areas by points without a grid, the linear law if the surface is
@@ -38,15 +38,14 @@ module wavycon_summary_tables
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_summary_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function summary_tables() result(tables)
+      type(table_type) :: tables(3)
 
-      call add_table(tables, table_type('summary', needs_surface=.false., is_for_flat_surfaces=.true., &
-         put_load=put_summary_row, columns=summary_columns))
+      tables(1) = table_type('summary', needs_surface=.false., put_load=put_summary_row, columns=summary_columns)
       ! The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open pool;
       ! the paper's cell has two of each.
-      call add_table(tables, table_type('details', 'details', needs_fields=.true., put_load=put_details, &
+      tables(2) = table_type('details', 'details', needs_fields=.true., put_load=put_details, &
          columns='load[#] pbar_over_pstar[-] '// &
          'mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] contact_area_fraction[-] '// &
          'contact_area_fraction_error[-] peak_pressure_over_pstar[-] peak_pressure_over_pstar_error[-] '// &
@@ -55,11 +54,11 @@ contains
          'elastic_energy_over_pstar_amplitude[-] elastic_energy_over_pstar_amplitude_error[-] perimeter[length] '// &
          'perimeter_error[length] degree[#] status_code[#] status[word]', &
          meaning='Gaps at trough and saddle, strain energy, perimeter and the numbers of the '// &
-         'summary, each with its error estimate.'))
-      call add_table(tables, table_type('coefficients', 'coefficients', put_load=put_coefficients, &
+         'summary, each with its error estimate.')
+      tables(3) = table_type('coefficients', 'coefficients', put_load=put_coefficients, &
          columns='load[#] i[#] j[#] pressure_over_pstar[-]', &
-         meaning='The Fourier coefficients of the pressure.'))
-   end subroutine add_summary_tables
+         meaning='The Fourier coefficients of the pressure.')
+   end function summary_tables
 
    subroutine put_summary_row(results, load, file)
       type(results_type), intent(in) :: results

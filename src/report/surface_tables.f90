@@ -11,67 +11,59 @@ module wavycon_surface_tables
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
    use wavycon_roughness, only: line_spectrum, power_spectrum, radial_spectrum
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: add_surface_tables
+   public :: surface_tables
 
    !> Numbers in memory for each point: the height and its spectrum.
    integer, parameter :: numbers_a_point = 2
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_surface_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function surface_tables() result(tables)
+      type(table_type) :: tables(2)
 
-      call add_table(tables, table_type('spectrum', 'spectrum', put_all=put_spectra, &
+      tables(1) = table_type('spectrum', 'spectrum', blocks=3, put_load=put_spectrum, &
          columns='direction[word] wave_number[rad/length] waves[#] spectrum_2d[length^4] spectrum_1d[length^3] '// &
          'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]', &
-         meaning='The power spectrum of the surface.'))
+         meaning='The power spectrum of the surface.')
       ! The columns are those of the table in memory.
-      call add_table(tables, table_type('height', 'height', written_by_all=is_written_by_all, &
+      tables(2) = table_type('height', 'height', written_by_all=is_written_by_all, &
          write_all=write_height_table, &
          columns='x[length] y[length] height[length]', &
-         meaning="The heights that are solved, as a file of numpy that kind = 'file' reads."))
-   end subroutine add_surface_tables
+         meaning="The heights that are solved, as a file of numpy that kind = 'file' reads.")
+   end function surface_tables
 
-   subroutine put_spectra(results, file)
+   !> Block 1 is the isotropic spectrum, 2 and 3 those of lines along x and y; of a profile there is that along x.
+   subroutine put_spectrum(results, block, file)
       type(results_type), intent(in) :: results
+      integer, intent(in) :: block
       type(output_file), intent(inout) :: file
 
-      integer :: i
+      character(6), parameter :: directions(3) = [character(6) :: 'radial', 'x', 'y']
+      type(power_spectrum) :: spectrum
+      real(dp) :: densities(2)
+      integer :: k
 
       associate (surface => results%solver%surface)
-         associate (shape => surface%shape, unit => surface%amplitude, length => surface%length, &
-                    points => surface%points)
-            if (surface%dimension == 2) call put_spectrum('radial', radial_spectrum(shape, unit, length, points))
-            do i = 1, surface%dimension
-               call put_spectrum('xy'(i:i), line_spectrum(shape, unit, length, points, i))
-            end do
-         end associate
+         if (surface%dimension == 1 .and. block /= 2) return
+         if (block == 1) then
+            spectrum = radial_spectrum(surface%shape, surface%amplitude, surface%length, surface%points)
+         else
+            spectrum = line_spectrum(surface%shape, surface%amplitude, surface%length, surface%points, block - 1)
+         end if
       end associate
-   contains
-
-      !> Writes the block of a spectrum.
-      subroutine put_spectrum(direction, spectrum)
-         character(*), intent(in) :: direction
-         type(power_spectrum), intent(in) :: spectrum
-
-         real(dp) :: densities(2)
-         integer :: k
-
-         call file%begin_block('direction: '//direction)
-         do k = 1, size(spectrum%waves)
-            densities = not_a_number()
-            densities(merge(1, 2, direction == 'radial')) = spectrum%density(k)
-            call file%put_row([real(dp) :: spectrum%wave_number(k), spectrum%waves(k), densities, &
-                               spectrum%height(k), spectrum%slope(k), spectrum%curvature(k)], [direction])
-         end do
-      end subroutine put_spectrum
-
-   end subroutine put_spectra
+      call file%begin_block('direction: '//trim(directions(block)))
+      do k = 1, size(spectrum%waves)
+         densities = not_a_number()
+         densities(merge(1, 2, block == 1)) = spectrum%density(k)
+         call file%put_row([real(dp) :: spectrum%wave_number(k), spectrum%waves(k), densities, &
+                            spectrum%height(k), spectrum%slope(k), spectrum%curvature(k)], [directions(block)])
+      end do
+   end subroutine put_spectrum
 
    !> All ranks write the heights of a map that is distributed over them.
    logical function is_written_by_all(results)

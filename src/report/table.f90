@@ -17,24 +17,24 @@ module wavycon_table
    implicit none (type, external)
    private
 
-   public :: add_table, table_type
+   public :: table_type
 
+   !> It has no allocatable components, of which gfortran 12 loses those of array constructors.
    type :: table_type
       character(16) :: file = ''          !! the table is <case>.<file>.dat
       character(16) :: key = ''           !! the key that requests it; empty: it has none of its own
       character(9) :: group = 'output'    !! of the key: 'output', 'stress' or 'interface'
-      character(:), allocatable :: meaning      !! one sentence for the reference of keys of &output
-      character(:), allocatable :: columns      !! name[unit] of each, with a blank between two
+      character(160) :: meaning = ''      !! one sentence for the reference of keys of &output
+      character(2048) :: columns = ''     !! name[unit] of each, with a blank between two
       !> Keys that together ask for it, in place of `key`: a logical one that is .true., a text other than 'none', a
       !> number that is given. Without any it is written always, but never without its group &stress or &interface.
       character(16) :: asked_by(2) = ''
       logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
-      logical :: needs_surface = .true.   !! whether it is made from the whole surface
-      logical :: is_for_flat_surfaces = .false.   !! whether it is written where p* and Delta are zero
+      logical :: needs_surface = .true.   !! whether it needs the whole surface, with a p* and a Delta that are not zero
       procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
-      !> One of these: the rows of a load, for a table that has rows of each load; all rows; or the table with its file.
+      integer :: blocks = 0               !! of a table that has a block of each of these in place of rows of each load
+      !> One of these: the rows of a load, or the block of `blocks`; or the table with its file.
       procedure(load_interface), pointer, nopass :: put_load => null()
-      procedure(all_interface), pointer, nopass :: put_all => null()
       procedure(write_interface), pointer, pass(table) :: write_all => null()
    contains
       procedure :: name
@@ -51,20 +51,13 @@ module wavycon_table
          type(results_type), intent(in) :: results
       end function by_all_interface
 
-      !> `put_load`: writes the rows of one load.
+      !> `put_load`: writes the rows of one load or the block of one of `blocks`.
       subroutine load_interface(results, load, file)
          import :: output_file, results_type
          type(results_type), intent(in) :: results
-         integer, intent(in) :: load                !! number in the deck's order
+         integer, intent(in) :: load                !! number in the deck's order; or the number of the block
          type(output_file), intent(inout) :: file   !! with the columns of the table
       end subroutine load_interface
-
-      !> `put_all`: writes the rows of all loads.
-      subroutine all_interface(results, file)
-         import :: output_file, results_type
-         type(results_type), intent(in) :: results
-         type(output_file), intent(inout) :: file   !! with the columns of the table
-      end subroutine all_interface
 
       !> `write_all`: opens the table, writes it and finishes it. Errors: exit_file_trouble.
       subroutine write_interface(table, results, error)
@@ -88,17 +81,15 @@ contains
    end function name
 
    !> Whether a scene asks for the table.
-   logical function is_requested(self, scene)
+   pure logical function is_requested(self, scene)
       class(table_type), intent(in) :: self
       type(scene_type), intent(in) :: scene
 
       select case (self%group)
       case ('stress')
-         is_requested = allocated(scene%stress_setting)
-         if (is_requested) is_requested = is_asked_for(self, scene%stress)
+         is_requested = allocated(scene%stress_setting) .and. is_asked_for(self, scene%stress)
       case ('interface')
-         is_requested = allocated(scene%interface_setting)
-         if (is_requested) is_requested = is_asked_for(self, scene%interface)
+         is_requested = allocated(scene%interface_setting) .and. is_asked_for(self, scene%interface)
       case default
          is_requested = is_asked_for(self, scene%output)
       end select
@@ -136,13 +127,15 @@ contains
 
       !> Its fourth power must be a number.
       real(dp), parameter :: largest_length = 1.0e75_dp
+      character(:), allocatable :: lack, others
 
       words = ''
+      lack = ''
       select case (self%file)
       case ('coefficients')
-         if (.not. traits%has_coefficients) words = lacks('has no series of given length', 'has')
+         if (.not. traits%has_coefficients) lack = 'has no series of given length'
       case ('details')
-         if (.not. traits%has_details) words = lacks('does not compute them for every load', 'does')
+         if (.not. traits%has_details) lack = 'does not compute them for every load'
       case ('spectrum')
          if (max(surface%amplitude, maxval(surface%length)) > largest_length) words = 'it has the fourth power of '// &
             'lengths, which may be up to '//short_number(largest_length)//'; choose another unit of length'
@@ -153,25 +146,15 @@ contains
          words = words//', and for a ball'
          if (surface%has_free_edges .and. all(surface%form(:surface%dimension) > 0.0_dp)) words = ''
       end select
-
-   contains
-
-      !> That the solver lacks something, and which solvers of the surface have it.
-      function lacks(what, others_do) result(words)
-         character(*), intent(in) :: what, others_do
-         character(:), allocatable :: words
-
-         character(:), allocatable :: others
-
-         others = solvers_for(surface, trim(self%file))
-         words = "solver = '"//trim(solver_names(traits%solver))//"' "//what
-         if (others == '') then
-            words = words//', nor does any other for this surface'
-         else
-            words = words//'; '//others//' '//others_do
-         end if
-      end function lacks
-
+      if (lack == '') return
+      ! Which solvers of the surface do, or have, what this one lacks.
+      others = solvers_for(surface, trim(self%file))
+      words = "solver = '"//trim(solver_names(traits%solver))//"' "//lack
+      if (others == '') then
+         words = words//', nor does any other for this surface'
+      else
+         words = words//'; '//others//' '//lack(:index(lack, ' ') - 1)
+      end if
    end function refusal
 
    !> Whether all ranks write the table together, each from its columns of grids that are distributed; called before the
@@ -198,27 +181,10 @@ contains
          return
       end if
       call results%open_table(trim(self%file), self%columns, file)
-      if (associated(self%put_all)) then
-         call self%put_all(results, file)
-      else
-         do load = 1, size(results%loads)
-            call self%put_load(results, load, file)
-         end do
-      end if
+      do load = 1, merge(self%blocks, size(results%loads), self%blocks > 0)
+         call self%put_load(results, load, file)
+      end do
       call file%finish(error)
    end subroutine write_table
-
-   !> Adds a table to a list.
-   subroutine add_table(tables, table)
-      type(table_type), allocatable, intent(inout) :: tables(:)
-      type(table_type), intent(in) :: table
-
-      type(table_type), allocatable :: longer(:)
-
-      allocate (longer(size(tables) + 1))
-      longer(:size(tables)) = tables
-      longer(size(longer)) = table
-      call move_alloc(longer, tables)
-   end subroutine add_table
 
 end module wavycon_table

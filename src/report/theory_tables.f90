@@ -20,22 +20,22 @@ module wavycon_theory_tables
       penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, penny_crack_opening_over_amplitude, &
       penny_crack_pressure_over_pstar, penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    use wavycon_westergaard, only: hertz_line_contact_area_fraction, kuznetsov_mean_gap_over_amplitude, &
       line_crack_contact_area_fraction, westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
       westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, westergaard_pressure_over_pstar
    implicit none (type, external)
    private
 
-   public :: add_theory_tables
+   public :: theory_tables
 
 contains
 
-   !> Adds the tables of this file to a list.
-   subroutine add_theory_tables(tables)
-      type(table_type), allocatable, intent(inout) :: tables(:)
+   !> The tables of this file.
+   function theory_tables() result(tables)
+      type(table_type) :: tables(2)
 
-      call add_table(tables, table_type('theory', 'theory', put_load=put_theory, &
+      tables(1) = table_type('theory', 'theory', put_load=put_theory, &
          columns='load[#] pbar_over_pstar[-] force[force] '// &
          'kuznetsov_mean_gap_over_amplitude[-] westergaard_contact_area_fraction[-] '// &
          'westergaard_peak_pressure_over_pstar[-] hertz_line_contact_area_fraction[-] '// &
@@ -47,29 +47,41 @@ contains
          'hertz_peak_pressure_over_pstar[-] hertz_radius[length] crack_radius[length] '// &
          'ball_contact_area[area] ball_approach[length] ball_peak_pressure[pressure] ball_half_axis_x[length] '// &
          'ball_half_axis_y[length]', &
-         meaning='The closed forms beside the numbers.'))
-      call add_table(tables, table_type('theory_lines', asked_by=[character(16) :: 'lines', 'theory'], &
+         meaning='The closed forms beside the numbers.')
+      tables(2) = table_type('theory_lines', asked_by=[character(16) :: 'lines', 'theory'], &
          put_load=put_theory_lines, &
          columns=line_columns//' westergaard_pressure_over_pstar[-] '// &
          'westergaard_displacement_over_amplitude[-] westergaard_gap_over_amplitude[-] '// &
          'dundurs_pressure_over_pstar[-] hertz_pressure_over_pstar[-] crack_pressure_over_pstar[-] '// &
-         'crack_gap_over_amplitude[-]'))
-   end subroutine add_theory_tables
+         'crack_gap_over_amplitude[-]')
+   end function theory_tables
 
    subroutine put_theory(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      real(dp) :: of_ball(5), of_line(5), of_plane(12)
+      type(hertz_ball) :: contact
+      !> Area, approach, peak pressure and half axes of Hertz's contact of the ball.
+      real(dp) :: of_ball(5)
+      real(dp) :: force, of_line(5), of_plane(12), radii(2), roller(2)
 
       of_ball = not_a_number()
       of_line = not_a_number()
       of_plane = not_a_number()
-      associate (p => results%loads(load)%pbar_over_pstar, wavelength => results%solver%surface%paper_wavelength())
-         if (results%solver%surface%has_free_edges) then
-            of_ball = values_of_ball(results, load)
-         else if (results%solver%surface%dimension == 1) then
+      force = results%solver%surface%nominal_area()*results%mean_pressure(load)
+      associate (p => results%loads(load)%pbar_over_pstar, surface => results%solver%surface, &
+                 wavelength => results%solver%surface%paper_wavelength())
+         if (surface%has_free_edges) then
+            radii = surface%radii()
+            if (surface%dimension == 1) then
+               roller = hertz_roller(radii(1), results%scene%e_star, force)
+               of_ball([1, 3, 4]) = [2*roller(1), roller(2), roller(1)]
+            else
+               contact = hertz_contact(radii, results%scene%e_star, force=force)
+               of_ball = [contact%contact_area(), contact%approach, contact%peak_pressure, contact%half_axis]
+            end if
+         else if (surface%dimension == 1) then
             of_line = &
                [kuznetsov_mean_gap_over_amplitude(p), westergaard_contact_area_fraction(p), &
                 westergaard_peak_pressure_over_pstar(p), hertz_line_contact_area_fraction(p), &
@@ -84,34 +96,9 @@ contains
                 wavelength*hertz_point_radius_over_wavelength(p), &
                 wavelength*penny_crack_radius_over_wavelength(p)]
          end if
-         call file%put_row([real(dp) :: load, results%in_p_star(p), &
-                            results%solver%surface%nominal_area()*results%mean_pressure(load), &
-                            of_line, of_plane, of_ball])
+         call file%put_row([real(dp) :: load, results%in_p_star(p), force, of_line, of_plane, of_ball])
       end associate
    end subroutine put_theory
-
-   !> Area, approach, peak pressure and half axes of Hertz's contact.
-   function values_of_ball(results, load) result(values)
-      type(results_type), intent(in) :: results
-      integer, intent(in) :: load
-      real(dp) :: values(5)
-
-      type(hertz_ball) :: contact
-      real(dp) :: radii(2), roller(2)
-
-      associate (surface => results%solver%surface, &
-                 force => results%solver%surface%nominal_area()*results%mean_pressure(load))
-         radii = surface%radii()
-         values = not_a_number()
-         if (surface%dimension == 1) then
-            roller = hertz_roller(radii(1), results%scene%e_star, force)
-            values([1, 3, 4]) = [2*roller(1), roller(2), roller(1)]
-         else
-            contact = hertz_contact(radii, results%scene%e_star, force=force)
-            values = [contact%contact_area(), contact%approach, contact%peak_pressure, contact%half_axis]
-         end if
-      end associate
-   end function values_of_ball
 
    subroutine put_theory_lines(results, load, file)
       type(results_type), intent(in) :: results
@@ -119,16 +106,19 @@ contains
       type(output_file), intent(inout) :: file
 
       type(surface_line) :: line
-      real(dp) :: crack_radius, dundurs(series_terms(results)), from_trough, of_line(4), of_plane(3), phi, theta
-      real(dp), allocatable :: values(:, :)
-      integer :: k, number
+      real(dp) :: crack_radius, from_trough, of_line(4), of_plane(3), phi, theta
+      real(dp), allocatable :: dundurs(:), values(:, :)
+      integer :: k, number, terms
 
+      ! As many terms of the series as the solver's has, otherwise as in the paper.
+      terms = 10
+      if (results%scene%method%in_effect('harmonics')) terms = results%scene%method%integer('harmonics')
       of_line = not_a_number()
       of_plane = not_a_number()
       call results%begin_block(file, load)
       associate (surface => results%solver%surface, load_p => results%loads(load)%pbar_over_pstar)
          crack_radius = penny_crack_radius_over_wavelength(load_p)
-         if (surface%dimension == 1) dundurs = dundurs_coefficients(load_p, size(dundurs))
+         if (surface%dimension == 1) dundurs = dundurs_coefficients(load_p, terms)
          do number = 1, surface%dimension
             call start_surface_line(line, results, number)
             allocate (values(size(of_line) + size(of_plane), 0:ubound(line%distance, 1)))
@@ -156,29 +146,16 @@ contains
       end associate
    end subroutine put_theory_lines
 
-   !> Number of terms of the Dundurs-Tsai-Keer series: as many as the solver's series has, otherwise as in the paper.
-   pure integer function series_terms(results)
-      type(results_type), intent(in) :: results
-
-      integer, parameter :: terms_of_the_paper = 10
-
-      series_terms = terms_of_the_paper
-      if (results%scene%method%in_effect('harmonics')) series_terms = results%scene%method%integer('harmonics')
-   end function series_terms
-
    !> Distance of a point from the nearest crest of the wave (21), over its wavelength. With phi - pi for phi, from the
    !> nearest trough.
    pure real(dp) function nearest_crest(phi, theta)
       real(dp), intent(in) :: phi, theta
 
-      nearest_crest = min(hypot(reduced(phi), reduced(theta)), hypot(reduced(phi - pi), reduced(theta - pi)))/(2*pi)
+      real(dp) :: from(4)   !! phi and theta from two crests, between -pi and pi
+
+      from = [phi, theta, phi - pi, theta - pi]
+      from = from - 2*pi*nint(from/(2*pi))
+      nearest_crest = min(hypot(from(1), from(2)), hypot(from(3), from(4)))/(2*pi)
    end function nearest_crest
-
-   !> An angle between -pi and pi.
-   elemental real(dp) function reduced(angle)
-      real(dp), intent(in) :: angle
-
-      reduced = angle - 2*pi*nint(angle/(2*pi))
-   end function reduced
 
 end module wavycon_theory_tables

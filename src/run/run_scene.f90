@@ -5,19 +5,18 @@ module wavycon_run_scene
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_methods, only: start_solver
-   use wavycon_notes, only: show_scene, sum_up
+   use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_own_waves, only: gather_series
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_read_deck, only: read_deck
-   use wavycon_result_lines, only: show_loads, show_stresses
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
    use wavycon_system, only: has_memory_for, make_directories
-   use wavycon_table, only: add_table, table_type
+   use wavycon_table, only: table_type
    use wavycon_tables, only: all_tables
    use wavycon_work_sharing, only: choose_sharing, distributed_grids
    implicit none (type, external)
@@ -179,18 +178,14 @@ contains
 
       logical :: keep
       character(:), allocatable :: description
-      type(table_type), allocatable :: every(:)
       integer :: i
 
       call move_alloc(scene, results%scene)
-      call all_tables(every)
-      allocate (tables(0))
+      call all_tables(tables)
       associate (scene => results%scene)
-         do i = 1, size(every)
-            ! p* and Delta of a flat surface are zero.
-            if (scene%p_star <= 0.0_dp .and. .not. every(i)%is_for_flat_surfaces) cycle
-            if (every(i)%is_requested(scene)) call add_table(tables, every(i))
-         end do
+         ! p* and Delta of a flat surface are zero.
+         tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
+                       [(tables(i)%is_requested(scene), i=1, size(tables))])
          keep = keep_fields(scene, tables)
          if (present(with_fields)) keep = with_fields
          call start_solver(scene%surface, scene%method, keep, results%solver, description)

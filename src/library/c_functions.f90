@@ -1,5 +1,6 @@
-!> Scenes, their solutions and tables in the C interface. wavycon.h documents each procedure.
-module wavycon_c_scenes
+!> The C interface to scenes, solutions and tables, and to fields and stresses in arrays of the caller. wavycon.h
+!> documents each procedure.
+module wavycon_c_functions
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_procpointer, c_funptr, c_int, c_ptr, &
       c_size_t
    use wavycon_c_handles, only: begin_call, check_arguments, close_call, close_new, handle_type, lock, new_handle, &
@@ -9,7 +10,9 @@ module wavycon_c_scenes
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_run_scene, only: run_deck
-   use wavycon_session_fields, only: map_grid, own_points
+   use wavycon_session_fields, only: check_number, fields_at, fields_on_grid, map_grid, own_points, stresses_at, &
+      stresses_on_plane
+   use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
    use wavycon_version, only: version
    implicit none (type, external)
    private
@@ -86,7 +89,7 @@ contains
 
       call begin_call(scene, 'scene', contents, trouble)
       call text_at(quantity, key, trouble)
-      made => new_solution(contents, trouble)
+      made => new_handle('solution', contents)
       if (.not. allocated(trouble)) call contents%scene%solve(key, value, made%solution, trouble)
       handle = close_new(error, made, trouble)
    end function solve
@@ -99,24 +102,12 @@ contains
       type(handle_type), pointer :: contents, made
 
       call begin_call(scene, 'scene', contents, trouble)
-      made => new_solution(contents, trouble)
+      made => new_handle('solution', contents)
       ! C counts loads from 0.
       if (.not. allocated(trouble)) &
          call contents%scene%solve_load(int(min(load, huge(load) - 1)) + 1, made%solution, trouble)
       handle = close_new(error, made, trouble)
    end function solve_load
-
-   !> An empty solution of a scene, which lives as long as it.
-   function new_solution(scene, error) result(made)
-      type(handle_type), pointer, intent(in) :: scene
-      type(error_type), allocatable, intent(in) :: error   !! if it is allocated there is no scene
-      type(handle_type), pointer :: made
-
-      made => new_handle('solution')
-      if (allocated(error)) return
-      made%owner => scene
-      scene%users = scene%users + 1
-   end function new_solution
 
    integer(c_int) function get(error, object, name, value) bind(c, name='wavycon_get')
       type(c_ptr), value :: error, object
@@ -250,6 +241,108 @@ contains
       get_column = close_call(error, trouble)
    end function get_column
 
+   integer(c_int) function get_fields(error, solution, points, x, y, pressure, gap, displacement) &
+      bind(c, name='wavycon_get_fields')
+      type(c_ptr), value :: error, solution
+      integer(c_int), value :: points
+      real(c_double), intent(in), optional :: x(*), y(*)
+      real(c_double), intent(inout), optional :: pressure(*), gap(*), displacement(*)
+
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: contents
+
+      call begin_call(solution, 'solution', contents, trouble)
+      call check_arguments([present(x), present(y)], trouble)
+      if (.not. allocated(trouble)) &
+         call fields_at(contents%owner%scene, contents%solution, int(points), x, y, trouble, pressure, gap, &
+                        displacement)
+      get_fields = close_call(error, trouble)
+   end function get_fields
+
+   integer(c_int) function get_grid(error, solution, points_x, points_y, offset, pressure, gap, displacement) &
+      bind(c, name='wavycon_get_grid')
+      type(c_ptr), value :: error, solution
+      integer(c_int), value :: points_x, points_y
+      real(c_double), intent(in), optional :: offset(2)
+      real(c_double), intent(inout), optional :: pressure(*), gap(*), displacement(*)
+
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: contents
+
+      call begin_call(solution, 'solution', contents, trouble)
+      if (.not. allocated(trouble)) &
+         call fields_on_grid(contents%owner%scene, contents%solution, [points_x, points_y], offset, &
+                             trouble, pressure, gap, displacement)
+      get_grid = close_call(error, trouble)
+   end function get_grid
+
+   integer(c_int) function get_stresses(error, solution, points, x, y, depth, nu, lateral, stress, stress_error) &
+      bind(c, name='wavycon_get_stresses')
+      type(c_ptr), value :: error, solution
+      integer(c_int), value :: points
+      real(c_double), intent(in), optional :: x(*), y(*), depth(*)
+      real(c_double), value :: nu
+      character(kind=c_char), intent(in), optional :: lateral(*)
+      real(c_double), intent(inout), optional :: stress(6, *), stress_error(*)
+
+      character(:), allocatable :: word
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: contents
+
+      call begin_call(solution, 'solution', contents, trouble)
+      call text_at(lateral, word, trouble)
+      call check_arguments([present(x), present(y), present(depth), present(stress)], trouble)
+      if (.not. allocated(trouble)) &
+         call stresses_at(contents%owner%scene, contents%solution, int(points), x, y, depth, nu, word, stress, &
+                          trouble, stress_error)
+      get_stresses = close_call(error, trouble)
+   end function get_stresses
+
+   integer(c_int) function get_stress_plane(error, solution, points_x, points_y, offset, depth, nu, lateral, stress, &
+      stress_error) bind(c, name='wavycon_get_stress_plane')
+      type(c_ptr), value :: error, solution
+      integer(c_int), value :: points_x, points_y
+      real(c_double), intent(in), optional :: offset(2)
+      real(c_double), value :: depth, nu
+      character(kind=c_char), intent(in), optional :: lateral(*)
+      real(c_double), intent(inout), optional :: stress(*), stress_error(*)
+
+      character(:), allocatable :: word
+      type(error_type), allocatable :: trouble
+      type(handle_type), pointer :: contents
+
+      call begin_call(solution, 'solution', contents, trouble)
+      call text_at(lateral, word, trouble)
+      call check_arguments([present(stress)], trouble)
+      if (.not. allocated(trouble)) &
+         call stresses_on_plane(contents%owner%scene, contents%solution, [points_x, points_y], offset, &
+                                depth, nu, word, stress, trouble, stress_error)
+      get_stress_plane = close_call(error, trouble)
+   end function get_stress_plane
+
+   integer(c_int) function get_invariants(error, points, stress, to_von_mises, to_shear, to_principal) &
+      bind(c, name='wavycon_get_invariants')
+      type(c_ptr), value :: error
+      integer(c_int), value :: points
+      real(c_double), intent(in), optional :: stress(6, *)
+      real(c_double), intent(inout), optional :: to_von_mises(*), to_shear(*), to_principal(3, *)
+
+      type(error_type), allocatable :: trouble
+      integer :: i
+
+      call lock()
+      call check_arguments([present(stress)], trouble)
+      if (.not. allocated(trouble)) call check_number(int(points), trouble)
+      if (.not. allocated(trouble)) then
+         do i = 1, points
+            if (present(to_von_mises)) to_von_mises(i) = von_mises(stress(:, i))
+            if (present(to_shear)) to_shear(i) = largest_shear(stress(:, i))
+            if (present(to_principal)) to_principal(:, i) = principal_stresses(stress(:, i))
+         end do
+      end if
+      get_invariants = close_call(error, trouble)
+   end function get_invariants
+
    integer(c_int) function c_run_deck(error, path, directory, quiet, exit_status) bind(c, name='wavycon_run_deck')
       type(c_ptr), value :: error
       character(kind=c_char), intent(in), optional :: path(*), directory(*)
@@ -267,4 +360,4 @@ contains
       c_run_deck = close_call(error, trouble)
    end function c_run_deck
 
-end module wavycon_c_scenes
+end module wavycon_c_functions
