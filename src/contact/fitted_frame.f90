@@ -11,8 +11,9 @@ module wavycon_fitted_frame
 
    public :: fitted_frame, find_frame
 
-   !> The point x, y of the surface, measured from a crest, is the point (x + i y) turn/side of the lattice.
+   !> The point x, y of the surface, measured from a crest [length], is the point (x + i y) turn/side of the lattice.
    type :: fitted_frame
+      real(dp) :: length(2) = 1.0_dp           !! sides of the surface's cell [length]
       real(dp) :: side = 1.0_dp                !! s, shorter side of the lattice's cell [length]
       complex(dp) :: turn = (1.0_dp, 0.0_dp)   !! rotation, of modulus 1
       integer :: crests = 1                    !! in the surface's cell: at its corners and, if two, at its centre
@@ -72,6 +73,7 @@ contains
             return
          end if
       end associate
+      frame%length = surface%length
       frame%pressure_unit = surface%stiffness/frame%side
 
    contains
@@ -99,12 +101,12 @@ contains
 
    end subroutine find_frame
 
-   !> The coordinates on the lattice [s] of a point of the surface.
-   elemental complex(dp) function place(self, x, y)
+   !> The coordinates on the lattice [s] of the point X, Y of the surface.
+   pure complex(dp) function place(self, x, y)
       class(fitted_frame), intent(in) :: self
-      real(dp), intent(in) :: x, y   !! from a crest [length]
+      real(dp), intent(in) :: x, y   !! from a crest [rad]
 
-      place = cmplx(x, y, dp)*self%turn/self%side
+      place = cmplx(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi), dp)*self%turn/self%side
    end function place
 
 end module wavycon_fitted_frame

@@ -36,7 +36,6 @@ module wavycon_fitted_fields
       type(even_polynomial), private :: far(2)           !! of all others: even in x, and odd over x
    contains
       procedure :: at
-      procedure :: edge
       procedure :: prepare_map
       procedure, private :: find_preimages
       procedure, private :: sum_over_images
@@ -276,18 +275,5 @@ contains
       call fields%at(lattice%trough, pressure, displacement, values(1))
       call fields%at(lattice%saddle, values(3), displacement, values(2))
    end function fitted_separations
-
-   !> Points of the edge, once around the spot or pool.
-   function edge(self, points) result(z)
-      class(fitted_fields), intent(in) :: self
-      integer, intent(in) :: points
-      complex(dp) :: z(points)       !! x + i y from a crest, shape (points) [s]
-
-      integer :: i
-
-      do i = 1, points
-         z(i) = self%centre + self%answer%solution%shape%place(exp(cmplx(0.0_dp, 2*pi*(i - 1)/points, dp)))
-      end do
-   end function edge
 
 end module wavycon_fitted_fields
