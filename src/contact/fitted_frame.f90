@@ -82,20 +82,17 @@ contains
       logical function has_only(terms)
          integer, intent(in) :: terms(:, :)   !! wave numbers in X and Y, shape (2, n)
 
-         integer :: i, j
+         logical, allocatable :: has_term(:, :)
+         integer :: i
 
          associate (c => surface%shape%c)
             has_only = all(maxval(terms, 2) <= ubound(c))
             if (.not. has_only) return
-            do j = 0, ubound(c, 2)
-               do i = 0, ubound(c, 1)
-                  if (any(terms(1, :) == i .and. terms(2, :) == j)) then
-                     has_only = has_only .and. c(i, j) > rounding
-                  else
-                     has_only = has_only .and. abs(c(i, j)) <= rounding
-                  end if
-               end do
+            allocate (has_term(0:ubound(c, 1), 0:ubound(c, 2)), source=.false.)
+            do i = 1, size(terms, 2)
+               has_term(terms(1, i), terms(2, i)) = .true.
             end do
+            has_only = all(merge(c > rounding, abs(c) <= rounding, has_term))
          end associate
       end function has_only
 

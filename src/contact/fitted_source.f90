@@ -7,8 +7,7 @@ module wavycon_fitted_source
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_details, only: find_fitted_details
-   use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
+   use wavycon_fitted_fields, only: find_fitted_details, fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp

@@ -6,7 +6,6 @@ module wavycon_fitted_solver
    use wavycon_expansion_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
       fitted_solved, most_previous
-   use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       measure_expansion, peak_measure, perimeter_measure
    use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
@@ -14,16 +13,11 @@ module wavycon_fitted_solver
    use wavycon_kinds, only: dp
    use wavycon_lattice_images, only: lattice_images
    use wavycon_load_continuation, only: is_start, start_at_load
-   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
-      wave_lattice
+   use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
    public :: solve_fitted
-   public :: fitted_answer
-   public :: fitted_fields, start_fitted_fields, fitted_separations
-   public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
-   public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
    !> Guard: degrees in a row at which Newton's method does not converge, before the regime is
    !> given up. Next to merging, and beyond it, it may fail at every degree, and the last ones take seconds each.

@@ -2,7 +2,7 @@
 !>
 !> They are exact to ten digits of the peak pressure at any depth, the surface included, as far as the answer is.
 module wavycon_fitted_stress
-   use wavycon_error_estimate, only: error_estimate
+   use wavycon_degree_history, only: error_estimate
    use wavycon_expansion_stress, only: expansion_stress, start_expansion_stress
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: fastest_decay_at_point, stress_error_safety

@@ -3,7 +3,7 @@
 module wavycon_load_slopes
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
-   use wavycon_error_estimate, only: error_estimate
+   use wavycon_degree_history, only: error_estimate
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
