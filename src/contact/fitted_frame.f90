@@ -41,9 +41,10 @@ contains
       if (.not. surface%shape%is_even()) return
       if (surface%is_height_map()) return
       associate (c => surface%shape%c, length => surface%length)
+         frame%side = minval(length)
+         if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
          if (surface%paper_wave() /= no_paper_wave) then
             frame%lattice = square_lattice()
-            frame%side = length(1)
             if (surface%paper_wave() /= rotated_paper_wave) then
                frame%side = length(1)/sqrt2
                frame%turn = exp(cmplx(0.0_dp, -pi/4, dp))
@@ -53,19 +54,14 @@ contains
             if (maxval(length) > largest_aspect_ratio*minval(length)*(1.0_dp + rounding)) return
             curvature = [c(1, 0), c(0, 1)]/length**2
             if (maxval(curvature) > largest_curvature_ratio*minval(curvature)) return
-            frame%side = minval(length)
-            if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
             frame%lattice = rectangular_lattice(maxval(length)/minval(length), &
                                                 merge(c(0, 1), c(1, 0), length(1) > length(2)))
          else if (has_only(reshape([1, 1], [2, 1]))) then
             if (maxval(length) > largest_aspect_ratio*minval(length)*(1.0_dp + rounding)) return
-            frame%side = minval(length)
             frame%crests = 2
-            if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
             frame%lattice = rhombic_lattice(maxval(length)/minval(length))
          else if (has_only(reshape([1, 1, 0, 2], [2, 2]))) then
             if (abs(c(1, 1) - 2*c(0, 2)) > rounding .or. abs(length(2) - sqrt3*length(1)) > rounding*length(2)) return
-            frame%side = length(1)
             frame%crests = 2
             frame%turn = (0.0_dp, -1.0_dp)
             frame%lattice = hexagonal_lattice()

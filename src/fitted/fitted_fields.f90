@@ -58,10 +58,8 @@ contains
       if (present(accuracy)) asked = accuracy
       fields%lattice = lattice
       fields%answer = answer
-      if (answer%pool) then
-         fields%centre = lattice%trough
-         fields%places = lattice%troughs
-      end if
+      fields%centre = merge(lattice%trough, (0.0_dp, 0.0_dp), answer%pool)
+      fields%places = merge(lattice%troughs, 1, answer%pool)
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
       call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
                               fields%spot%angles(far_level))
