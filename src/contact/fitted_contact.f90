@@ -6,9 +6,10 @@ module wavycon_fitted_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, not_accurate, not_found
+   use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact, fitted_solved
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fitted_source, only: fitted_source
-   use wavycon_fitted_solver, only: fitted_answer, fitted_less_exact, fitted_solved, solve_fitted
+   use wavycon_fitted_solver, only: solve_fitted
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: by_expansions, no_solution
    use wavycon_surface, only: surface_type

@@ -11,8 +11,9 @@ module wavycon_fitted_frame
 
    public :: fitted_frame, find_frame
 
-   !> The point x, y of the surface, measured from a crest, is the point (x + i y) turn/side of the lattice.
+   !> The point x, y of the surface, measured from a crest [length], is the point (x + i y) turn/side of the lattice.
    type :: fitted_frame
+      real(dp) :: length(2) = 1.0_dp           !! sides of the surface's cell [length]
       real(dp) :: side = 1.0_dp                !! s, shorter side of the lattice's cell [length]
       complex(dp) :: turn = (1.0_dp, 0.0_dp)   !! rotation, of modulus 1
       integer :: crests = 1                    !! in the surface's cell: at its corners and, if two, at its centre
@@ -40,9 +41,10 @@ contains
       if (.not. surface%shape%is_even()) return
       if (surface%is_height_map()) return
       associate (c => surface%shape%c, length => surface%length)
+         frame%side = minval(length)
+         if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
          if (surface%paper_wave() /= no_paper_wave) then
             frame%lattice = square_lattice()
-            frame%side = length(1)
             if (surface%paper_wave() /= rotated_paper_wave) then
                frame%side = length(1)/sqrt2
                frame%turn = exp(cmplx(0.0_dp, -pi/4, dp))
@@ -52,19 +54,14 @@ contains
             if (maxval(length) > largest_aspect_ratio*minval(length)*(1.0_dp + rounding)) return
             curvature = [c(1, 0), c(0, 1)]/length**2
             if (maxval(curvature) > largest_curvature_ratio*minval(curvature)) return
-            frame%side = minval(length)
-            if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
             frame%lattice = rectangular_lattice(maxval(length)/minval(length), &
                                                 merge(c(0, 1), c(1, 0), length(1) > length(2)))
          else if (has_only(reshape([1, 1], [2, 1]))) then
             if (maxval(length) > largest_aspect_ratio*minval(length)*(1.0_dp + rounding)) return
-            frame%side = minval(length)
             frame%crests = 2
-            if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
             frame%lattice = rhombic_lattice(maxval(length)/minval(length))
          else if (has_only(reshape([1, 1, 0, 2], [2, 2]))) then
             if (abs(c(1, 1) - 2*c(0, 2)) > rounding .or. abs(length(2) - sqrt3*length(1)) > rounding*length(2)) return
-            frame%side = length(1)
             frame%crests = 2
             frame%turn = (0.0_dp, -1.0_dp)
             frame%lattice = hexagonal_lattice()
@@ -72,6 +69,7 @@ contains
             return
          end if
       end associate
+      frame%length = surface%length
       frame%pressure_unit = surface%stiffness/frame%side
 
    contains
@@ -80,31 +78,28 @@ contains
       logical function has_only(terms)
          integer, intent(in) :: terms(:, :)   !! wave numbers in X and Y, shape (2, n)
 
-         integer :: i, j
+         logical, allocatable :: has_term(:, :)
+         integer :: i
 
          associate (c => surface%shape%c)
             has_only = all(maxval(terms, 2) <= ubound(c))
             if (.not. has_only) return
-            do j = 0, ubound(c, 2)
-               do i = 0, ubound(c, 1)
-                  if (any(terms(1, :) == i .and. terms(2, :) == j)) then
-                     has_only = has_only .and. c(i, j) > rounding
-                  else
-                     has_only = has_only .and. abs(c(i, j)) <= rounding
-                  end if
-               end do
+            allocate (has_term(0:ubound(c, 1), 0:ubound(c, 2)), source=.false.)
+            do i = 1, size(terms, 2)
+               has_term(terms(1, i), terms(2, i)) = .true.
             end do
+            has_only = all(merge(c > rounding, abs(c) <= rounding, has_term))
          end associate
       end function has_only
 
    end subroutine find_frame
 
-   !> The coordinates on the lattice [s] of a point of the surface.
-   elemental complex(dp) function place(self, x, y)
+   !> The coordinates on the lattice [s] of the point X, Y of the surface.
+   pure complex(dp) function place(self, x, y)
       class(fitted_frame), intent(in) :: self
-      real(dp), intent(in) :: x, y   !! from a crest [length]
+      real(dp), intent(in) :: x, y   !! from a crest [rad]
 
-      place = cmplx(x, y, dp)*self%turn/self%side
+      place = cmplx(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi), dp)*self%turn/self%side
    end function place
 
 end module wavycon_fitted_frame

@@ -7,8 +7,7 @@ module wavycon_fitted_source
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_details, only: find_fitted_details
-   use wavycon_fitted_fields, only: fitted_fields, start_fitted_fields
+   use wavycon_fitted_fields, only: find_fitted_details, fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp
@@ -34,7 +33,6 @@ module wavycon_fitted_source
    end type fitted_source
 
    type, extends(contact_fields) :: fitted_contact_fields
-      real(dp) :: length(2) = 1.0_dp    !! sides of the surface's cell [length]
       type(fitted_frame) :: frame
       real(dp) :: accuracy = 0.0_dp     !! that the solution was asked for, relative
       type(fitted_fields), allocatable :: fitted
@@ -56,9 +54,8 @@ contains
 
       type(fitted_contact_fields), allocatable :: own
 
-      associate (unused => record); end associate
+      associate (unused => record, unused_too => surface); end associate
       allocate (own)
-      own%length = surface%length
       own%frame = self%frame
       own%accuracy = self%accuracy
       allocate (own%fitted)
@@ -85,17 +82,9 @@ contains
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
-      call self%fitted%at(on_lattice(self, x, y), pressure, displacement, gap)
+      call self%fitted%at(self%frame%place(x, y), pressure, displacement, gap)
       call convert(self, pressure, gap)
    end subroutine at
-
-   !> The point X, Y on the lattice.
-   pure complex(dp) function on_lattice(self, x, y)
-      class(fitted_contact_fields), intent(in) :: self
-      real(dp), intent(in) :: x, y
-
-      on_lattice = self%frame%place(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi))
-   end function on_lattice
 
    !> To p*, and without what errors next to the edge may leave below 0.
    elemental subroutine convert(self, pressure, gap)
@@ -127,8 +116,8 @@ contains
             associate (i => first%point(1) + 1, j => first%point(2) + 1)
                if (all(first%point == [k, l])) then
                   associate (angles => 2*pi*([k, l] + offset)/points)
-                     call self%fitted%at(on_lattice(self, angles(1), angles(2)), pressure(i, j), displacement(i, j), &
-                                        gap(i, j))
+                     call self%fitted%at(self%frame%place(angles(1), angles(2)), pressure(i, j), displacement(i, j), &
+                                         gap(i, j))
                   end associate
                else
                   pressure(k + 1, l + 1) = pressure(i, j)
@@ -150,20 +139,19 @@ contains
       real(dp), allocatable, intent(out) :: loads(:)
 
       complex(dp) :: centre, edge(edge_points), to_surface
-      type(fitted_fields) :: fields
       integer :: i, k, rotated
 
-      call start_fitted_fields(fields, self%frame%lattice, self%answer)
       to_surface = self%frame%side/self%frame%turn
-      edge = (fields%edge(edge_points) - fields%centre)*to_surface
+      edge = self%answer%solution%shape%place([(exp(cmplx(0.0_dp, 2*pi*i/edge_points, dp)), i=0, edge_points - 1)]) &
+         *to_surface
       ! The contact lies on the left of the curve.
       if (self%answer%pool) edge = edge(edge_points:1:-1)
       ! The second of two pools is the first one rotated by 180 degrees; the second half of a cell is the first one
       ! translated.
-      allocate (curves(self%frame%crests*fields%places))
+      allocate (curves(self%frame%crests*merge(self%frame%lattice%troughs, 1, self%answer%pool)))
       do k = 1, size(curves)
          rotated = merge(-1, 1, k > self%frame%crests)
-         centre = rotated*fields%centre*to_surface
+         centre = rotated*merge(self%frame%lattice%trough, (0.0_dp, 0.0_dp), self%answer%pool)*to_surface
          associate (length => surface%length, places => [(mod(i, edge_points) + 1, i=0, edge_points)], &
                     half_cells => modulo(k - 1, self%frame%crests))
             curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*rotated*edge(places)%re/length(1)

@@ -21,7 +21,6 @@ module wavycon_fitted_stress_fields
       type(fitted_frame) :: frame
       type(fitted_answer) :: answer
       type(fitted_stress) :: fitted
-      real(dp) :: length(2) = 1.0_dp      !! sides of the surface's cell [length]
    contains
       procedure :: at
       procedure :: on_plane
@@ -40,7 +39,6 @@ contains
 
       fields%pbar_over_pstar = pbar_over_pstar
       fields%side_ratio = surface%length(2)/surface%length(1)
-      fields%length = surface%length
       fields%frame = frame
       fields%answer = answer
       call start_fitted_stress(fields%fitted, frame%lattice, answer, accuracy)
@@ -55,10 +53,7 @@ contains
 
       integer :: i
 
-      associate (place => self%frame%place(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi)), &
-                 z => self%length(1)*depth/(2*pi*self%frame%side))
-         call self%fitted%at(place, z, parts, error)
-      end associate
+      call self%fitted%at(self%frame%place(x, y), self%frame%length(1)*depth/(2*pi*self%frame%side), parts, error)
       do i = 1, 2
          parts(:, i) = self%frame%pressure_unit*rotated(parts(:, i), conjg(self%frame%turn))
       end do
@@ -145,8 +140,7 @@ contains
       integer :: directions, i, k, n
 
       associate (shape => self%answer%solution%shape)
-         centre = (0.0_dp, 0.0_dp)
-         if (self%answer%pool) centre = self%frame%lattice%trough
+         centre = merge(self%frame%lattice%trough, (0.0_dp, 0.0_dp), self%answer%pool)
          directions = 2*shape%fold
          allocate (edge(directions/2 + 1))
          edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
@@ -167,10 +161,10 @@ contains
       do k = 1, size(below)
          do i = 1, n
             associate (z => at_surface(i)*self%frame%side/self%frame%turn)
-               places(:, (k - 1)*n + i) = 2*pi*[z%re/self%length(1), z%im/self%length(2), &
-                                                below(k)*self%frame%side/self%length(1)]
+               places(:, (k - 1)*n + i) = &
+                  2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
             end associate
-            widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%length(1)
+            widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%frame%length(1)
          end do
       end do
       call self%at_places(body, places, stresses)

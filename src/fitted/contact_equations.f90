@@ -38,7 +38,7 @@ module wavycon_contact_equations
       real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], a pool's [p*]
       !> Derivatives of the integral of p, the left side of README.md (F9), or of g, shape (unknowns).
       real(dp), allocatable :: load_row(:)
-      type(lattice_images) :: images
+      type(lattice_images) :: images             !! kept by start_equations: prepared for the shape, or sums only
    contains
       procedure :: linearise
       procedure :: integral
@@ -47,19 +47,20 @@ module wavycon_contact_equations
 contains
 
    !> Chooses points of collocation and rules for expansions like the one given.
-   subroutine start_equations(equations, like, merging_ratio, images)
-      type(contact_equations), intent(out) :: equations
+   subroutine start_equations(equations, like, merging_ratio)
+      type(contact_equations), intent(inout) :: equations
       type(expansion), intent(in) :: like
       real(dp), intent(in) :: merging_ratio   !! of the shape: 0 for a point, 1 where it touches its neighbours
-      type(lattice_images), intent(in), optional :: images   !! prepared for the shape; sums only if absent
 
+      type(contact_equations) :: new
       real(dp) :: phi
       integer :: angles, finer, fold, i, j, n, radii
 
+      new%images = equations%images
+      equations = new
       fold = like%basis%fold
       equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
       equations%unknowns = equations%before_shape + size(like%shape%b)
-      if (present(images)) equations%images = images
       ! The rule of chords for the singular integral and the rule over the disc for the images.
       associate (degree => like%basis%degree, b => like%shape%b)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.

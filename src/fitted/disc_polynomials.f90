@@ -87,39 +87,26 @@ contains
       complex(dp), intent(in) :: w(n)
       real(dp), intent(out) :: values(n, self%terms)
 
-      real(dp) :: x(n), angular_re(n), angular_im(n), step_re(n), step_im(n), old, a, b, c
+      complex(dp), dimension(n) :: angular, step
+      real(dp) :: x(n), a, b, c
       integer :: i, k, l, older, t
 
-      do i = 1, n
-         x(i) = 2*(w(i)%re**2 + w(i)%im**2) - 1.0_dp
-         angular_re(i) = 1.0_dp
-         angular_im(i) = 0.0_dp
-         step_re(i) = w(i)%re
-         step_im(i) = w(i)%im
-      end do
+      x = 2*(w%re**2 + w%im**2) - 1.0_dp
+      angular = 1.0_dp
+      step = w
       do k = 2, self%fold
-         do i = 1, n
-            old = step_re(i)
-            step_re(i) = old*w(i)%re - step_im(i)*w(i)%im
-            step_im(i) = old*w(i)%im + step_im(i)*w(i)%re
-         end do
+         step = step*w
       end do
       t = 0
       do k = 0, self%degree, self%fold
-         if (k > 0) then
-            do i = 1, n
-               old = angular_re(i)
-               angular_re(i) = old*step_re(i) - angular_im(i)*step_im(i)
-               angular_im(i) = old*step_im(i) + angular_im(i)*step_re(i)
-            end do
-         end if
+         if (k > 0) angular = angular*step
          do l = 0, (self%degree - k)/2
             t = t + 1
             a = self%recurrence(1, t)
             b = self%recurrence(2, t)
             c = self%recurrence(3, t)
             if (l == 0) then
-               values(:, t) = b*angular_re
+               values(:, t) = b*angular%re
                cycle
             end if
             ! c is 0 for l = 1.

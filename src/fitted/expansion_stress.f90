@@ -11,7 +11,7 @@ module wavycon_expansion_stress
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: all_fields, stress_fields
+   use wavycon_stress_kernel, only: all_fields, stress_fields, stress_parts
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -29,7 +29,7 @@ module wavycon_expansion_stress
       type(stress_series), allocatable, private :: series
       type(far_stress), allocatable, private :: far
    contains
-      procedure :: fields_at
+      procedure :: at
       procedure :: distance_from_edges
       procedure, private :: prepare_series
       procedure, private :: prepare_far
@@ -49,14 +49,15 @@ contains
       call find_centres(stress)
    end subroutine start_expansion_stress
 
-   !> The fields at a place, less those of the mean pressure.
-   subroutine fields_at(self, place, depth, fields)
+   !> The stresses at a place, less those of the mean pressure.
+   subroutine at(self, place, depth, parts)
       class(expansion_stress), intent(inout) :: self
       complex(dp), intent(in) :: place                    !! from a crest [s]
       real(dp), intent(in) :: depth                       !! >= 0 [s]
-      real(dp), intent(out) :: fields(stress_fields)
+      real(dp), intent(out) :: parts(6, 2)                !! as of stress_parts
 
       complex(dp) :: z
+      real(dp) :: fields(stress_fields)
       integer :: i
 
       fields = 0.0_dp
@@ -78,7 +79,8 @@ contains
             call add_wave(2*pi*self%lattice%wave(:, i), self%lattice%pressure(i), place, depth, fields)
          end do
       end if
-   end subroutine fields_at
+      call stress_parts(fields, parts)
+   end subroutine at
 
    !> Distance on the surface from the nearest edge of a spot or pool [s].
    pure real(dp) function distance_from_edges(self, place) result(distance)
@@ -106,8 +108,7 @@ contains
       integer :: k
 
       associate (lattice => stress%lattice, pool => stress%spot%solution%pool)
-         first = 0.0_dp
-         if (pool) first = lattice%trough
+         first = merge(lattice%trough, (0.0_dp, 0.0_dp), pool)
          allocate (stress%centre(0), stress%half_turn(0))
          do k = 1, merge(lattice%troughs, 1, pool)
             centre = lattice%rows%points_about(near_clearance + stress%spot%radius, merge(first, -first, k == 1))
@@ -139,17 +140,13 @@ contains
       real(dp), intent(in) :: depth, digits                   !! as of start_stress_series
 
       complex(dp) :: centre
-      integer :: count
 
-      centre = 0.0_dp
-      count = 1
-      if (stress%spot%solution%pool) then
-         centre = stress%lattice%trough
+      associate (lattice => stress%lattice, pool => stress%spot%solution%pool)
+         centre = merge(lattice%trough, (0.0_dp, 0.0_dp), pool)
          ! The half-turn of a pool about a crest has the same even terms.
-         count = stress%lattice%troughs
-      end if
-      call start_stress_series(series, stress%lattice%rows, centre%re + sources%x, centre%im + sources%y, &
-                               count*sources%strength(:, 1), stress%spot%solution%pool, depth, digits)
+         call start_stress_series(series, lattice%rows, centre%re + sources%x, centre%im + sources%y, &
+                                  merge(lattice%troughs, 1, pool)*sources%strength(:, 1), pool, depth, digits)
+      end associate
    end subroutine start_series
 
    !> Makes the table: at its nodes the series of all, less the sum of the near ones, of the same point sources.

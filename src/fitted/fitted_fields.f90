@@ -5,11 +5,12 @@
 !> are taken by fine rules or along rays, and those over all others by one coarse rule: README.md, section 12.
 module wavycon_fitted_fields
    use wavycon_constants, only: pi
+   use wavycon_degree_history, only: error_estimate
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
    use wavycon_exterior_series, only: exterior_series, start_exterior_series
    use wavycon_fitted_answer, only: fitted_answer
-   use wavycon_fitted_tuning, only: field_accuracy, least_map
+   use wavycon_fitted_tuning, only: fastest_decay_at_point, field_accuracy, least_map
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
@@ -18,7 +19,7 @@ module wavycon_fitted_fields
    implicit none (type, external)
    private
 
-   public :: fitted_fields, start_fitted_fields, fitted_separations
+   public :: find_fitted_details, fitted_fields, start_fitted_fields, fitted_separations
 
    type :: fitted_fields
       type(wave_lattice) :: lattice
@@ -36,7 +37,6 @@ module wavycon_fitted_fields
       type(even_polynomial), private :: far(2)           !! of all others: even in x, and odd over x
    contains
       procedure :: at
-      procedure :: edge
       procedure :: prepare_map
       procedure, private :: find_preimages
       procedure, private :: sum_over_images
@@ -58,10 +58,8 @@ contains
       if (present(accuracy)) asked = accuracy
       fields%lattice = lattice
       fields%answer = answer
-      if (answer%pool) then
-         fields%centre = lattice%trough
-         fields%places = lattice%troughs
-      end if
+      fields%centre = merge(lattice%trough, (0.0_dp, 0.0_dp), answer%pool)
+      fields%places = merge(lattice%troughs, 1, answer%pool)
       call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
       call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
                               fields%spot%angles(far_level))
@@ -277,17 +275,45 @@ contains
       call fields%at(lattice%saddle, values(3), displacement, values(2))
    end function fitted_separations
 
-   !> Points of the edge, once around the spot or pool.
-   function edge(self, points) result(z)
-      class(fitted_fields), intent(in) :: self
-      integer, intent(in) :: points
-      complex(dp) :: z(points)       !! x + i y from a crest, shape (points) [s]
+   !> These values, and estimates of their errors.
+   !>
+   !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of the
+   !> integrals over near images from a second evaluation by finer rules.
+   subroutine find_fitted_details(lattice, answer, values, error)
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      real(dp), intent(out) :: values(3)           !! as of fitted_separations: trough gap, saddle gap, saddle pressure
+      real(dp), intent(out) :: error(3)            !! estimates of their errors
 
-      integer :: i
+      !> Accuracy of the second evaluation.
+      real(dp), parameter :: finer = 1e-15_dp
+      real(dp) :: at(3, 0:size(answer%previous)), decay(2), scale(3)
+      type(fitted_answer) :: older
+      integer :: i, k
 
-      do i = 1, points
-         z(i) = self%centre + self%answer%solution%shape%place(exp(cmplx(0.0_dp, 2*pi*(i - 1)/points, dp)))
+      values = fitted_separations(lattice, answer)
+      at(:, 0) = values
+      older = answer
+      do k = 1, size(answer%previous)
+         older%solution = answer%previous(k)
+         if (.not. answer%pool) older%mean_gap = 1.0_dp - older%solution%approach
+         at(:, k) = fitted_separations(lattice, older)
       end do
-   end function edge
+      ! All but the gap inside a pool are differences of numbers of order 1: their rounding is absolute.
+      scale = 1.0_dp
+      if (answer%pool) scale(1) = at(1, 0)
+      ! One by one: the saddle may be about to close while the trough is wide open.
+      do i = 1, size(values)
+         decay = answer%misfit_decay
+         ! The gap inside a pool is a value of the expansion, where the others are integrals of it.
+         if (answer%pool .and. i == 1) decay = max(decay, fastest_decay_at_point)
+         error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
+      end do
+      ! A spot's approach is part of both gaps.
+      if (.not. answer%pool) error(:2) = max(error(:2), answer%mean_gap_error)
+      error = error + abs(fitted_separations(lattice, answer, finer) - values)
+      ! A gap in contact and a pressure outside of it are 0 by definition.
+      error(merge(2, 3, answer%pool)) = 0.0_dp
+   end subroutine find_fitted_details
 
 end module wavycon_fitted_fields

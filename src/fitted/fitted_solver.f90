@@ -6,24 +6,17 @@ module wavycon_fitted_solver
    use wavycon_expansion_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
       fitted_solved, most_previous
-   use wavycon_fitted_fields, only: fitted_fields, fitted_separations, start_fitted_fields
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       measure_expansion, peak_measure, perimeter_measure
    use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
    use wavycon_gauss_newton, only: solve_equations
    use wavycon_kinds, only: dp
-   use wavycon_lattice_images, only: lattice_images
    use wavycon_load_continuation, only: is_start, start_at_load
-   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
-      wave_lattice
+   use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
    public :: solve_fitted
-   public :: fitted_answer
-   public :: fitted_fields, start_fitted_fields, fitted_separations
-   public :: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input, fitted_failed
-   public :: wave_lattice, square_lattice, rectangular_lattice, rhombic_lattice, hexagonal_lattice
 
    !> Guard: degrees in a row at which Newton's method does not converge, before the regime is
    !> given up. Next to merging, and beyond it, it may fail at every degree, and the last ones take seconds each.
@@ -81,7 +74,6 @@ contains
       type(contact_equations) :: equations
       type(degree_history) :: history
       type(expansion) :: now
-      type(lattice_images) :: images
       real(dp) :: change, clustering, contraction, measures(all_measures), misfit, ratio, remaining, residual, tolerance
       integer :: degree, failed, required
       logical :: merged, valid
@@ -107,9 +99,9 @@ contains
          if (lattice%square) clustering = next_clustering(clustering, ratio, pool)
          now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
          ! Looser series are hardly quicker.
-         call images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
+         call equations%images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
          ratio = merging_ratio(lattice, now)
-         call start_equations(equations, now, ratio, images)
+         call start_equations(equations, now, ratio)
          call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, contraction, change, &
                               remaining, residual, misfit, answer%iterations, valid)
          ratio = merging_ratio(lattice, now)
@@ -123,7 +115,8 @@ contains
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
             call history%push(now, measures, misfit, remaining)
             if (history%newest_is_best) &
-               call set_answer(answer, lattice, history, now, degree, residual, ratio, images%tolerance)
+               call set_answer(answer, lattice, history, now, degree, residual, ratio, &
+                               equations%images%tolerance)
             if (history%best_meets(accuracy, required)) then
                answer%status = fitted_solved
                exit

@@ -2,12 +2,11 @@
 !>
 !> They are exact to ten digits of the peak pressure at any depth, the surface included, as far as the answer is.
 module wavycon_fitted_stress
-   use wavycon_error_estimate, only: error_estimate
+   use wavycon_degree_history, only: error_estimate
    use wavycon_expansion_stress, only: expansion_stress, start_expansion_stress
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: fastest_decay_at_point, stress_error_safety
    use wavycon_kinds, only: dp
-   use wavycon_stress_kernel, only: stress_fields, stress_parts
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -67,10 +66,7 @@ contains
       real(dp), intent(out), optional :: error
          !! estimate of the largest error of a component for 0 <= nu <= 1/2 [pi E* Delta/s]
 
-      real(dp) :: fields(stress_fields)
-
-      call self%of_degree(0)%fields_at(place, depth, fields)
-      call stress_parts(fields, parts)
+      call self%of_degree(0)%at(place, depth, parts)
       if (present(error)) error = self%error_at(place, depth, parts)
    end subroutine at
 
@@ -84,13 +80,12 @@ contains
 
       !> Stresses for nu = 0 and nu = 1/2 from the parts.
       real(dp), parameter :: at_limits(2, 2) = reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2])
-      real(dp) :: distance, fields(stress_fields), lower(6, 2), values(12, 0:ubound(self%of_degree, 1))
+      real(dp) :: distance, lower(6, 2), values(12, 0:ubound(self%of_degree, 1))
       integer :: i
 
       values(:, 0) = reshape(matmul(parts, at_limits), [12])
       do i = 1, ubound(values, 2)
-         call self%of_degree(i)%fields_at(place, depth, fields)
-         call stress_parts(fields, lower)
+         call self%of_degree(i)%at(place, depth, lower)
          values(:, i) = reshape(matmul(lower, at_limits), [12])
       end do
       error = stress_error_safety*maxval(error_estimate(values, max(self%misfit_decay, fastest_decay_at_point), &

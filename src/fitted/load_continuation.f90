@@ -10,7 +10,6 @@ module wavycon_load_continuation
       start_degree
    use wavycon_gauss_newton, only: change_per_square, solve_equations
    use wavycon_kinds, only: dp
-   use wavycon_lattice_images, only: lattice_images
    use wavycon_expansion_size, only: merging_ratio
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -41,7 +40,6 @@ contains
       type(fitted_answer), intent(in), optional :: start   !! a solution of another load
 
       type(contact_equations) :: equations
-      type(lattice_images) :: images
       real(dp) :: at, change, contraction, misfit, next, remaining, residual
       integer :: steps
 
@@ -61,8 +59,8 @@ contains
       if (pool) at = max(load, heavy_load_start*lattice%closing_pressure)
       now = asymptote(lattice, at, pool)
       do
-         call images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
-         call start_equations(equations, now, 0.0_dp, images)
+         call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
+         call start_equations(equations, now, 0.0_dp)
          contraction = 0.0_dp
          call solve_equations(equations, lattice, at, now, change_per_square*start_shape_change**2, contraction, &
                               change, remaining, residual, misfit, iterations, found)

@@ -3,13 +3,12 @@
 module wavycon_load_slopes
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
-   use wavycon_error_estimate, only: error_estimate
+   use wavycon_degree_history, only: error_estimate
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
    use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
-   use wavycon_lattice_images, only: lattice_images
    use wavycon_expansion_size, only: merging_ratio
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -60,7 +59,6 @@ contains
       logical, intent(out) :: found
 
       type(contact_equations) :: equations
-      type(lattice_images) :: images
       complex(dp), allocatable :: w(:)
       complex(dp) :: normal, place_change(0:ubound(now%shape%b, 1))
       real(dp), allocatable :: change(:), change_of_change(:)
@@ -68,8 +66,8 @@ contains
       real(dp) :: load_change(2), root
       integer :: i, n
 
-      call images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
-      call start_equations(equations, now, merging_ratio(lattice, now), images)
+      call equations%images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
+      call start_equations(equations, now, merging_ratio(lattice, now))
       allocate (change(equations%unknowns), change_of_change(equations%unknowns))
       call changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, found)
       if (.not. found) return

@@ -74,13 +74,9 @@ contains
       real(dp), intent(inout) :: fields(stress_fields)    !! of the surface field the first one
 
       complex(dp) :: offset, origin
-      real(dp) :: angular, radial
       integer :: level
 
-      call self%locate(z, depth, origin, offset, angular, radial)
-      do level = 1, levels
-         if (resolves(self%angles(level), self%radii(level), angular, radial, self%digits)) exit
-      end do
+      call self%locate(z, depth, origin, offset, level)
       if (level <= levels) then
          if (.not. allocated(self%rules(level)%x)) &
             call start_disc_sources(self%rules(level), self%solution, &
@@ -102,66 +98,55 @@ contains
       complex(dp), intent(in) :: z                        !! the place from the centre [s]
 
       complex(dp) :: offset, origin
-      real(dp) :: angular, radial
+      integer :: level
 
-      call self%locate(z, 0.0_dp, origin, offset, angular, radial)
-      is_resolved = resolves(self%angles(far_level), self%radii(far_level), angular, radial, self%digits)
+      call self%locate(z, 0.0_dp, origin, offset, level)
+      is_resolved = level <= far_level
    end function is_resolved
 
-   !> Where a place lies with respect to the disc, and how fast rules converge there.
-   pure subroutine locate(self, z, depth, origin, offset, angular, radial)
+   !> Where a place lies with respect to the disc, and the coarsest rule that resolves the kernel there.
+   pure subroutine locate(self, z, depth, origin, offset, level)
       class(spot_integral), intent(in) :: self
       complex(dp), intent(in) :: z                        !! from the centre [s]
       real(dp), intent(in) :: depth
       complex(dp), intent(out) :: origin                  !! w_0 of rays, if the place is near
       complex(dp), intent(out) :: offset                  !! the place as seen from z(w_0) [s]
-      real(dp), intent(out) :: angular, radial            !! as of find_decay
+      integer, intent(out) :: level                       !! more than `levels` if none does
 
       real(dp), parameter :: far_from_disc = 1.5_dp
-      complex(dp) :: edge, v
+      complex(dp) :: edge, pole, v
+      real(dp) :: angular, below, distance, nearest, radial
       logical :: found
 
       offset = 0.0_dp
       if (hypot(abs(z), depth) > far_from_disc*self%radius) then
          origin = 1.0_dp
-         call find_decay(abs(z)/self%radius, depth/self%radius, angular, radial)
-         return
+         distance = abs(z)/self%radius
+         below = depth/self%radius
+      else
+         call find_preimage(self%solution%shape, z, v, found)
+         if (.not. found) call find_edge_in_direction(self%solution%shape, z, v, edge)
+         origin = v
+         if (.not. found .or. abs(v) > 1.0_dp) then
+            origin = v/abs(v)
+            offset = z - self%solution%shape%place(origin)
+         end if
+         distance = abs(v)
+         below = depth/self%stretch
       end if
-      call find_preimage(self%solution%shape, z, v, found)
-      if (.not. found) call find_edge_in_direction(self%solution%shape, z, v, edge)
-      origin = v
-      if (.not. found .or. abs(v) > 1.0_dp) then
-         origin = v/abs(v)
-         offset = z - self%solution%shape%place(origin)
-      end if
-      call find_decay(abs(v), depth/self%stretch, angular, radial)
-   end subroutine locate
-
-   !> Decay of the error of rules over a round disc of radius 1, README.md (F57): eta for each angle, and 2 ln E for
-   !> each radius.
-   pure subroutine find_decay(distance, depth, angular, radial)
-      real(dp), intent(in) :: distance                    !! from the axis
-      real(dp), intent(in) :: depth
-      real(dp), intent(out) :: angular, radial
-
-      complex(dp) :: pole
-      real(dp) :: nearest
-
-      nearest = min(hypot(distance, depth), 1.0_dp)
-      angular = 1.0_dp + ((distance - nearest)**2 + depth**2)/(2*max(distance*nearest, 1e-12_dp))
+      ! Decay of the error of rules over a round disc of radius 1, at a distance from its axis, README.md (F57): eta for
+      ! each angle, and 2 ln E for each radius.
+      nearest = min(hypot(distance, below), 1.0_dp)
+      angular = 1.0_dp + ((distance - nearest)**2 + below**2)/(2*max(distance*nearest, 1e-12_dp))
       angular = acosh(min(angular, 1e6_dp))
       ! Bernstein's ellipse through the nearest singularity in |w|^2, between 0 and 1.
-      pole = 2*cmplx(distance, depth, dp)**2 - 1.0_dp
+      pole = 2*cmplx(distance, below, dp)**2 - 1.0_dp
       radial = abs(pole + sqrt(pole - 1.0_dp)*sqrt(pole + 1.0_dp))
       radial = 2*log(max(radial, 1/radial))
-   end subroutine find_decay
-
-   !> Whether the error that a rule leaves is below the accuracy.
-   pure logical function resolves(angles, radii, angular, radial, digits)
-      integer, intent(in) :: angles, radii
-      real(dp), intent(in) :: angular, radial, digits
-
-      resolves = angles*angular >= rule_angles_factor*digits .and. radii*radial >= rule_radii_factor*digits
-   end function resolves
+      do level = 1, levels
+         if (self%angles(level)*angular >= rule_angles_factor*self%digits .and. &
+             self%radii(level)*radial >= rule_radii_factor*self%digits) exit
+      end do
+   end subroutine locate
 
 end module wavycon_spot_integral
