@@ -82,7 +82,7 @@ contains
       integer(int64) :: crossings, points
       real(dp) :: open_part
 
-      points = edge%number_of_points()
+      points = product(int(edge%slab%points, int64))
       open_part = possible_openings(edge)/real(points, dp)
       crossings = edge_crossings(edge)
       if (crossings == 0) open_part = max(open_part, 1.0_dp/points)

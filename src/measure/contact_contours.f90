@@ -2,7 +2,7 @@
 module wavycon_contact_contours
    use, intrinsic :: iso_fortran_env, only: int8
    use wavycon_constants, only: pi
-   use wavycon_contact_edge, only: contact_edge, corner, cross, edge_point
+   use wavycon_contact_edge, only: contact_edge, corner, cross, edge_point, quarter_turns
    use wavycon_kinds, only: dp
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    implicit none (type, external)
@@ -35,46 +35,44 @@ contains
       type(region_numbers), intent(out), optional :: numbers   !! of the points
       logical, intent(in), optional :: with_images             !! as for find_region_numbers
 
+      type(contact_contour), allocatable :: found(:)
       type(region_numbers) :: own
       integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a cell
-      integer :: count, k, l, number, points(2), steps
+      integer :: count, k, l, number, place(2), points(2), regions(5), steps
 
       points = edge%period
       if (present(cell)) points = cell
       steps = 0
       if (present(skew)) steps = skew
       call find_region_numbers(edge, points, steps, own, with_images)
-      allocate (curves(0), seen(0:points(1) - 1, 0:points(2) - 1))
+      ! There are no more curves than regions, of which four images may have one number.
+      allocate (found(4*(own%spots + own%pools)), seen(0:points(1) - 1, 0:points(2) - 1))
       seen = 0_int8
       count = 0
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
-            if (is_uniform(own, k, l)) cycle
+            ! Most cells have no edge: their corners belong to one region.
+            if (k < points(1) - 1 .and. l < points(2) - 1) then
+               if (all(own%at(k:k + 1, l:l + 1) == own%at(k, l))) cycle
+            end if
+            do number = 1, 5
+               place = own%wrap(k + corner(1, number), l + corner(2, number))
+               regions(number) = own%at(place(1), place(2))
+            end do
             do number = 1, 4
-               if (btest(seen(k, l), number) .or. .not. leaves_contact(own, k, l, number)) cycle
-               if (count == size(curves)) call resize(curves, max(8, 2*count))
+               ! A curve with the contact on its left enters the cell where its boundary, followed counter-clockwise,
+               ! leaves the contact.
+               if (btest(seen(k, l), number) .or. regions(number) < 0 .or. regions(number + 1) > 0) cycle
                count = count + 1
-               call trace(edge, own, k, l, number, seen, curves(count))
+               call trace(edge, own, k, l, number, seen, found(count))
+               found(count)%spot = regions(number)
+               found(count)%pool = -regions(number + 1)
             end do
          end do
       end do
-      call resize(curves, count)
+      curves = found(:count)
       if (present(numbers)) numbers = own
    end subroutine trace_edges
-
-   !> Gives an array another length.
-   subroutine resize(curves, length)
-      type(contact_contour), allocatable, intent(inout) :: curves(:)
-      integer, intent(in) :: length
-
-      type(contact_contour), allocatable :: other(:)
-      integer :: kept
-
-      allocate (other(length))
-      kept = min(length, size(curves))
-      other(:kept) = curves(:kept)
-      call move_alloc(other, curves)
-   end subroutine resize
 
    !> Keeps the curves of an even contact that have a point in the quarter 0 <= phi, theta <= pi of the cell. Each is
    !> moved by whole periods to where it has the most points there. A curve across the border of the quarter is its own
@@ -83,9 +81,10 @@ contains
       type(contact_contour), allocatable, intent(inout) :: curves(:)
 
       type(contact_contour), allocatable :: kept(:)
-      integer :: i, k, l, most, number, shift(2)
-      logical :: keep(size(curves))
+      integer :: i, k, l, last, most, number, shift(2)
 
+      allocate (kept(size(curves)))
+      last = 0
       do i = 1, size(curves)
          associate (phi => curves(i)%phi, theta => curves(i)%theta)
             most = 0
@@ -98,20 +97,14 @@ contains
                   shift = [k, l]
                end do
             end do
-            keep(i) = most > 0
-            if (.not. keep(i)) cycle
+            if (most == 0) cycle
             phi = phi - 2*pi*shift(1)
             theta = theta - 2*pi*shift(2)
          end associate
+         last = last + 1
+         kept(last) = curves(i)
       end do
-      allocate (kept(count(keep)))
-      number = 0
-      do i = 1, size(curves)
-         if (.not. keep(i)) cycle
-         number = number + 1
-         kept(number) = curves(i)
-      end do
-      call move_alloc(kept, curves)
+      curves = kept(:last)
    end subroutine keep_curves_of_quarter
 
    !> Transforms curves to axes rotated by 45 degrees: factor times the sum and the difference of the angles.
@@ -201,10 +194,8 @@ contains
       integer, parameter :: opposite(4) = [3, 4, 1, 2]
       real(dp), allocatable :: points(:, :)   ! shape (2, *)
       type(edge_point) :: first, last, next
-      integer :: k, l, number, count, entered, place(2), quarters
+      integer :: k, l, number, count, place(2), quarters
 
-      curve%spot = region_at_corner(numbers, first_k, first_l, first_number)
-      curve%pool = -region_at_corner(numbers, first_k, first_l, first_number + 1)
       allocate (points(2, 64))
       k = first_k
       l = first_l
@@ -222,21 +213,19 @@ contains
          seen(place(1), place(2)) = ibset(seen(place(1), place(2)), number)
 
          ! The curve leaves the cell through the next side, counter-clockwise, that the edge crosses (see cell_area).
-         entered = number
          do
             number = mod(number, 4) + 1
             next = edge%side(k, l, number)
-            if (next%exists) exit
+            if (next%number > 0) exit
          end do
-         associate (rotated => modulo(number - entered, 4) - 2)
-            quarters = quarters + rotated
-            curve%area = curve%area - edge%beside_chord(last, next) + edge%area_correction(k, l, 0.25_dp*rotated) &
-               + 0.5_dp*cross(last%angle - first%angle, next%angle - first%angle)
-         end associate
-         last = next
+         quarters = quarters + quarter_turns(last, next)
+         curve%area = curve%area - edge%beside_chord(last, next) &
+                      + 0.5_dp*cross(last%angle - first%angle, next%angle - first%angle)
          k = k + step_k(number)
          l = l + step_l(number)
          number = opposite(number)
+         last = next
+         last%number = number
       end do
       curve%turns = quarters/4
       ! (A1): the curve may go around the cell.
@@ -244,34 +233,5 @@ contains
       allocate (curve%phi, source=points(1, :count))
       allocate (curve%theta, source=points(2, :count))
    end subroutine trace
-
-   !> Whether a cell is known to have no edge: its corners belong to one region. It lies inside the rows.
-   pure logical function is_uniform(numbers, k, l)
-      type(region_numbers), intent(in) :: numbers
-      integer, intent(in) :: k, l
-
-      associate (at => numbers%at)
-         is_uniform = k < ubound(at, 1) .and. l < ubound(at, 2)
-         if (is_uniform) is_uniform = all(at(k:k + 1, l:l + 1) == at(k, l))
-      end associate
-   end function is_uniform
-
-   !> Whether the boundary of a cell, followed counter-clockwise, leaves the contact along a side: a curve with the
-   !> contact on its left enters the cell there.
-   pure logical function leaves_contact(numbers, k, l, number)
-      type(region_numbers), intent(in) :: numbers
-      integer, intent(in) :: k, l, number
-
-      leaves_contact = region_at_corner(numbers, k, l, number) > 0 .and. &
-                       region_at_corner(numbers, k, l, number + 1) < 0
-   end function leaves_contact
-
-   !> The region of a corner of a cell.
-   pure integer function region_at_corner(numbers, k, l, number) result(region)
-      type(region_numbers), intent(in) :: numbers
-      integer, intent(in) :: k, l, number
-
-      region = numbers%of_point(k + corner(1, number), l + corner(2, number))
-   end function region_at_corner
 
 end module wavycon_contact_contours

@@ -8,13 +8,14 @@ module wavycon_contact_edge
    implicit none (type, external)
    private
 
-   public :: contact_edge, cross, edge_point
+   public :: contact_edge, cross, edge_point, quarter_turns
 
    !> A point of the edge of contact on the side of a cell.
    type :: edge_point
-      logical :: exists = .false.
-      real(dp) :: angle(2) = 0.0_dp   !! phi, theta [rad], in the plane
-      real(dp) :: slope(2) = 0.0_dp   !! gradient of the pressure, into the contact; zero if not known
+      integer :: number = 0                    !! of the side, 1 .. 4; 0: the edge does not cross it
+      integer :: inner(2) = 0, outer(2) = 0    !! (k, l) of its ends in contact and outside
+      real(dp) :: angle(2) = 0.0_dp            !! phi, theta [rad], in the plane
+      real(dp) :: slope(2) = 0.0_dp            !! gradient of the pressure, into the contact; zero if not known
    end type edge_point
 
    !> Points (k, l) of the whole plane; a cell has the numbers of its lower left point. Its sides are numbered
@@ -30,7 +31,6 @@ module wavycon_contact_edge
       procedure :: side
       procedure :: cell_area
       procedure :: beside_chord
-      procedure :: area_correction
    end type contact_edge
 
    abstract interface
@@ -42,11 +42,10 @@ module wavycon_contact_edge
       end function point_in_contact
 
       !> Sets the place of the edge between two neighbours, and the gradient there if it is known.
-      pure subroutine edge_between_points(self, inner, outer, point)
+      pure subroutine edge_between_points(self, point)
          import :: contact_edge, edge_point
          class(contact_edge), intent(in) :: self
-         integer, intent(in) :: inner(2), outer(2)   !! (k, l) of the point in contact and of that outside
-         type(edge_point), intent(inout) :: point
+         type(edge_point), intent(inout) :: point   !! its neighbours are set
       end subroutine edge_between_points
    end interface
 
@@ -76,71 +75,59 @@ contains
       first = [k, l] + corner(:, number)
       last = [k, l] + corner(:, number + 1)
       inside = self%in_contact(first(1), first(2))
-      point%exists = inside .neqv. self%in_contact(last(1), last(2))
-      if (.not. point%exists) return
-      if (inside) then
-         call self%place_edge(first, last, point)
-      else
-         call self%place_edge(last, first, point)
-      end if
+      if (inside .eqv. self%in_contact(last(1), last(2))) return
+      point%number = number
+      point%inner = merge(first, last, inside)
+      point%outer = merge(last, first, inside)
+      call self%place_edge(point)
    end function side
 
    !> The area in contact of one cell that the edge crosses [rad^2]: that of the polygon of its corners in contact and
-   !> the edge's points on its sides, less what `beside_chord` gives, with `area_correction`. In a cell that the edge
-   !> enters twice the two parts in contact are taken as connected.
+   !> the edge's points on its sides, less what `beside_chord` gives. In a cell that the edge enters twice the two parts
+   !> in contact are taken as connected.
    pure real(dp) function cell_area(self, k, l) result(area)
       class(contact_edge), intent(in) :: self
       integer, intent(in) :: k, l
 
       type(edge_point) :: points(9)
-      logical :: corners(4), leaves(9)
       integer :: number, count, i, next
 
-      corners = [(self%in_contact(k + corner(1, number), l + corner(2, number)), number=1, 4)]
-      area = 0.0_dp
       count = 0
       do number = 1, 4
-         if (corners(number)) then
-            count = count + 1
-            points(count) = edge_point(angle=self%angles(real([k, l] + corner(:, number), dp)))
-            leaves(count) = .false.
-         end if
+         associate (first => [k, l] + corner(:, number))
+            if (self%in_contact(first(1), first(2))) then
+               count = count + 1
+               points(count) = edge_point(angle=self%angles(real(first, dp)))
+            end if
+         end associate
          points(count + 1) = self%side(k, l, number)
-         if (points(count + 1)%exists) then
-            count = count + 1
-            ! Along this side the boundary leaves the contact if its first corner is in contact.
-            leaves(count) = corners(number)
-         end if
+         if (points(count + 1)%number > 0) count = count + 1
       end do
 
+      area = 0.0_dp
       do i = 1, count
          next = mod(i, count) + 1
          area = area + 0.5_dp*cross(points(i)%angle, points(next)%angle)
-         if (leaves(i)) area = area - self%beside_chord(points(i), points(next))
+         ! No corner in contact lies between two points of the edge where the boundary of the cell leaves the contact.
+         if (points(i)%number > 0 .and. points(next)%number > 0) &
+            area = area - self%beside_chord(points(i), points(next))
       end do
-      area = area + self%area_correction(k, l, turns(corners))
    end function cell_area
 
-   !> Turns of the edge in one cell, positive where the contact is convex; their sum over a closed edge is 1 or -1.
-   pure real(dp) function turns(corners)
-      logical, intent(in) :: corners(4)   !! whether they are in contact, counter-clockwise
+   !> How many right angles the edge turns by from one side of a cell to another, positive where the contact is convex;
+   !> their sum over a closed edge is 4 or -4.
+   pure integer function quarter_turns(from, to)
+      type(edge_point), intent(in) :: from, to
 
-      select case (count(corners))
-      case (1)
-         turns = 0.25_dp
-      case (2)
-         turns = merge(-0.5_dp, 0.0_dp, (corners(1) .eqv. corners(3)) .and. (corners(1) .neqv. corners(2)))
-      case default
-         turns = -0.25_dp
-      end select
-   end function turns
+      quarter_turns = modulo(to%number - from%number, 4) - 2
+   end function quarter_turns
 
-   !> Area between the chord from one point of the edge to the next and the edge, on the side of the contact, which is
-   !> on the left [rad^2]. The edge is the cubic curve with the directions at its ends, or straight where they are not
-   !> known.
+   !> Area between the chord from one point of the edge to the next in a cell and the edge, on the side of the contact,
+   !> which is on the left [rad^2]. The edge is the cubic curve with the directions at its ends, or straight where they
+   !> are not known.
    pure real(dp) function beside_chord(self, from, to) result(lens)
       class(contact_edge), intent(in) :: self
-      type(edge_point), intent(in) :: from, to
+      type(edge_point), intent(in) :: from, to   !! `number` as of sides of this cell
 
       real(dp), parameter :: steepest = 3.0_dp   ! a curve steeper than this against its chord is not resolved: straight
       real(dp) :: chord(2), slopes(2)
@@ -162,16 +149,6 @@ contains
       end function slope
 
    end function beside_chord
-
-   !> What is added to the area of a cell through which the edge runs once [rad^2]. Here nothing is.
-   pure real(dp) function area_correction(self, k, l, turns) result(area)
-      class(contact_edge), intent(in) :: self
-      integer, intent(in) :: k, l       !! the cell
-      real(dp), intent(in) :: turns     !! of the edge in the cell, positive where the contact is convex
-
-      associate (unused => self, unused_too => [k, l], also_unused => turns); end associate
-      area = 0.0_dp
-   end function area_correction
 
    !> The component of a cross product out of the plane.
    pure real(dp) function cross(a, b)

@@ -66,25 +66,18 @@ contains
       type(contact_spots), intent(out) :: answer
 
       type(contact_region), allocatable :: spots(:), pools(:)
-      integer, allocatable :: spot(:), pool(:)
 
       if (dimension == 1) then
-         call find_strips(curves, spots, pools)
+         call find_strips(curves, loads, is_map, spots, pools)
       else
-         spot = curves%spot
-         pool = curves%pool
-         call find_regions(spot, pool, 1, curves, area, length, is_map, spots)
-         call find_regions(pool, spot, -1, curves, 1.0_dp - area, length, is_map, pools)
+         call find_regions(curves%spot, curves%pool, 1, curves, area, length, is_map, spots)
+         call find_regions(curves%pool, curves%spot, -1, curves, 1.0_dp - area, length, is_map, pools)
+         spots%load_fraction = or_nan(unknown)
+         if (size(loads) == size(spots)) spots%load_fraction = loads
+         pools%load_fraction = or_nan(unknown)
       end if
       call add_up_to(area, spots)
       call add_up_to(1.0_dp - area, pools)
-      spots%load_fraction = or_nan(unknown)
-      if (size(loads) == size(spots)) spots%load_fraction = loads
-      pools%load_fraction = or_nan(unknown)
-      if (dimension == 1 .and. is_map) then
-         call keep_strips_of_map(spots)
-         call keep_strips_of_map(pools)
-      end if
       call sort_by_area(spots, answer%spots)
       call sort_by_area(pools, answer%pools)
    end subroutine find_spots
@@ -125,7 +118,7 @@ contains
       goes_around = .false.
       is_counted = .false.
       do i = 1, size(curves)
-         associate (region => regions(number(i)))
+         associate (region => regions(number(i)), x => curves(i)%phi, y => curves(i)%theta)
             region%area_fraction = region%area_fraction + outwards*curves(i)%area/cell_area
             region%perimeter = region%perimeter + curve_length(curves(i), length)
             if (curves(i)%turns == outwards) then
@@ -133,7 +126,8 @@ contains
                region%centre = centroid(curves(i), is_map)
             else if (curves(i)%turns == 0) then
                goes_around(number(i)) = .true.
-               region%percolates = region%percolates .or. winding_numbers(curves(i)) /= 0
+               ! How many cells it goes on until it comes again.
+               region%percolates = region%percolates .or. nint([x(size(x)) - x(1), y(size(y)) - y(1)]/(2*pi)) /= 0
             else if (.not. is_counted(other(i))) then
                ! A hole has one outer edge, but of a mirrored map it stands for its images too.
                is_counted(other(i)) = .true.
@@ -171,66 +165,57 @@ contains
          regions%area_fraction = regions%area_fraction*(total/sum(regions%area_fraction))
    end subroutine add_up_to
 
-   !> The strips of a 1-D contact and the gaps between them: all endless along y, none along x.
-   subroutine find_strips(strips, spots, pools)
-      type(contact_contour), intent(in) :: strips(:)   !! ascending
+   !> The strips of a 1-D contact and the gaps between them, of a mirrored map those of the map: all endless along y,
+   !> none along x.
+   subroutine find_strips(strips, loads, is_map, spots, pools)
+      type(contact_contour), intent(in) :: strips(:)   !! of the cell, ascending
+      real(dp), intent(in) :: loads(:)                 !! as of find_spots
+      logical, intent(in) :: is_map
       type(contact_region), allocatable, intent(out) :: spots(:), pools(:)
 
-      real(dp) :: last, next
+      real(dp) :: load
       integer :: i, n
 
       n = size(strips)
       allocate (spots(n), pools(n))
+      load = or_nan(unknown)
       do i = 1, n
-         spots(i)%area_fraction = strips(i)%area/cell_area
-         last = strips(i)%phi(2)
-         next = strips(mod(i, n) + 1)%phi(1) + merge(2*pi, 0.0_dp, i == n)
-         pools(i)%area_fraction = (next - last)/(2*pi)
-         spots(i)%centre = in_cell([0.5_dp*sum(strips(i)%phi), 0.0_dp])
-         pools(i)%centre = in_cell([0.5_dp*(last + next), 0.0_dp])
-         spots(i)%percolates = [.false., .true.]
-         pools(i)%percolates = [.false., .true.]
-      end do
-      spots%perimeter = or_nan(unknown)
-      pools%perimeter = or_nan(unknown)
-   end subroutine find_strips
-
-   !> The strips of a mirrored map, from those of the cell: two that are mirror images are one of twice the part of the
-   !> cell, and one across a border of the map is its own image.
-   pure subroutine keep_strips_of_map(strips)
-      type(contact_region), allocatable, intent(inout) :: strips(:)
-
-      type(contact_region), allocatable :: kept(:)
-      integer :: i
-
-      allocate (kept(0))
-      do i = 1, size(strips)
-         associate (centre => strips(i)%centre(1), half => pi*strips(i)%area_fraction)
-            if (abs(centre - pi) < half) then
-               centre = pi - 0.5_dp*half
-            else if (min(centre, 2*pi - centre) < half) then
-               centre = 0.5_dp*half
-            else if (centre <= pi) then
-               strips(i)%area_fraction = 2*strips(i)%area_fraction
-               strips(i)%load_fraction = 2*strips(i)%load_fraction
-            else
-               cycle
-            end if
+         if (size(loads) == n) load = loads(i)
+         spots(i) = strip(strips(i)%phi, load)
+         associate (next => strips(mod(i, n) + 1), period => merge(2*pi, 0.0_dp, i == n))
+            ! The last gap begins before the first strip, or ends a period on if that is in contact at 0.
+            pools(i) = strip([strips(i)%phi(2), next%phi(1)] + period*merge([-1, 0], [0, 1], next%phi(1) > 0.0_dp), &
+                             or_nan(unknown))
          end associate
-         kept = [kept, strips(i)]
       end do
-      call move_alloc(kept, strips)
-   end subroutine keep_strips_of_map
+      if (.not. is_map) return
+      ! Those beyond the map are mirror images.
+      spots = pack(spots, spots%area_fraction > 0.0_dp)
+      pools = pack(pools, pools%area_fraction > 0.0_dp)
 
-   !> How many cells a curve goes on along X and Y until it comes again.
-   pure function winding_numbers(curve) result(numbers)
-      type(contact_contour), intent(in) :: curve
-      integer :: numbers(2)
+   contains
 
-      associate (n => size(curve%phi))
-         numbers = nint([curve%phi(n) - curve%phi(1), curve%theta(n) - curve%theta(1)]/(2*pi))
-      end associate
-   end function winding_numbers
+      !> A strip of the cell or, if that is a map and its image, the part in the map.
+      pure type(contact_region) function strip(ends, load)
+         real(dp), intent(in) :: ends(2)   !! [rad]
+         real(dp), intent(in) :: load      !! over that of the cell
+
+         real(dp) :: in_map(2)
+
+         strip%area_fraction = (ends(2) - ends(1))/(2*pi)
+         strip%perimeter = or_nan(unknown)
+         strip%load_fraction = load
+         strip%centre = in_cell([0.5_dp*sum(ends), 0.0_dp])
+         strip%percolates(2) = .true.
+         if (.not. is_map) return
+         ! One between the borders of the map has the load of its mirror image too.
+         if (ends(1) >= 0.0_dp .and. ends(2) <= pi) strip%load_fraction = 2*load
+         in_map = min(max(ends, 0.0_dp), pi)
+         strip%area_fraction = (in_map(2) - in_map(1))/pi
+         strip%centre(1) = 0.5_dp*sum(in_map)
+      end function strip
+
+   end subroutine find_strips
 
    !> The length of a curve [length].
    pure real(dp) function curve_length(curve, length)

@@ -5,6 +5,7 @@ module wavycon_grid_area
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
+   use wavycon_contact_edge, only: edge_point
    use wavycon_grid_edge, only: balance, grid_edge
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: part_inside
@@ -39,7 +40,7 @@ contains
       ! The mirror line divides the cells at the rim of the quarter.
       if (edge%even .and. edge%slab%first == 1 .and. edge%slab%columns() > 0) &
          areas(1, 1) = areas(1, 1) + area_of_cells(edge, 0)
-      fraction = max(sum(edge%slab%column_totals(areas)), 0.0_dp)/edge%number_of_points()
+      fraction = max(sum(edge%slab%column_totals(areas)), 0.0_dp)/product(real(edge%slab%points, dp))
    end function grid_contact_area
 
    !> The area in contact of a column of cells [cells], by (C12).
@@ -57,12 +58,9 @@ contains
       area = 0.0_dp
       if (.not. any(low) .and. .not. any(high)) return
       do i = merge(0, 1, edge%even), m
-         share = 1.0_dp
-         if (edge%even) then
-            ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
-            share = merge(0.5_dp, 1.0_dp, i == 0 .or. i == m) &
-                    *merge(0.5_dp, 1.0_dp, l == 0 .or. l == edge%slab%points(2))
-         end if
+         ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
+         share = merge(0.5_dp, 1.0_dp, edge%even .and. (i == 0 .or. i == m)) &
+                 *merge(0.5_dp, 1.0_dp, edge%even .and. (l == 0 .or. l == edge%slab%points(2)))
          if (all([low(i:i + 1), high(i:i + 1)])) then
             area = area + share
          else if (any([low(i:i + 1), high(i:i + 1)])) then
@@ -77,32 +75,27 @@ contains
       type(grid_edge), intent(in) :: edge
       real(dp), allocatable, intent(out) :: edges(:)
 
-      real(dp) :: found(edge%slab%points(1)), place(2)
-      integer :: count, i, inner, way
+      real(dp) :: distance, found(edge%slab%points(1)), place(2)
+      integer :: count, i
+      type(edge_point) :: point
 
       call assert(edge%slab%points(2) == 1, 'the grid is one of 1-D')
       count = 0
       do i = 1, size(found) - merge(1, 0, edge%even)
-         if (edge%in_contact(i, 1) .eqv. edge%in_contact(i + 1, 1)) cycle
+         point = edge%side(i, 1, 1)
+         if (point%number == 0) cycle
          count = count + 1
-         inner = merge(i, i + 1, edge%in_contact(i, 1))
-         way = merge(1, -1, inner == i)
-         place = edge%angles([inner + way*distance_to_edge(edge, inner, way), 1.0_dp])
+         ! In steps from the point in contact, (C11).
+         distance = balance(edge, point, edge%rule%aligned_weight) - edge%rule%aligned_offset
+         associate (way => point%outer - point%inner)
+            ! A contact of one point has no negative width.
+            if (.not. edge%in_contact(point%inner(1) - way(1), 1)) distance = max(distance, 0.0_dp)
+            place = edge%angles(point%inner + distance*way)
+         end associate
          found(count) = place(1)
       end do
       allocate (edges, source=found(:count))
    end subroutine grid_strip_edges
-
-   !> The distance of the edge from a point in contact towards its neighbour outside in 1-D, in steps (C11).
-   pure real(dp) function distance_to_edge(edge, k, dk) result(distance)
-      type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: k    !! the point in contact
-      integer, intent(in) :: dk   !! the step to its neighbour, 1 or -1
-
-      distance = balance(edge, [k, 1], [k + dk, 1], edge%rule%aligned_weight) - edge%rule%aligned_offset
-      ! A contact of one point has no negative width.
-      if (.not. edge%in_contact(k - dk, 1)) distance = max(distance, 0.0_dp)
-   end function distance_to_edge
 
    !> Points in contact over all points.
    real(dp) function counted_area_fraction(edge) result(fraction)
@@ -112,14 +105,14 @@ contains
 
       total = count(edge%pressure_or_gap > 0.0_dp, kind=int64)
       call edge%slab%add(total)
-      fraction = total(1)/real(edge%number_of_points(), dp)
+      fraction = total(1)/product(real(edge%slab%points, dp))
    end function counted_area_fraction
 
    !> The counted area less c for each change from contact to gap (C26).
    real(dp) function corrected_area_fraction(edge) result(fraction)
       type(grid_edge), intent(in) :: edge   !! of a surface: a profile has no lines in a second direction
 
-      fraction = counted_area_fraction(edge) - area_of_change*edge_crossings(edge)/edge%number_of_points()
+      fraction = counted_area_fraction(edge) - area_of_change*edge_crossings(edge)/product(real(edge%slab%points, dp))
    end function corrected_area_fraction
 
    !> Number of pairs of neighbouring points of the grid, along both directions, of which one is in contact and the

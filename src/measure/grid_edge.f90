@@ -6,9 +6,8 @@
 !> `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first
 !> outside are both linear in the place of the edge between them, so that their ratio gives the place.
 module wavycon_grid_edge
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
-   use wavycon_contact_edge, only: contact_edge, edge_point
+   use wavycon_contact_edge, only: contact_edge, edge_point, quarter_turns
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
@@ -48,11 +47,9 @@ module wavycon_grid_edge
       procedure :: in_contact
       procedure :: place_edge
       procedure :: beside_chord
-      procedure :: area_correction
       procedure :: place
       procedure :: at
       procedure :: column
-      procedure :: number_of_points
       procedure :: fetch_neighbours
    end type grid_edge
 
@@ -179,13 +176,6 @@ contains
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
 
-   !> The number of points of the grid.
-   pure integer(int64) function number_of_points(self) result(number)
-      class(grid_edge), intent(in) :: self
-
-      number = product(int(self%slab%points, int64))
-   end function number_of_points
-
    !> The index of the grid's point of which a point of the plane is the image.
    elemental integer function place(self, k, direction)
       class(grid_edge), intent(in) :: self
@@ -196,18 +186,17 @@ contains
    end function place
 
    !> Where pressure and weighted gap balance: the edge is `edge_offset` steps further inside.
-   pure subroutine place_edge(self, inner, outer, point)
+   pure subroutine place_edge(self, point)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: inner(2), outer(2)
       type(edge_point), intent(inout) :: point
 
-      point%angle = self%angles(inner + balance(self, inner, outer, self%rule%gap_weight)*(outer - inner))
+      point%angle = self%angles(point%inner + balance(self, point, self%rule%gap_weight)*(point%outer - point%inner))
    end subroutine place_edge
 
-   !> The distance of the place where pressure and weighted gap balance from a point in contact, in steps, 0 .. 1.
-   pure real(dp) function balance(edge, inner, outer, weight)
+   !> The distance of the place where pressure and weighted gap balance from the point in contact, in steps, 0 .. 1.
+   pure real(dp) function balance(edge, point, weight)
       type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: inner(2), outer(2)   !! (k, l) of the point in contact and of its neighbour outside
+      type(edge_point), intent(in) :: point       !! its neighbours
       real(dp), intent(in) :: weight              !! of the gap
 
       integer :: across(2)
@@ -216,73 +205,48 @@ contains
       stiffness = edge%stiffness(1)
       if (abs(edge%stiffness(2) - stiffness) > epsilon(stiffness)*stiffness) then
          ! That of the step along the normal, whose direction follows from the differences along and across the step.
-         across = abs([outer(2) - inner(2), outer(1) - inner(1)])
-         slope(1) = 4*(height(inner) - height(outer))
-         slope(2) = height(inner + across) - height(inner - across) + height(outer + across) - height(outer - across)
+         associate (inner => point%inner, outer => point%outer)
+            across = abs([outer(2) - inner(2), outer(1) - inner(1)])
+            slope(1) = 4*(height(inner) - height(outer))
+            slope(2) = height(inner + across) - height(inner - across) + height(outer + across) - height(outer - across)
+         end associate
          stiffness = norm2(slope*edge%stiffness(1 + across))/norm2(slope)
       end if
-      associate (pressure => edge%at(inner(1), inner(2)), gap => -edge%at(outer(1), outer(2)))
+      associate (pressure => edge%at(point%inner(1), point%inner(2)), gap => -edge%at(point%outer(1), point%outer(2)))
          balance = pressure/(pressure + weight*stiffness*gap)
       end associate
 
    contains
 
       !> Pressure, or minus the weighted gap.
-      pure real(dp) function height(point)
-         integer, intent(in) :: point(2)
+      pure real(dp) function height(place)
+         integer, intent(in) :: place(2)
 
-         height = edge%at(point(1), point(2))
+         height = edge%at(place(1), place(2))
          if (height <= 0.0_dp) height = height*weight*edge%stiffness(1)
       end function height
 
    end function balance
 
-   !> The area of the strip between balance and edge [rad^2] (C12).
-   pure real(dp) function beside_chord(self, from, to)
+   !> The terms of (C12) besides the polygon [rad^2]: the strip between balance and edge, less what a turn of the edge
+   !> adds and, where it runs along a line of the grid, (C11).
+   pure real(dp) function beside_chord(self, from, to) result(area)
       class(grid_edge), intent(in) :: self
       type(edge_point), intent(in) :: from, to
 
-      beside_chord = self%rule%offset*product(self%step)*norm2((to%angle - from%angle)/self%step)
-   end function beside_chord
-
-   !> The terms of (C12) besides the polygon and the strip along it, for one passage of the edge [rad^2].
-   pure real(dp) function area_correction(self, k, l, turns) result(area)
-      class(grid_edge), intent(in) :: self
-      integer, intent(in) :: k, l
-      real(dp), intent(in) :: turns
-
-      area = product(self%step)*(self%rule%turn_area*turns + aligned_part(self, k, l))
-   end function area_correction
-
-   !> What (C11) adds to the area of a cell, in cells, where the edge runs along a line of the grid.
-   pure real(dp) function aligned_part(edge, k, l) result(change)
-      type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: k, l              !! the cell
-
-      integer :: across(2), i, inner(2, 2), j, outer(2, 2)
-      logical :: along_k, along_l, inside(2, 2)
       real(dp) :: aligned(2), any_direction(2), slope
 
-      change = 0.0_dp
-      inside = reshape([((edge%in_contact(k + i, l + j), i=0, 1), j=0, 1)], [2, 2])
-      along_k = all(inside(1, :) .eqv. inside(2, :))
-      along_l = all(inside(:, 1) .eqv. inside(:, 2))
-      if (.not. (along_k .or. along_l)) return
-      across = merge([0, 1], [1, 0], along_k)
-      do i = 1, 2
-         inner(:, i) = [k, l] + (i - 1)*across([2, 1])
-         outer(:, i) = inner(:, i) + across
-         if (edge%in_contact(outer(1, i), outer(2, i))) then
-            outer(:, i) = inner(:, i)
-            inner(:, i) = inner(:, i) + across
+      associate (rule => self%rule, turns => quarter_turns(from, to))
+         area = rule%offset*norm2((to%angle - from%angle)/self%step) - 0.25_dp*turns*rule%turn_area
+         if (turns == 0) then
+            any_direction = [balance(self, from, rule%gap_weight), balance(self, to, rule%gap_weight)]
+            slope = abs(any_direction(2) - any_direction(1))
+            aligned = [balance(self, from, rule%aligned_weight), balance(self, to, rule%aligned_weight)]
+            area = area - max(1.0_dp - slope/aligned_slope, 0.0_dp) &
+                   *(0.5_dp*sum(aligned - any_direction) - rule%aligned_offset + rule%offset)
          end if
-      end do
-      any_direction = [(balance(edge, inner(:, i), outer(:, i), edge%rule%gap_weight), i=1, 2)]
-      slope = abs(any_direction(2) - any_direction(1))
-      if (slope >= aligned_slope) return
-      aligned = [(balance(edge, inner(:, i), outer(:, i), edge%rule%aligned_weight), i=1, 2)]
-      change = (1.0_dp - slope/aligned_slope)*(0.5_dp*sum(aligned - any_direction) - edge%rule%aligned_offset &
-                                                  + edge%rule%offset)
-   end function aligned_part
+      end associate
+      area = product(self%step)*area
+   end function beside_chord
 
 end module wavycon_grid_edge

@@ -55,19 +55,15 @@ contains
       type(peak_polynomial) :: field
       real(dp) :: height, place(2)
       integer :: base(2), i, j
-      logical :: in_plane
 
-      in_plane = edge%slab%points(2) > 1
       ! From the lines through the largest pressure both ways: a mirror image has the same peak.
       base = best
       if (edge%at(best(1) - 1, best(2)) > edge%at(best(1) + 1, best(2))) base(1) = best(1) - 1
-      if (in_plane) then
-         if (edge%at(best(1), best(2) - 1) > edge%at(best(1), best(2) + 1)) base(2) = best(2) - 1
-      end if
-      field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=in_plane)
+      if (edge%at(best(1), best(2) - 1) > edge%at(best(1), best(2) + 1)) base(2) = best(2) - 1
+      field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=edge%slab%points(2) > 1)
       do j = first, last
          do i = first, last
-            field%values(i, j) = edge%at(base(1) + i, merge(base(2) + j, 1, in_plane))
+            field%values(i, j) = edge%at(base(1) + i, base(2) + j)
          end do
       end do
       resolved = all(field%values > 0.0_dp)
@@ -83,45 +79,35 @@ contains
       real(dp), intent(in) :: place(2)
       real(dp), intent(out) :: height, gradient(2), hessian(3)
 
-      height = polynomial(self%values, place, 0, 0)
-      gradient = [polynomial(self%values, place, 1, 0), 0.0_dp]
-      hessian = [polynomial(self%values, place, 2, 0), 0.0_dp, 0.0_dp]
-      hessian(3) = hessian(1)
-      if (.not. self%in_plane) return
-      gradient(2) = polynomial(self%values, place, 0, 1)
-      hessian(2:3) = [polynomial(self%values, place, 1, 1), polynomial(self%values, place, 0, 2)]
+      real(dp), dimension(first:last, 0:2) :: along_x, along_y
+      real(dp) :: derivatives(0:2, 0:2)   ! of each order along x and y
+
+      along_x = weights(place(1))
+      along_y = weights(place(2))
+      derivatives = matmul(transpose(along_x), matmul(self%values, along_y))
+      height = derivatives(0, 0)
+      gradient = [derivatives(1, 0), derivatives(0, 1)]
+      hessian = [derivatives(2, 0), derivatives(1, 1), derivatives(0, 2)]
+      if (self%in_plane) return
+      gradient(2) = 0.0_dp
+      hessian(2:3) = [0.0_dp, hessian(1)]
    end subroutine expand
 
-   !> The polynomial through the values, or a derivative of it.
-   pure real(dp) function polynomial(values, t, order_x, order_y)
-      real(dp), intent(in) :: values(first:last, first:last), t(2)
-      integer, intent(in) :: order_x, order_y   !! 0, 1 or 2
-
-      real(dp) :: along_x(first:last), along_y(first:last)
-
-      along_x = weights(t(1), order_x)
-      along_y = weights(t(2), order_y)
-      polynomial = dot_product(along_x, matmul(values, along_y))
-   end function polynomial
-
-   !> Lagrange's polynomials of the points, or their derivatives.
-   pure function weights(t, order)
+   !> Lagrange's polynomials of the points, and their first and second derivatives.
+   pure function weights(t)
       real(dp), intent(in) :: t
-      integer, intent(in) :: order   !! 0, 1 or 2
-      real(dp) :: weights(first:last)
+      real(dp) :: weights(first:last, 0:2)
 
-      real(dp) :: powers(0:2)
       integer :: i, k
 
       do k = first, last
          ! Value, first and half the second derivative of the product of (t - i)/(k - i).
-         powers = [1.0_dp, 0.0_dp, 0.0_dp]
+         weights(k, :) = [1.0_dp, 0.0_dp, 0.0_dp]
          do i = first, last
-            if (i == k) cycle
-            powers = ((t - i)*powers + [0.0_dp, powers(0), powers(1)])/(k - i)
+            if (i /= k) weights(k, :) = ((t - i)*weights(k, :) + [0.0_dp, weights(k, :1)])/(k - i)
          end do
-         weights(k) = powers(order)*merge(2, 1, order == 2)
       end do
+      weights(:, 2) = 2*weights(:, 2)
    end function weights
 
 end module wavycon_grid_peak

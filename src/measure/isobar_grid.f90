@@ -88,18 +88,17 @@ contains
    end function node
 
    !> The zero of p - level between two nodes, and the gradient there.
-   pure subroutine place_edge(self, inner, outer, point)
+   pure subroutine place_edge(self, point)
       class(isobar_grid), intent(in) :: self
-      integer, intent(in) :: inner(2), outer(2)
       type(edge_point), intent(inout) :: point
 
       integer :: along, across, low(2), high(2), line
       real(dp) :: unused
 
-      along = merge(1, 2, inner(2) == outer(2))
+      along = merge(1, 2, point%inner(2) == point%outer(2))
       across = 3 - along
-      low = min(inner, outer)
-      high = max(inner, outer)
+      low = min(point%inner, point%outer)
+      high = max(point%inner, point%outer)
       line = folded(low(across), self%intervals)
       call zero_between(self%along(:, line, along), low(along)*self%step(along), self%step(along), &
                         self%node(low(1), low(2)), self%node(high(1), high(2)), point%angle(along), point%slope(along))

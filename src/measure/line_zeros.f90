@@ -38,13 +38,11 @@ contains
       logical, intent(in) :: starts_inside
       real(dp), intent(in) :: last              !! end of the range [rad]
 
-      integer :: i
-
-      part = merge(last, 0.0_dp, starts_inside .neqv. mod(size(edges), 2) == 1)
-      do i = 1, size(edges)
-         part = part + merge(edges(i), -edges(i), starts_inside .eqv. mod(i, 2) == 1)
-      end do
-      part = part/last
+      associate (ends => [0.0_dp, edges, last])
+         associate (widths => ends(2:) - ends(:size(ends) - 1))
+            part = sum(widths(merge(1, 2, starts_inside)::2))/last
+         end associate
+      end associate
    end function part_inside
 
    !> Where sum_i c_i cos(i x) changes sign between two points: Newton's method, kept inside the bracket by

@@ -17,7 +17,6 @@ module wavycon_region_numbers
       integer :: spots = 0, pools = 0
       integer :: skew = 0   !! steps along k after which the cell comes again, cell_l rows on
    contains
-      procedure :: of_point
       procedure :: wrap
    end type region_numbers
 
@@ -34,18 +33,28 @@ contains
       logical, intent(in), optional :: with_images
 
       integer, allocatable :: parent(:), number_of(:)
+      logical :: contact, last, with_mirrored
       integer :: k, l, root, runs
 
       allocate (numbers%at(0:cell(1) - 1, 0:cell(2) - 1))
       numbers%skew = skew
-      call number_runs(edge, numbers%at, runs)
+      ! Runs of equal points along the rows: positive in contact, negative elsewhere.
+      runs = 0
+      last = .false.
+      do l = 0, cell(2) - 1
+         do k = 0, cell(1) - 1
+            contact = edge%in_contact(k, l)
+            if (k == 0 .or. (contact .neqv. last)) runs = runs + 1
+            numbers%at(k, l) = merge(runs, -runs, contact)
+            last = contact
+         end do
+      end do
+      with_mirrored = .false.
+      if (present(with_images)) with_mirrored = with_images
       parent = [(k, k=1, runs)]
       do l = 0, cell(2) - 1
-         call join_row(numbers, l, parent)
+         call join_row(numbers, l, with_mirrored, parent)
       end do
-      if (present(with_images)) then
-         if (with_images) call join_images(numbers%at, parent)
-      end if
 
       allocate (number_of(runs), source=0)
       do l = 0, cell(2) - 1
@@ -67,17 +76,6 @@ contains
       end do
    end subroutine find_region_numbers
 
-   !> The number of a point of the plane.
-   pure integer function of_point(self, k, l)
-      class(region_numbers), intent(in) :: self
-      integer, intent(in) :: k, l   !! any
-
-      integer :: place(2)
-
-      place = self%wrap(k, l)
-      of_point = self%at(place(1), place(2))
-   end function of_point
-
    !> The point of the cell of which a point of the plane is the image.
    pure function wrap(self, k, l) result(place)
       class(region_numbers), intent(in) :: self
@@ -91,71 +89,33 @@ contains
       place(1) = modulo(k - self%skew*((l - place(2))/rows), size(self%at, 1))
    end function wrap
 
-   !> Numbers the runs of equal points along the rows: positive in contact, negative elsewhere.
-   subroutine number_runs(edge, at, runs)
-      class(contact_edge), intent(in) :: edge
-      integer, intent(out) :: at(0:, 0:)
-      integer, intent(out) :: runs
-
-      logical :: contact, last
-      integer :: k, l
-
-      runs = 0
-      last = .false.
-      do l = 0, ubound(at, 2)
-         do k = 0, ubound(at, 1)
-            contact = edge%in_contact(k, l)
-            if (k == 0 .or. (contact .neqv. last)) runs = runs + 1
-            at(k, l) = merge(runs, -runs, contact)
-            last = contact
-         end do
-      end do
-   end subroutine number_runs
-
    !> Joins the runs of a row with those that they touch in the same row, over the side of the cell, and in the next.
-   subroutine join_row(numbers, l, parent)
+   subroutine join_row(numbers, l, with_images, parent)
       type(region_numbers), intent(in) :: numbers   !! its `at` has the numbers of runs
       integer, intent(in) :: l
+      logical, intent(in) :: with_images            !! whether to join mirror images, which are of one kind, too
       integer, intent(inout) :: parent(:)
 
       integer :: above(-1:size(numbers%at, 1)), k
 
-      associate (last => ubound(numbers%at, 1))
+      associate (last => ubound(numbers%at, 1), rows => size(numbers%at, 2))
          call join(parent, numbers%at(0, l), numbers%at(last, l))
-         do k = 0, last
-            if (l < ubound(numbers%at, 2)) then
-               above(k) = numbers%at(k, l + 1)
-            else
-               above(k) = numbers%of_point(k, l + 1)
-            end if
-         end do
+         above(0:last) = numbers%at(:, modulo(l + 1, rows))
+         if (l + 1 == rows) above(0:last) = cshift(above(0:last), -numbers%skew)
          above(-1) = above(last)
          above(last + 1) = above(0)
          do k = 0, last
             call join(parent, numbers%at(k, l), above(k))
+            if (with_images) then
+               call join(parent, numbers%at(k, l), numbers%at(modulo(1 - k, last + 1), l))
+               call join(parent, numbers%at(k, l), numbers%at(k, modulo(1 - l, rows)))
+            end if
             if (numbers%at(k, l) < 0) cycle
             call join(parent, numbers%at(k, l), above(k - 1))
             call join(parent, numbers%at(k, l), above(k + 1))
          end do
       end associate
    end subroutine join_row
-
-   !> Joins the runs of each point with those of its mirror images, which are of one kind.
-   pure subroutine join_images(at, parent)
-      integer, intent(in) :: at(0:, 0:)   !! the numbers of runs
-      integer, intent(inout) :: parent(:)
-
-      integer :: k, l
-
-      associate (points => shape(at))
-         do l = 0, points(2) - 1
-            do k = 0, points(1) - 1
-               call join(parent, at(k, l), at(modulo(1 - k, points(1)), l))
-               call join(parent, at(k, l), at(k, modulo(1 - l, points(2))))
-            end do
-         end do
-      end associate
-   end subroutine join_images
 
    !> Joins two runs, if both or neither are in contact.
    pure subroutine join(parent, a, b)

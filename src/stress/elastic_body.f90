@@ -26,19 +26,11 @@ contains
       real(dp), intent(in) :: pbar          !! mean pressure, in the unit of the parts
       real(dp) :: stress(6)                 !! xx, yy, zz, xy, xz, yz
 
-      real(dp) :: lateral
+      real(dp) :: lateral(3)   ! over -pbar, in the order of the names
 
-      select case (self%lateral)
-      case (laterally_free)
-         lateral = 0.0_dp
-      case (hydrostatic)
-         lateral = -pbar
-      case default
-         lateral = -self%nu/(1.0_dp - self%nu)*pbar
-      end select
+      lateral = [self%nu/(1.0_dp - self%nu), 0.0_dp, 1.0_dp]
       stress = parts(:, 1) + self%nu*parts(:, 2)
-      stress(xx) = stress(xx) + lateral
-      stress(yy) = stress(yy) + lateral
+      stress([xx, yy]) = stress([xx, yy]) - lateral(self%lateral)*pbar
       stress(zz) = stress(zz) - pbar
    end function stress
 

@@ -108,7 +108,7 @@ contains
       if (sets == 2) octave = [real(moment(0, 0, 0, 2) + depth*moment(0, 0, 1, 2)), &
                                -aimag(moment(1, 0, -1, 2) + depth*moment(1, 0, 0, 2)), &
                                -aimag(moment(0, 1, -1, 2) + depth*moment(0, 1, 0, 2))]
-      if (present(error)) error = error_of(self, parts, octave)
+      if (present(error)) error = error_of(self, parts(zz, 1) - self%pbar_over_pstar, octave)
       if (allocated(self%images)) parts = parts + self%images%correction([x, y, depth])
    end subroutine at
 
@@ -264,20 +264,20 @@ contains
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
          parts(:, :, i) = parts_of(sums(:8))
-         error(i) = error_of(self, parts(:, :, i), sums(9:))
+         error(i) = error_of(self, parts(zz, 1, i) - self%pbar_over_pstar, sums(9:))
          if (allocated(self%images)) parts(:, :, i) = parts(:, :, i) &
                                                       + self%images%correction([start + direction*t(i), depth])
       end do
    end subroutine on_line
 
-   !> The error (S5).
-   pure real(dp) function error_of(stress, parts, octave)
+   !> The error (S5). Below a pressure there is no tension.
+   pure real(dp) function error_of(stress, vertical, octave)
       class(series_stress), intent(in) :: stress
-      real(dp), intent(in) :: parts(6, 2)
-      real(dp), intent(in) :: octave(3)   !! sums over the waves of the last octave, with the weights below
+      real(dp), intent(in) :: vertical    !! zz with that of the mean pressure [p*]
+      real(dp), intent(in) :: octave(:)   !! sums over the waves of the last octave; of no size if none reach the depth
 
       error_of = stress%pressure_error + octave_factor*norm2(octave)
-      if (.not. ieee_is_nan(error_of)) error_of = max(error_of, parts(zz, 1) - stress%pbar_over_pstar)
+      if (.not. ieee_is_nan(error_of)) error_of = max(error_of, vertical)
    end function error_of
 
    !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower
@@ -299,9 +299,8 @@ contains
       integer :: i, k, l, number
 
       if (.not. self%exist) then
-         allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
-         stress = ieee_value(stress, ieee_quiet_nan)
-         error = ieee_value(error, ieee_quiet_nan)
+         allocate (stress(points(1), points(2), 6), error(points(1), points(2)), &
+                   source=ieee_value(1.0_dp, ieee_quiet_nan))
          return
       end if
       number = merge(9, 6, self%waves%octave_reaches(depth))
@@ -314,26 +313,15 @@ contains
       end associate
       do i = 1, number
          call plane%sample_waves(waves(:, :, i), fields(:, :, i))
-         if (i <= zz) fields(:, :, i) = fields(:, :, i) + mean(i)
       end do
       deallocate (waves)
-      if (any(self%parts > 1)) fields = fields(:points(1), :points(2), :)
-      allocate (error(points(1), points(2)), source=0.0_dp)
-      do i = 7, number
-         error = error + fields(:, :, i)**2
-      end do
-      error = self%pressure_error + octave_factor*sqrt(error)
-      if (.not. ieee_is_nan(self%pressure_error)) error = max(error, fields(:, :, zz))
-      if (number == 6) then
-         call move_alloc(fields, stress)
-      else
-         allocate (stress, source=fields(:, :, :6))
-      end if
-      if (.not. allocated(self%images)) return
+      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
       do l = 1, points(2)
          do k = 1, points(1)
-            stress(k, l, :) = stress(k, l, :) &
-                              + matmul(self%images%correction([([k, l] - 1 + offset)*step, depth]), [1.0_dp, body%nu])
+            stress(k, l, :) = fields(k, l, :6) + mean
+            error(k, l) = error_of(self, stress(k, l, zz), fields(k, l, 7:))
+            if (allocated(self%images)) stress(k, l, :) = stress(k, l, :) &
+               + matmul(self%images%correction([([k, l] - 1 + offset)*step, depth]), [1.0_dp, body%nu])
          end do
       end do
    end subroutine on_plane
@@ -351,8 +339,10 @@ contains
       integer, parameter :: window(2) = window_points
       real(dp), allocatable :: highest(:, :), pressure(:, :)
       real(dp) :: largest, region, step
+      type(fourier_series) :: series
+      type(grid_transform) :: plane
       type(stress_waves) :: waves
-      integer :: block(2), last, points(2), shallow
+      integer :: block(2), i, last, points(2), shallow
 
       step = least_width(self)
       last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
@@ -363,19 +353,23 @@ contains
       region = merge(0.5_dp, 1.0_dp, self%waves%is_even .or. allocated(self%images))
       shallow = -1
       if (all(points >= 4*window)) then
-         call find_pressures(self, points, min(floor(region*points), points - 1), pressure, highest)
+         call find_pressures()
          if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
             shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
       end if
       call scan(self%waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
       if (shallow < 0) return
+      call plane%start(window, even=.false., whole=.true.)
       do
          block = maxloc(highest)
          ! Below a pressure of at most p the stress is hardly as large as p.
          if (highest(block(1), block(2)) <= largest) exit
          highest(block(1), block(2)) = -1.0_dp
-         associate (corner => (block - 1)*middle - middle/2)
-            call start_window(self, pressure, corner, waves)
+         associate (corner => (block - 1)*middle - middle/2, from => [(i, i=0, window_points - 1)], n => points)
+            call plane%series(pressure(modulo(corner(1) + from, n(1)), modulo(corner(2) + from, n(2))), series)
+            call waves%start(series, self%side_ratio*n(1)/n(2), is_sampled=.true.)
+            ! What the mean of the window exceeds that of the cell by is a long wave.
+            waves%wave(0, 0) = series%c(0, 0) - self%pbar_over_pstar
             call scan(waves, 0, shallow, corner, window, 0.25_dp, 0.75_dp)
          end associate
       end do
@@ -430,48 +424,21 @@ contains
          end associate
       end subroutine scan
 
+      !> The pressure at the points of the cell, and the largest ones in the middle of windows.
+      subroutine find_pressures()
+         complex(dp), allocatable :: spectrum(:, :, :)
+         integer :: j, seen(2)
+
+         allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
+         call plane%start(points, even=.false., whole=.true.)
+         call self%waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
+         call plane%sample_waves(spectrum(:, :, 1), pressure)
+         pressure = pressure + self%pbar_over_pstar
+         seen = min(floor(region*points), points - 1)
+         highest = reshape([((maxval(pressure(i:min(i + middle, seen(1)), j:min(j + middle, seen(2)))), &
+                              i=0, seen(1), middle), j=0, seen(2), middle)], seen/middle + 1)
+      end subroutine find_pressures
+
    end subroutine start_places
-
-   !> The pressure at the points of the cell, and the largest ones in the middle of windows.
-   subroutine find_pressures(stress, points, region, pressure, highest)
-      class(series_stress), intent(in) :: stress
-      integer, intent(in) :: points(2)                       !! of the cell
-      integer, intent(in) :: region(2)                       !! last point to look at, from 0
-      real(dp), allocatable, intent(out) :: pressure(:, :)   !! [p*]
-      real(dp), allocatable, intent(out) :: highest(:, :)    !! of each `middle` points along X and Y, from 0 on
-
-      complex(dp), allocatable :: spectrum(:, :, :)
-      type(grid_transform) :: plane
-      integer :: i, j
-
-      allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
-      call plane%start(points, even=.false., whole=.true.)
-      call stress%waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
-      call plane%sample_waves(spectrum(:, :, 1), pressure)
-      pressure = pressure + stress%pbar_over_pstar
-      highest = reshape([((maxval(pressure(i:min(i + middle, region(1)), j:min(j + middle, region(2)))), &
-                           i=0, region(1), middle), j=0, region(2), middle)], region/middle + 1)
-   end subroutine find_pressures
-
-   !> The waves of the pressure in a window, repeated.
-   subroutine start_window(stress, pressure, corner, waves)
-      class(series_stress), intent(in) :: stress
-      real(dp), intent(in) :: pressure(0:, 0:)
-      integer, intent(in) :: corner(2)
-      type(stress_waves), intent(out) :: waves
-
-      integer, parameter :: points(2) = window_points
-      type(fourier_series) :: series
-      type(grid_transform) :: plane
-      integer :: i
-
-      call plane%start(points, even=.false., whole=.true.)
-      associate (from => [(i, i=0, window_points - 1)], n => shape(pressure))
-         call plane%series(pressure(modulo(corner(1) + from, n(1)), modulo(corner(2) + from, n(2))), series)
-         call waves%start(series, stress%side_ratio*n(1)/n(2), is_sampled=.true.)
-      end associate
-      ! What the mean of the window exceeds that of the cell by is a long wave.
-      waves%wave(0, 0) = series%c(0, 0) - stress%pbar_over_pstar
-   end subroutine start_window
 
 end module wavycon_series_stress

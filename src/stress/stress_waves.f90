@@ -119,11 +119,10 @@ contains
       sums = 0.0_dp
       do l = merge(0, -last(2), self%is_even), last(2)
          q_y = l/self%side_ratio
-         number = last(1) + 1
          do k = 0, last(1)
             q(k) = sqrt(real(k, dp)**2 + q_y**2)
          end do
-         if (place(3) > 0.0_dp) number = count(q*place(3) <= self%faintest)
+         number = count(q*place(3) <= self%faintest)
          if (number == 0) cycle
          q(0) = max(q(0), tiny(q))
          associate (m => number - 1)
