@@ -56,9 +56,7 @@ contains
    type(fourier_series) function displacement(self) result(series)
       class(series_source), intent(in) :: self
 
-      integer :: k
-
-      call self%terms%coefficients([(self%terms%compliance(k)*self%x(k), k=1, self%terms%count())], series%c)
+      call self%terms%coefficients(self%terms%compliance*self%x, series%c)
    end function displacement
 
    subroutine fields(self, record, surface, answer)
