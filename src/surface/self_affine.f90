@@ -68,7 +68,7 @@ contains
                           short_number(largest_number))
          return
       end if
-      map = statistics_of(height, 'made', points, spectrum%length/points)
+      map = statistics_of(height, 'made', points, spectrum%length/points, repeats=.true.)
       surface = surface_of_points(spectrum%length, height, points=points, has_free_edges=has_free_edges, radii=radii)
    end subroutine self_affine_surface
 
