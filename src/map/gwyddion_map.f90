@@ -14,20 +14,14 @@ module wavycon_gwyddion_map
    implicit none (type, external)
    private
 
-   public :: entry_of, is_gsf, read_gsf_map, take_text_head
+   public :: entry_of, read_gsf_map, take_text_head
 
-   character(*), parameter :: magic = 'Gwyddion Simple Field 1.'
+   !> First bytes of a .gsf file.
+   character(*), parameter, public :: gsf_magic = 'Gwyddion Simple Field 1.'
    !> The numbers begin at a multiple of so many bytes, behind one to so many null characters.
    integer, parameter :: alignment = 4
 
 contains
-
-   !> Whether a file begins as a .gsf file.
-   pure logical function is_gsf(head)
-      character(*), intent(in) :: head   !! the first bytes of the file
-
-      is_gsf = index(head, magic) == 1
-   end function is_gsf
 
    !> Reads a map. The first row of the file is the first row of the map, as in the other formats: y counts from the top
    !> of Gwyddion's picture downwards, as it does in Gwyddion. Errors: exit_bad_input, exit_file_trouble.
@@ -42,8 +36,8 @@ contains
       integer :: i, last, points(2)
       logical :: is_number
 
-      if (.not. is_gsf(file%head)) then
-         call file%refuse("this is no .gsf file: it does not begin with '"//magic//"0'", error)
+      if (index(file%head, gsf_magic) /= 1) then
+         call file%refuse("this is no .gsf file: it does not begin with '"//gsf_magic//"0'", error)
          return
       end if
       last = index(file%head, char(0)) - 1
