@@ -8,7 +8,7 @@
 !> of a run, and one module of each room that reads or writes files.
 module wavycon_ranks
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_error, only: error_type
+   use wavycon_error, only: error_type, fatal_error
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -185,8 +185,7 @@ contains
    subroutine share_error(error)
       type(error_type), allocatable, intent(inout) :: error
 
-      character(:), allocatable :: message
-      integer(int64) :: status(1)
+      character(:), allocatable :: status_and_message   ! the status is the code of the first character
       integer(int64), allocatable :: failed(:)
       integer :: first
 
@@ -196,17 +195,10 @@ contains
       call add_over_ranks(failed)
       if (all(failed == 0)) return
       first = findloc(failed > 0, .true., dim=1) - 1
-      message = ''
-      status = 0
-      if (this_rank() == first) then
-         message = error%message
-         status = error%status
-      end if
-      call add_over_ranks(status)
-      call share_text(first, message)
-      if (.not. allocated(error)) allocate (error)
-      error%status = int(status(1))
-      error%message = message
+      status_and_message = ''
+      if (this_rank() == first) status_and_message = achar(error%status)//error%message
+      call share_text(first, status_and_message)
+      call fatal_error(error, iachar(status_and_message(1:1)), status_and_message(2:))
    end subroutine share_error
 
    !> Sends a text of one rank to all others.

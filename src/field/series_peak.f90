@@ -87,7 +87,8 @@ contains
       real(dp), intent(in) :: place(2)
       real(dp), intent(out) :: height, gradient(2), hessian(3)
 
-      real(dp) :: cx, cy, sx, sy, f, f_x, f_y, f_xy
+      !> The factors of a term in X and in Y, of itself and of its derivatives by iX, by jY and by both.
+      real(dp), dimension(4) :: cosine_x, cosine_y, sine_x, sine_y, term
       integer :: i, j
 
       height = 0.0_dp
@@ -95,24 +96,17 @@ contains
       hessian = 0.0_dp
       associate (series => self%series)
          do j = 0, ubound(series%c, 2)
-            cy = cos(j*place(2))
-            sy = sin(j*place(2))
+            cosine_y = cos(j*place(2))*[1, 1, 0, 0] - sin(j*place(2))*[0, 0, 1, 1]
+            sine_y = sin(j*place(2))*[1, 1, 0, 0] + cos(j*place(2))*[0, 0, 1, 1]
             do i = 0, ubound(series%c, 1)
-               cx = cos(i*place(1))
-               sx = sin(i*place(1))
-               f = series%c(i, j)*cx*cy
-               f_x = -series%c(i, j)*sx*cy
-               f_y = -series%c(i, j)*cx*sy
-               f_xy = series%c(i, j)*sx*sy
-               if (.not. series%is_even()) then
-                  f = f + series%cs(i, j)*cx*sy + series%sc(i, j)*sx*cy + series%ss(i, j)*sx*sy
-                  f_x = f_x - series%cs(i, j)*sx*sy + series%sc(i, j)*cx*cy + series%ss(i, j)*cx*sy
-                  f_y = f_y + series%cs(i, j)*cx*cy - series%sc(i, j)*sx*sy + series%ss(i, j)*sx*cy
-                  f_xy = f_xy - series%cs(i, j)*sx*cy - series%sc(i, j)*cx*sy + series%ss(i, j)*cx*cy
-               end if
-               height = height + f
-               gradient = gradient + [i*f_x, j*f_y]
-               hessian = hessian + [-real(i, dp)**2*f, i*j*f_xy, -real(j, dp)**2*f]
+               cosine_x = cos(i*place(1))*[1, 0, 1, 0] - sin(i*place(1))*[0, 1, 0, 1]
+               sine_x = sin(i*place(1))*[1, 0, 1, 0] + cos(i*place(1))*[0, 1, 0, 1]
+               term = series%c(i, j)*cosine_x*cosine_y
+               if (.not. series%is_even()) term = term + series%cs(i, j)*cosine_x*sine_y &
+                                                  + series%sc(i, j)*sine_x*cosine_y + series%ss(i, j)*sine_x*sine_y
+               height = height + term(1)
+               gradient = gradient + [i, j]*term(2:3)
+               hessian = hessian + [-real(i, dp)**2, real(i*j, dp), -real(j, dp)**2]*term([1, 4, 1])
             end do
          end do
          if (ubound(series%c, 2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]
