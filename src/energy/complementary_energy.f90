@@ -29,7 +29,7 @@ contains
       type(fourier_terms), intent(in) :: terms
       integer, intent(in) :: points_per_side   !! N >= 2 constraint points on [0, pi]
       integer, intent(in) :: symmetry          !! that of the terms
-      logical, intent(in), optional :: has_hardness   !! absent: there is none
+      logical, intent(in) :: has_hardness
 
       integer, allocatable :: k(:), l(:)
 
@@ -40,10 +40,7 @@ contains
       problem%normals = term_values(terms, points_per_side, k, l)
       if (terms%dimension == 2 .and. size(problem%normals) > largest_matrix) &
          allocate (problem%rows, source=cosine_rows(terms, points_per_side, k, l))
-      if (present(has_hardness)) then
-         if (has_hardness) problem%normals = reshape([problem%normals, -problem%normals], &
-                                                        [terms%count, 2*size(k)])
-      end if
+      if (has_hardness) problem%normals = reshape([problem%normals, -problem%normals], [terms%count, 2*size(k)])
       allocate (problem%bounds(size(problem%normals, 2)), source=0.0_dp)
    end function energy_problem
 
