@@ -35,12 +35,13 @@ contains
 
       !> Values that differ by less than this fraction of the largest are equal: sums of up to thousands of waves.
       real(dp), parameter :: rounding = 1e-12_dp
+      integer, parameter :: half_width = points_per_wave/2 - 1
 
       type(grid_transform) :: transform
       type(series_maximiser) :: field
       real(dp), allocatable :: values(:, :)
       real(dp) :: crest(2), found, hidden, largest
-      integer :: best(2), i, points(2)
+      integer :: best(2), i, k, l, points(2)
 
       points = points_per_wave*max(1, ubound(series%c))
       if (ubound(series%c, 2) == 0) points(2) = 1
@@ -61,26 +62,16 @@ contains
             peak = found
             place = crest
          end if
-         call remove_crest(values, best)
+         ! Removes the points about the crest, less than half the shortest wave away.
+         do l = best(2) - half_width, best(2) + half_width
+            do k = best(1) - half_width, best(1) + half_width
+               values(modulo(k - 1, points(1)) + 1, modulo(l - 1, points(2)) + 1) = -huge(1.0_dp)
+            end do
+         end do
          best = maxloc(values)
          if (values(best(1), best(2)) + hidden <= peak) exit
       end do
    end subroutine find_peak
-
-   !> Removes the points about a crest, less than half the shortest wave away.
-   pure subroutine remove_crest(values, place)
-      real(dp), intent(inout) :: values(:, :)
-      integer, intent(in) :: place(2)
-
-      integer, parameter :: half_width = points_per_wave/2 - 1
-      integer :: i, j
-
-      do j = place(2) - half_width, place(2) + half_width
-         do i = place(1) - half_width, place(1) + half_width
-            values(modulo(i - 1, size(values, 1)) + 1, modulo(j - 1, size(values, 2)) + 1) = -huge(1.0_dp)
-         end do
-      end do
-   end subroutine remove_crest
 
    pure subroutine expand(self, place, height, gradient, hessian)
       class(series_maximiser), intent(in) :: self

@@ -81,7 +81,7 @@ contains
 
       real(dp), dimension(size(height, 1), 1) :: behind, next
       real(dp), dimension(size(height, 1)) :: bend, here, to_last, to_next, x_steps
-      real(dp) :: across(2)                              ! largest step within the map along y, and across its border
+      real(dp) :: across(2)   ! squares of a step along y: the largest within the map, and that across its border
       real(dp) :: over_step(2), squares(size(height, 1)), sums(3)
       !> Of each column the mean squares of the differences along x and y and of the curvature, and the squared step
       !> from the last point along x to the first.
@@ -111,8 +111,8 @@ contains
             squares = squares + x_steps**2
             parts(4, j) = x_steps(m)**2
             associate (column => slab%first - 1 + j)
-               if (column < n) across(1) = max(across(1), root_mean_square(to_next))
-               if (column == n) across(2) = root_mean_square(to_next)
+               if (column < n) across(1) = max(across(1), sum(to_next**2))
+               if (column == n) across(2) = sum(to_next**2)
                parts(1, j) = sum((over_step(1)*x_steps(:last))**2)
                if (column < n .or. repeats) parts(2, j) = sum((over_step(2)*to_next)**2)
                if (n > 1 .and. .not. repeats .and. any(column == [1, n])) cycle
@@ -124,8 +124,8 @@ contains
          call slab%add(squares)
          call slab%largest(across)
          totals = slab%column_totals(parts)
-         statistics%largest_step = unit*[sqrt(maxval(squares(:m - 1))/n), across(1)]
-         statistics%border_step = unit*[sqrt(totals(4)/n), across(2)]
+         statistics%largest_step = unit*sqrt([maxval(squares(:m - 1))/n, across(1)/m])
+         statistics%border_step = unit*sqrt([totals(4)/n, across(2)/m])
       end associate
       totals(:3) = totals(:3)/max(sums, 1.0_dp)
       statistics%slope_by_differences = unit/minval(step)*sqrt(totals(1) + totals(2))
@@ -141,11 +141,5 @@ contains
       is_broken_along = all(self%changes%edges /= ['mirror', 'free  ']) .and. &
                         self%border_step(direction) > border_ratio*self%largest_step(direction)
    end function is_broken_along
-
-   pure real(dp) function root_mean_square(values)
-      real(dp), intent(in) :: values(:)
-
-      root_mean_square = sqrt(sum(values**2)/size(values))
-   end function root_mean_square
 
 end module wavycon_map_statistics
