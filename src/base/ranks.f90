@@ -14,7 +14,7 @@ module wavycon_ranks
    private
 
    public :: communicator, use_communicator
-   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
+   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine
    public :: add_over_ranks, add_integers_over_ranks, largest_over_ranks, any_rank
    public :: share_error, share_text, end_ranks
 
@@ -24,7 +24,7 @@ module wavycon_ranks
       integer :: rank = 0                     !! the number of this process, from 0
       integer :: ranks = 1                    !! the number of processes
       integer :: ranks_on_machine = 1         !! those that share this machine's memory
-      character(:), allocatable :: library    !! name and version
+      character(:), allocatable :: library    !! name and version of what exchanges the data
    contains
       procedure(combine_reals), deferred, nopass :: add_reals
       procedure(add_whole_numbers), deferred, nopass :: add_integers
@@ -133,14 +133,6 @@ contains
       number = 1
       if (allocated(comm)) number = comm%ranks_on_machine
    end function ranks_on_this_machine
-
-   !> Name and version of the library that the ranks exchange data with; empty in the serial program.
-   function rank_library() result(text)
-      character(:), allocatable :: text
-
-      text = ''
-      if (allocated(comm)) text = comm%library
-   end function rank_library
 
    !> From now on each rank works on something else: no grid is distributed, and nothing is exchanged until the ranks
    !> work together again.
