@@ -48,18 +48,16 @@ contains
 
       character(:), allocatable :: content, trouble
       real(dp), allocatable :: row(:), values(:, :)
-      integer :: behind, columns, first, last, line, most_rows, rows, status, used
+      integer :: behind, columns, first, i, last, line, most_rows, rows, status, used
       logical :: ends_open, may_grow   ! whether all rows so far end open: a last number may be missing in all of them
 
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
       table%path = path
       call write_decimal_points(content)
-      most_rows = 0
-      behind = 1
-      do while (behind <= len(content))
-         call next_line(content, behind, first, last)
-         if (last >= first) most_rows = most_rows + 1
+      most_rows = 1
+      do i = 1, len(content)
+         most_rows = most_rows + merge(1, 0, is_line_end(content(i:i)))
       end do
       allocate (row(0))
       rows = 0
