@@ -9,7 +9,7 @@ module wavycon_run_program
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: end_ranks, is_first_rank, rank_count, rank_library, share_error
+   use wavycon_ranks, only: comm, end_ranks, is_first_rank, rank_count, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
@@ -66,7 +66,8 @@ contains
       call use_one_thread_for_matrices()
       call keep_memory()
       call outlive_file_size_limit()
-      library = rank_library()
+      library = ''
+      if (allocated(comm)) library = comm%library
       call read_command_line(command_line, error)
       if (library /= '' .and. command_line%options%integer('--jobs') > 1 .and. .not. allocated(error)) &
          call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')

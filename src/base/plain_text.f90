@@ -125,20 +125,16 @@ contains
    pure function listed(names, last) result(words)
       character(*), intent(in) :: names(:)              !! at least one; blanks at their ends are left out
       character(*), intent(in), optional :: last
-      character(:), allocatable :: words
+      character(:), allocatable :: separator, words
 
       integer :: i
 
       words = trim(names(1))
-      do i = 2, size(names) - 1
-         words = words//', '//trim(names(i))
+      separator = ', '
+      do i = 2, size(names)
+         if (i == size(names) .and. present(last)) separator = last
+         words = words//separator//trim(names(i))
       end do
-      if (size(names) == 1) return
-      if (present(last)) then
-         words = words//last//trim(names(size(names)))
-      else
-         words = words//', '//trim(names(size(names)))
-      end if
    end function listed
 
    !> Two clauses.

@@ -8,13 +8,13 @@
 !> of a run, and one module of each room that reads or writes files.
 module wavycon_ranks
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_error, only: error_type
+   use wavycon_error, only: error_type, fatal_error
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
    public :: communicator, use_communicator
-   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine, rank_library
+   public :: this_rank, rank_count, ranks_at_work, is_first_rank, work_alone, ranks_on_this_machine
    public :: add_over_ranks, add_integers_over_ranks, largest_over_ranks, any_rank
    public :: share_error, share_text, end_ranks
 
@@ -24,7 +24,7 @@ module wavycon_ranks
       integer :: rank = 0                     !! the number of this process, from 0
       integer :: ranks = 1                    !! the number of processes
       integer :: ranks_on_machine = 1         !! those that share this machine's memory
-      character(:), allocatable :: library    !! name and version
+      character(:), allocatable :: library    !! name and version of what exchanges the data
    contains
       procedure(combine_reals), deferred, nopass :: add_reals
       procedure(add_whole_numbers), deferred, nopass :: add_integers
@@ -134,14 +134,6 @@ contains
       if (allocated(comm)) number = comm%ranks_on_machine
    end function ranks_on_this_machine
 
-   !> Name and version of the library that the ranks exchange data with; empty in the serial program.
-   function rank_library() result(text)
-      character(:), allocatable :: text
-
-      text = ''
-      if (allocated(comm)) text = comm%library
-   end function rank_library
-
    !> From now on each rank works on something else: no grid is distributed, and nothing is exchanged until the ranks
    !> work together again.
    subroutine work_alone(alone)
@@ -185,8 +177,7 @@ contains
    subroutine share_error(error)
       type(error_type), allocatable, intent(inout) :: error
 
-      character(:), allocatable :: message
-      integer(int64) :: status(1)
+      character(:), allocatable :: status_and_message   ! the status is the code of the first character
       integer(int64), allocatable :: failed(:)
       integer :: first
 
@@ -196,17 +187,10 @@ contains
       call add_over_ranks(failed)
       if (all(failed == 0)) return
       first = findloc(failed > 0, .true., dim=1) - 1
-      message = ''
-      status = 0
-      if (this_rank() == first) then
-         message = error%message
-         status = error%status
-      end if
-      call add_over_ranks(status)
-      call share_text(first, message)
-      if (.not. allocated(error)) allocate (error)
-      error%status = int(status(1))
-      error%message = message
+      status_and_message = ''
+      if (this_rank() == first) status_and_message = achar(error%status)//error%message
+      call share_text(first, status_and_message)
+      call fatal_error(error, iachar(status_and_message(1:1)), status_and_message(2:))
    end subroutine share_error
 
    !> Sends a text of one rank to all others.

@@ -263,8 +263,9 @@ void wavycon_use_one_thread_for_matrices(void)
    OpenMP reads this when the program starts, so a program with the option --threads starts itself again. */
 void wavycon_let_waiting_threads_sleep(void)
 {
-    static char **words = NULL;
-    char program[PATH_MAX];
+    static char words[1 << 21];
+    char program[PATH_MAX], **list;
+    size_t count = 0, size;
     int has_option = 0;
     FILE *file;
     if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL)
@@ -272,23 +273,17 @@ void wavycon_let_waiting_threads_sleep(void)
     file = fopen("/proc/self/cmdline", "r");
     if (file == NULL)
         return;
-    for (size_t count = 0;; count++) {
-        size_t size = 0;
-        char **longer = realloc(words, (count + 1)*sizeof *words);
-        if (longer == NULL)
-            break;
-        words = longer;
-        words[count] = NULL;
-        if (getdelim(&words[count], &size, '\0', file) <= 0) {
-            free(words[count]);
-            words[count] = NULL;
-            /* Without success the program goes on as it is. */
-            if (has_option && realpath("/proc/self/exe", program) != NULL &&
-                setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
-                execv(program, words);
-            break;
-        }
-        has_option |= strncmp(words[count], "--threads", strlen("--threads")) == 0;
-    }
+    /* Words that a null character each ends. With more than fit, or without success, the program goes on as it is. */
+    size = fread(words, 1, sizeof words, file);
     fclose(file);
+    list = calloc(size + 1, sizeof *list);
+    if (list == NULL || size == sizeof words)
+        return;
+    for (char *word = words; word < words + size; word += strlen(word) + 1) {
+        list[count++] = word;
+        has_option |= strncmp(word, "--threads", strlen("--threads")) == 0;
+    }
+    if (has_option && realpath("/proc/self/exe", program) != NULL && setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
+        execv(program, list);
+    free(list);
 }

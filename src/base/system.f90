@@ -201,15 +201,10 @@ contains
       integer, intent(in) :: number  !! an errno
       character(:), allocatable :: text
 
-      character(kind=c_char) :: buffer(256)
-      integer :: i
+      character(256) :: buffer
 
-      call c_error_text(int(number, c_int), buffer, size(buffer, kind=c_size_t))
-      text = ''
-      do i = 1, size(buffer)
-         if (buffer(i) == c_null_char) exit
-         text = text//buffer(i)
-      end do
+      call c_error_text(int(number, c_int), buffer, len(buffer, kind=c_size_t))
+      text = buffer(:index(buffer, c_null_char) - 1)
    end function error_text
 
 end module wavycon_system

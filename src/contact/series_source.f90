@@ -56,9 +56,7 @@ contains
    type(fourier_series) function displacement(self) result(series)
       class(series_source), intent(in) :: self
 
-      integer :: k
-
-      call self%terms%coefficients([(self%terms%compliance(k)*self%x(k), k=1, self%terms%count())], series%c)
+      call self%terms%coefficients(self%terms%compliance*self%x, series%c)
    end function displacement
 
    subroutine fields(self, record, surface, answer)
@@ -153,7 +151,7 @@ contains
       real(dp), allocatable :: multipliers(:), x(:)
 
       if (surface%has_hardness()) return
-      problem = energy_problem(self%terms, self%constraint_points, self%symmetry)
+      problem = energy_problem(self%terms, self%constraint_points, self%symmetry, has_hardness=.false.)
       associate (pressure => record%pbar_over_pstar + matmul(self%x, problem%normals), &
                  least => active*record%measures%peak_pressure_over_pstar)
          constraints = pack([(i, i=1, size(pressure))], pressure < least)

@@ -29,24 +29,18 @@ contains
       type(fourier_terms), intent(in) :: terms
       integer, intent(in) :: points_per_side   !! N >= 2 constraint points on [0, pi]
       integer, intent(in) :: symmetry          !! that of the terms
-      logical, intent(in), optional :: has_hardness   !! absent: there is none
+      logical, intent(in) :: has_hardness
 
       integer, allocatable :: k(:), l(:)
-      integer :: t, n
 
-      n = terms%count()
-      allocate (problem%hessian(n), problem%linear(n), source=0.0_dp)
-      do t = 1, n
-         problem%hessian(t) = terms%weight(t)*terms%compliance(t)
-      end do
-      problem%linear(terms%fundamental()) = 1.0_dp
+      allocate (problem%hessian, source=terms%weight*terms%compliance)
+      allocate (problem%linear(terms%count), source=0.0_dp)
+      problem%linear(terms%fundamental) = 1.0_dp
       call choose_points(terms%dimension, points_per_side, symmetry, k, l)
       problem%normals = term_values(terms, points_per_side, k, l)
       if (terms%dimension == 2 .and. size(problem%normals) > largest_matrix) &
          allocate (problem%rows, source=cosine_rows(terms, points_per_side, k, l))
-      if (present(has_hardness)) then
-         if (has_hardness) problem%normals = reshape([problem%normals, -problem%normals], [n, 2*size(k)])
-      end if
+      if (has_hardness) problem%normals = reshape([problem%normals, -problem%normals], [terms%count, 2*size(k)])
       allocate (problem%bounds(size(problem%normals, 2)), source=0.0_dp)
    end function energy_problem
 

@@ -49,15 +49,15 @@ contains
       type(fourier_terms), intent(in) :: terms
       integer, intent(in) :: points_per_side          !! N
       integer, intent(in) :: k(:), l(:)               !! points, shape (m)
-      real(dp), allocatable :: values(:, :)           !! shape (terms%count(), m)
+      real(dp), allocatable :: values(:, :)           !! shape (terms%count, m)
 
       real(dp) :: cosine(0:points_per_side - 1, 0:terms%harmonics)
       integer :: i, j, p, t
 
       cosine = cosine_table(points_per_side - 1, terms%harmonics)
-      allocate (values(terms%count(), size(k)))
+      allocate (values(terms%count, size(k)))
       do p = 1, size(k)
-         do t = 1, terms%count()
+         do t = 1, terms%count
             i = terms%i(t)
             j = terms%j(t)
             values(t, p) = cosine(k(p), i)*cosine(l(p), j)

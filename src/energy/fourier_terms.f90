@@ -16,17 +16,20 @@ module wavycon_fourier_terms
    !> The symmetry that is used.
    integer, parameter, public :: symmetry_none = 0, symmetry_diagonal = 1, symmetry_full = 2
 
-   !> Terms k = 1..size(i). Term k is cos(i phi) cos(j theta), and the same with i and j exchanged where `paired`.
+   !> Terms k = 1..count. Term k is cos(i phi) cos(j theta), and the same with i and j exchanged where `paired`.
    type :: fourier_terms
       integer :: dimension = 2
       integer :: harmonics = 0              !! n
+      integer :: count = 0                  !! number of unknowns
+      integer :: fundamental = 0            !! the term that has the shape of the surface: cos phi, or cos phi cos theta
       integer, allocatable :: i(:), j(:)    !! wave numbers in phi and theta; j = 0 in 1-D
       logical, allocatable :: paired(:)     !! the term stands for A_ij and A_ji
+      !> Displacement over pressure of a term [Delta/p*]: 1/i in 1-D (eq. 13), sqrt2/(i^2 + j^2)^1/2 in 2-D (A10).
+      real(dp), allocatable :: compliance(:)
+      !> Mean square of a term over the cell, over that of the surface's own wave (E5): doubled where i or j is zero
+      !> (the star of eq. 26), doubled again where the term stands for two.
+      real(dp), allocatable :: weight(:)
    contains
-      procedure :: count => count_terms
-      procedure :: compliance
-      procedure :: weight
-      procedure :: fundamental
       procedure :: coefficients
    end type fourier_terms
 
@@ -50,48 +53,16 @@ contains
       if (dimension == 2 .and. symmetry == symmetry_full) is_kept = is_kept .and. all_i <= all_j
       terms%dimension = dimension
       terms%harmonics = harmonics
+      terms%count = count(is_kept)
       allocate (terms%i, source=pack(all_i, is_kept))
       allocate (terms%j, source=pack(all_j, is_kept))
       allocate (terms%paired, source=dimension == 2 .and. symmetry == symmetry_full .and. terms%i /= terms%j)
+      terms%fundamental = findloc(terms%i == 1 .and. terms%j == dimension - 1, .true., dim=1)
+      allocate (terms%compliance, source=merge(sqrt2, 1.0_dp, dimension == 2)/ &
+                                         hypot(real(terms%i, dp), real(terms%j, dp)))
+      allocate (terms%weight, source=real(merge(2, 1, dimension == 2 .and. (terms%i == 0 .or. terms%j == 0))* &
+                                          merge(2, 1, terms%paired), dp))
    end function choose_terms
-
-   !> Number of unknowns.
-   pure integer function count_terms(self)
-      class(fourier_terms), intent(in) :: self
-
-      count_terms = size(self%i)
-   end function count_terms
-
-   !> Displacement over pressure of a term [Delta/p*]: 1/i in 1-D (eq. 13), sqrt2/(i^2 + j^2)^1/2 in 2-D (A10).
-   elemental real(dp) function compliance(self, k)
-      class(fourier_terms), intent(in) :: self
-      integer, intent(in) :: k   !! 1 .. count
-
-      if (self%dimension == 1) then
-         compliance = 1.0_dp/self%i(k)
-      else
-         compliance = sqrt2/hypot(real(self%i(k), dp), real(self%j(k), dp))
-      end if
-   end function compliance
-
-   !> Mean square of a term over the cell, over that of the surface's own wave (E5): doubled where i or j is zero (the
-   !> star of eq. 26), doubled again where the term stands for two.
-   elemental real(dp) function weight(self, k)
-      class(fourier_terms), intent(in) :: self
-      integer, intent(in) :: k   !! 1 .. count
-
-      weight = 1.0_dp
-      if (self%dimension == 1) return
-      if (self%i(k) == 0 .or. self%j(k) == 0) weight = 2*weight
-      if (self%paired(k)) weight = 2*weight
-   end function weight
-
-   !> Number of the term that has the shape of the surface: cos phi, or cos phi cos theta.
-   pure integer function fundamental(self)
-      class(fourier_terms), intent(in) :: self
-
-      fundamental = findloc(self%i == 1 .and. self%j == self%dimension - 1, .true., dim=1)
-   end function fundamental
 
    !> A_ij of all i, j = 0..n (j = 0 alone in 1-D), from the values of the terms.
    pure subroutine coefficients(self, values, a)

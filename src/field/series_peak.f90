@@ -35,12 +35,13 @@ contains
 
       !> Values that differ by less than this fraction of the largest are equal: sums of up to thousands of waves.
       real(dp), parameter :: rounding = 1e-12_dp
+      integer, parameter :: half_width = points_per_wave/2 - 1
 
       type(grid_transform) :: transform
       type(series_maximiser) :: field
       real(dp), allocatable :: values(:, :)
       real(dp) :: crest(2), found, hidden, largest
-      integer :: best(2), i, points(2)
+      integer :: best(2), i, k, l, points(2)
 
       points = points_per_wave*max(1, ubound(series%c))
       if (ubound(series%c, 2) == 0) points(2) = 1
@@ -61,33 +62,24 @@ contains
             peak = found
             place = crest
          end if
-         call remove_crest(values, best)
+         ! Removes the points about the crest, less than half the shortest wave away.
+         do l = best(2) - half_width, best(2) + half_width
+            do k = best(1) - half_width, best(1) + half_width
+               values(modulo(k - 1, points(1)) + 1, modulo(l - 1, points(2)) + 1) = -huge(1.0_dp)
+            end do
+         end do
          best = maxloc(values)
          if (values(best(1), best(2)) + hidden <= peak) exit
       end do
    end subroutine find_peak
-
-   !> Removes the points about a crest, less than half the shortest wave away.
-   pure subroutine remove_crest(values, place)
-      real(dp), intent(inout) :: values(:, :)
-      integer, intent(in) :: place(2)
-
-      integer, parameter :: half_width = points_per_wave/2 - 1
-      integer :: i, j
-
-      do j = place(2) - half_width, place(2) + half_width
-         do i = place(1) - half_width, place(1) + half_width
-            values(modulo(i - 1, size(values, 1)) + 1, modulo(j - 1, size(values, 2)) + 1) = -huge(1.0_dp)
-         end do
-      end do
-   end subroutine remove_crest
 
    pure subroutine expand(self, place, height, gradient, hessian)
       class(series_maximiser), intent(in) :: self
       real(dp), intent(in) :: place(2)
       real(dp), intent(out) :: height, gradient(2), hessian(3)
 
-      real(dp) :: cx, cy, sx, sy, f, f_x, f_y, f_xy
+      !> The factors of a term in X and in Y, of itself and of its derivatives by iX, by jY and by both.
+      real(dp), dimension(4) :: cosine_x, cosine_y, sine_x, sine_y, term
       integer :: i, j
 
       height = 0.0_dp
@@ -95,24 +87,17 @@ contains
       hessian = 0.0_dp
       associate (series => self%series)
          do j = 0, ubound(series%c, 2)
-            cy = cos(j*place(2))
-            sy = sin(j*place(2))
+            cosine_y = cos(j*place(2))*[1, 1, 0, 0] - sin(j*place(2))*[0, 0, 1, 1]
+            sine_y = sin(j*place(2))*[1, 1, 0, 0] + cos(j*place(2))*[0, 0, 1, 1]
             do i = 0, ubound(series%c, 1)
-               cx = cos(i*place(1))
-               sx = sin(i*place(1))
-               f = series%c(i, j)*cx*cy
-               f_x = -series%c(i, j)*sx*cy
-               f_y = -series%c(i, j)*cx*sy
-               f_xy = series%c(i, j)*sx*sy
-               if (.not. series%is_even()) then
-                  f = f + series%cs(i, j)*cx*sy + series%sc(i, j)*sx*cy + series%ss(i, j)*sx*sy
-                  f_x = f_x - series%cs(i, j)*sx*sy + series%sc(i, j)*cx*cy + series%ss(i, j)*cx*sy
-                  f_y = f_y + series%cs(i, j)*cx*cy - series%sc(i, j)*sx*sy + series%ss(i, j)*sx*cy
-                  f_xy = f_xy - series%cs(i, j)*sx*cy - series%sc(i, j)*cx*sy + series%ss(i, j)*cx*cy
-               end if
-               height = height + f
-               gradient = gradient + [i*f_x, j*f_y]
-               hessian = hessian + [-real(i, dp)**2*f, i*j*f_xy, -real(j, dp)**2*f]
+               cosine_x = cos(i*place(1))*[1, 0, 1, 0] - sin(i*place(1))*[0, 1, 0, 1]
+               sine_x = sin(i*place(1))*[1, 0, 1, 0] + cos(i*place(1))*[0, 1, 0, 1]
+               term = series%c(i, j)*cosine_x*cosine_y
+               if (.not. series%is_even()) term = term + series%cs(i, j)*cosine_x*sine_y &
+                                                  + series%sc(i, j)*sine_x*cosine_y + series%ss(i, j)*sine_x*sine_y
+               height = height + term(1)
+               gradient = gradient + [i, j]*term(2:3)
+               hessian = hessian + [-real(i, dp)**2, real(i*j, dp), -real(j, dp)**2]*term([1, 4, 1])
             end do
          end do
          if (ubound(series%c, 2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]

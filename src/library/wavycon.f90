@@ -26,9 +26,7 @@ module wavycon
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
-   use wavycon_light_load
    use wavycon_memory_table, only: memory_table, of_integers, of_reals, of_words
-   use wavycon_penny_crack
    use wavycon_run_scene, only: run_deck
    use wavycon_session_fields, only: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
    use wavycon_solver_progress, only: solver_progress
@@ -38,6 +36,7 @@ module wavycon
    use wavycon_threads, only: set_threads
    use wavycon_unit_scale, only: scale_of, unit_scale
    use wavycon_version, only: revision, version
+   use wavycon_wave_2d_limits
    use wavycon_westergaard
    use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    implicit none (type, external)

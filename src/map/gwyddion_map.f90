@@ -14,20 +14,14 @@ module wavycon_gwyddion_map
    implicit none (type, external)
    private
 
-   public :: entry_of, is_gsf, read_gsf_map, take_text_head
+   public :: entry_of, read_gsf_map, take_text_head
 
-   character(*), parameter :: magic = 'Gwyddion Simple Field 1.'
+   !> First bytes of a .gsf file.
+   character(*), parameter, public :: gsf_magic = 'Gwyddion Simple Field 1.'
    !> The numbers begin at a multiple of so many bytes, behind one to so many null characters.
    integer, parameter :: alignment = 4
 
 contains
-
-   !> Whether a file begins as a .gsf file.
-   pure logical function is_gsf(head)
-      character(*), intent(in) :: head   !! the first bytes of the file
-
-      is_gsf = index(head, magic) == 1
-   end function is_gsf
 
    !> Reads a map. The first row of the file is the first row of the map, as in the other formats: y counts from the top
    !> of Gwyddion's picture downwards, as it does in Gwyddion. Errors: exit_bad_input, exit_file_trouble.
@@ -40,10 +34,9 @@ contains
       character(:), allocatable :: entry, words
       real(dp) :: numbers(size(keys))   ! 0 if they are not there
       integer :: i, last, points(2)
-      logical :: is_number
 
-      if (.not. is_gsf(file%head)) then
-         call file%refuse("this is no .gsf file: it does not begin with '"//magic//"0'", error)
+      if (index(file%head, gsf_magic) /= 1) then
+         call file%refuse("this is no .gsf file: it does not begin with '"//gsf_magic//"0'", error)
          return
       end if
       last = index(file%head, char(0)) - 1
@@ -52,12 +45,10 @@ contains
          return
       end if
       words = file%head(:last)
-      numbers = 0.0_dp
       do i = 1, size(keys)
          entry = entry_of(words, trim(keys(i)), '=')
-         if (entry == '') cycle
-         call read_positive(entry, numbers(i), is_number)
-         if (is_number) cycle
+         numbers(i) = positive_number(entry)
+         if (entry == '' .or. numbers(i) > 0.0_dp) cycle
          call file%refuse('in the head of this .gsf file '//trim(keys(i))//" = '"//excerpt(entry)// &
                           "' is no positive number", error)
          return
@@ -123,7 +114,6 @@ contains
       character(:), allocatable, intent(out) :: unit    !! empty if this is none
 
       character(:), allocatable :: number
-      logical :: is_number
       integer :: comma, last
 
       length = 0.0_dp
@@ -133,20 +123,19 @@ contains
       number = entry(:last)
       comma = index(number, ',')
       if (comma > 0) number(comma:comma) = '.'
-      call read_positive(number, length, is_number)
-      if (is_number) unit = trim(adjustl(entry(last + 1:)))
-      if (.not. is_number) length = 0.0_dp
+      length = positive_number(number)
+      if (length > 0.0_dp) unit = trim(adjustl(entry(last + 1:)))
    end subroutine read_length
 
-   !> Reads a word as a positive number in the range of lengths. Callers must switch off traps of overflow.
-   subroutine read_positive(word, number, is_number)
+   !> A word as a positive number in the range of lengths; 0 if it is none. Callers must switch off traps of overflow.
+   real(dp) function positive_number(word) result(number)
       character(*), intent(in) :: word
-      real(dp), intent(out) :: number
-      logical, intent(out) :: is_number   !! whether it is one
+
+      logical :: is_number
 
       call read_decimal(word, number, is_number)
-      if (is_number) is_number = number >= smallest_number .and. number <= largest_number
-   end subroutine read_positive
+      if (.not. is_number .or. number < smallest_number .or. number > largest_number) number = 0.0_dp
+   end function positive_number
 
    !> The entry of a key in the lines behind the first one, without the blanks around it; empty if it is not there.
    !> Lines may begin with the mark of a comment.

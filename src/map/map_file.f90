@@ -7,10 +7,10 @@ module wavycon_map_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_gwyddion_map, only: entry_of, is_gsf, read_gsf_map, take_text_head
+   use wavycon_gwyddion_map, only: entry_of, gsf_magic, read_gsf_map, take_text_head
    use wavycon_kinds, only: dp, sp
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
-   use wavycon_npy_map, only: is_npy, read_npy_map
+   use wavycon_npy_map, only: npy_magic, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, lower_case, newline
    use wavycon_point_map, only: resample_profile, take_points, take_profile
@@ -60,8 +60,8 @@ contains
          if (format == 'auto') then
             ! By its content or, if that does not tell, by its name.
             ending = lower_case(path(index(path, '.', back=.true.) + 1:))
-            if (is_gsf(file%head) .or. ending == 'gsf') map%format = 'gsf'
-            if (is_npy(file%head) .or. ending == 'npy') map%format = 'npy'
+            if (index(file%head, gsf_magic) == 1 .or. ending == 'gsf') map%format = 'gsf'
+            if (index(file%head, npy_magic) == 1 .or. ending == 'npy') map%format = 'npy'
          end if
          select case (map%format)
          case ('npy')
@@ -94,8 +94,8 @@ contains
       character(:), allocatable :: remedy
 
       remedy = remedy_of_content(file%head, file%path)
-      if (is_npy(file%head)) remedy = "this is a file of numpy: file_format = 'npy' reads it"
-      if (is_gsf(file%head)) remedy = "this is a file of Gwyddion: file_format = 'gsf' reads it"
+      if (index(file%head, npy_magic) == 1) remedy = "this is a file of numpy: file_format = 'npy' reads it"
+      if (index(file%head, gsf_magic) == 1) remedy = "this is a file of Gwyddion: file_format = 'gsf' reads it"
       if (remedy /= '') then
          call file%refuse(remedy, error)
          return

@@ -34,78 +34,61 @@ module wavycon_map_statistics
 
 contains
 
-   !> The statistics of a map. The last digit of largest_step(1) may depend on how the map is distributed.
+   !> The statistics of a map, moments by eq. (M20). The last digit of largest_step(1) may depend on how the map is
+   !> distributed.
    type(map_statistics) function statistics_of(height, format, points, step, repeats) result(statistics)
       real(dp), intent(in) :: height(:, :)   !! over the mean [length], shape (M, N) or (M, columns of the grid's slab)
       character(*), intent(in) :: format     !! as of measured_map
-      integer, intent(in), optional :: points(2)   !! M, N if the map may be distributed; shape of height if absent
-      real(dp), intent(in), optional :: step(2)    !! between the points [length]; absent: 1
-      logical, intent(in), optional :: repeats     !! whether opposite borders are neighbours; absent: they are
+      integer, intent(in) :: points(2)       !! M, N of the map, which may be distributed
+      real(dp), intent(in) :: step(2)        !! between the points [length]
+      logical, intent(in) :: repeats         !! whether opposite borders are neighbours
 
       type(grid_slab) :: slab
-      logical :: is_periodic
-      real(dp) :: extremes(2), steps(2)
+      real(dp) :: column(size(height, 1)), extremes(2), moments(2:4), parts(3, size(height, 2)), unit
+      integer :: j
 
-      statistics%points = shape(height)
-      if (present(points)) statistics%points = points
-      call slab%start(statistics%points)
+      statistics%points = points
       statistics%format = format
+      statistics%path = ''
+      statistics%assumed_sides = ''
+      call slab%start(points)
       extremes = [-minval(height), maxval(height)]
       call slab%largest(extremes)
       statistics%lowest = -extremes(1)
       statistics%highest = extremes(2)
-      call take_moments(slab, height, statistics)
-      steps = 1.0_dp
-      if (present(step)) steps = step
-      is_periodic = .true.
-      if (present(repeats)) is_periodic = repeats
-      call take_steps(slab, height, steps, is_periodic, statistics)
-      statistics%path = ''
-      statistics%assumed_sides = ''
-   end function statistics_of
-
-   !> Finds the root mean square, skewness and kurtosis of the heights, eq. (M20).
-   subroutine take_moments(slab, height, statistics)
-      type(grid_slab), intent(in) :: slab
-      real(dp), intent(in) :: height(:, :)                  !! over the mean, own columns [length]
-      type(map_statistics), intent(inout) :: statistics     !! with the lowest and the highest
-
-      real(dp) :: column(size(height, 1)), moments(2:4), parts(3, size(height, 2)), unit
-      integer :: j
-
       ! Powers of heights over the largest one do not overflow.
-      unit = max(statistics%highest, -statistics%lowest)
+      unit = maxval(extremes)
       if (.not. unit > 0.0_dp) return
       do j = 1, size(height, 2)
          column = height(:, j)/unit
          parts(:, j) = [sum(column**2), sum(column**3), sum(column**4)]
       end do
-      moments = slab%column_totals(parts)/product(real(slab%points, dp))
+      moments = slab%column_totals(parts)/product(real(points, dp))
       statistics%rms = unit*sqrt(moments(2))
       statistics%skewness = moments(3)/(moments(2)*sqrt(moments(2)))
       statistics%kurtosis = moments(4)/moments(2)**2
-   end subroutine take_moments
+      call take_steps(slab, height, unit, step, repeats, statistics)
+   end function statistics_of
 
    !> Finds the steps between neighbours, and slope and curvature by them.
-   subroutine take_steps(slab, height, step, repeats, statistics)
+   subroutine take_steps(slab, height, unit, step, repeats, statistics)
       type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: height(:, :)                  !! own columns [length]
+      real(dp), intent(in) :: unit                          !! the largest size of all heights, > 0 [length]
       real(dp), intent(in) :: step(2)                       !! as of statistics_of
       logical, intent(in) :: repeats
-      type(map_statistics), intent(inout) :: statistics     !! with the lowest and the highest
+      type(map_statistics), intent(inout) :: statistics
 
       real(dp), dimension(size(height, 1), 1) :: behind, next
       real(dp), dimension(size(height, 1)) :: bend, here, to_last, to_next, x_steps
-      real(dp) :: across(2)                              ! largest step within the map along y, and across its border
-      real(dp) :: over_step(2), squares(size(height, 1)), sums(3), unit
+      real(dp) :: across(2)   ! squares of a step along y: the largest within the map, and that across its border
+      real(dp) :: over_step(2), squares(size(height, 1)), sums(3)
       !> Of each column the mean squares of the differences along x and y and of the curvature, and the squared step
       !> from the last point along x to the first.
       real(dp) :: parts(4, size(height, 2)), totals(4)
       integer :: first, j, last
 
       ! Powers of heights over the largest one and of steps over the least do not overflow.
-      unit = max(statistics%highest, -statistics%lowest)
-      if (.not. unit > 0.0_dp) return
       over_step = minval(step)/step
       call slab%halo(height, .false., behind, next)
       to_next = (height(:, 1) - behind(:, 1))/unit
@@ -128,8 +111,8 @@ contains
             squares = squares + x_steps**2
             parts(4, j) = x_steps(m)**2
             associate (column => slab%first - 1 + j)
-               if (column < n) across(1) = max(across(1), root_mean_square(to_next))
-               if (column == n) across(2) = root_mean_square(to_next)
+               if (column < n) across(1) = max(across(1), sum(to_next**2))
+               if (column == n) across(2) = sum(to_next**2)
                parts(1, j) = sum((over_step(1)*x_steps(:last))**2)
                if (column < n .or. repeats) parts(2, j) = sum((over_step(2)*to_next)**2)
                if (n > 1 .and. .not. repeats .and. any(column == [1, n])) cycle
@@ -141,8 +124,8 @@ contains
          call slab%add(squares)
          call slab%largest(across)
          totals = slab%column_totals(parts)
-         statistics%largest_step = unit*[sqrt(maxval(squares(:m - 1))/n), across(1)]
-         statistics%border_step = unit*[sqrt(totals(4)/n), across(2)]
+         statistics%largest_step = unit*sqrt([maxval(squares(:m - 1))/n, across(1)/m])
+         statistics%border_step = unit*sqrt([totals(4)/n, across(2)/m])
       end associate
       totals(:3) = totals(:3)/max(sums, 1.0_dp)
       statistics%slope_by_differences = unit/minval(step)*sqrt(totals(1) + totals(2))
@@ -158,11 +141,5 @@ contains
       is_broken_along = all(self%changes%edges /= ['mirror', 'free  ']) .and. &
                         self%border_step(direction) > border_ratio*self%largest_step(direction)
    end function is_broken_along
-
-   pure real(dp) function root_mean_square(values)
-      real(dp), intent(in) :: values(:)
-
-      root_mean_square = sqrt(sum(values**2)/size(values))
-   end function root_mean_square
 
 end module wavycon_map_statistics

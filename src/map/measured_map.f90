@@ -32,7 +32,6 @@ module wavycon_measured_map
    contains
       procedure :: set_units
       procedure :: columns
-      procedure :: points
       procedure :: keep_own_columns
    end type measured_map
 
@@ -60,15 +59,6 @@ contains
          columns = grid_slab(points=shape(self%height), is_distributed=.false., width=n, first=1, last=n)
       end associate
    end function columns
-
-   !> M, N of the map.
-   pure function points(self)
-      class(measured_map), intent(in) :: self
-      integer :: points(2)
-
-      points = shape(self%height)
-      if (self%slab%is_distributed) points = self%slab%points
-   end function points
 
    !> Distributes a whole map if it is large.
    subroutine keep_own_columns(self)

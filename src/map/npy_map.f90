@@ -8,20 +8,14 @@ module wavycon_npy_map
    implicit none (type, external)
    private
 
-   public :: is_npy, read_npy_map
+   public :: read_npy_map
 
-   character(*), parameter :: magic = char(147)//'NUMPY'
+   !> First bytes of an .npy file.
+   character(*), parameter, public :: npy_magic = char(147)//'NUMPY'
    !> Bytes up to the version, and up to the length of the words; of version 1 this length has two bytes, later four.
-   integer, parameter :: before_version = len(magic), before_length = before_version + 2
+   integer, parameter :: before_version = len(npy_magic), before_length = before_version + 2
 
 contains
-
-   !> Whether a file begins as an .npy file.
-   pure logical function is_npy(head)
-      character(*), intent(in) :: head   !! the first bytes of the file
-
-      is_npy = index(head, magic) == 1
-   end function is_npy
 
    !> Reads a map: heights[j, i] at x number i and y number j, or a profile heights[i]. Errors: exit_bad_input,
    !> exit_file_trouble.
@@ -34,7 +28,7 @@ contains
       integer :: first, last, number
       integer :: points(2), sides(3)
 
-      if (.not. is_npy(file%head)) then
+      if (index(file%head, npy_magic) /= 1) then
          call file%refuse('this is no .npy file: it does not begin with \x93NUMPY', error)
          return
       end if

@@ -23,7 +23,6 @@ module wavycon_number_table
       procedure :: refuse
    end type number_table
 
-   integer, parameter :: least_numbers = 4096   !! for which room is made at first
    character(*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
 
 contains
@@ -48,15 +47,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: content, trouble
-      real(dp), allocatable :: row(:)
-      integer :: behind, columns, first, last, line, rows, status, used
+      real(dp), allocatable :: row(:), values(:, :)
+      integer :: behind, columns, first, i, last, line, most_rows, rows, status, used
       logical :: ends_open, may_grow   ! whether all rows so far end open: a last number may be missing in all of them
 
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
       table%path = path
       call write_decimal_points(content)
-      allocate (row(0), table%values(0, 0), table%line(0))
+      most_rows = 1
+      do i = 1, len(content)
+         most_rows = most_rows + merge(1, 0, is_line_end(content(i:i)))
+      end do
+      allocate (row(0))
       rows = 0
       line = 0
       columns = 0
@@ -88,7 +91,14 @@ contains
             return
          end if
          if (used == 0) cycle
-         if (rows == 0 .or. (used == columns + 1 .and. may_grow)) columns = used
+         if (rows == 0) then
+            ! With room for a number that the first row may lack.
+            allocate (table%values(merge(used + 1, used, ends_open), most_rows), table%line(most_rows), stat=status)
+            if (status /= 0) exit
+            columns = used
+         else if (may_grow .and. used == min(columns + 1, size(table%values, 1))) then
+            columns = used
+         end if
          may_grow = may_grow .and. ends_open
          if (used /= columns .and. .not. (used == columns - 1 .and. ends_open)) then
             call trouble_in_line('this row has '//integer_text(used)//' numbers, the first has '// &
@@ -96,20 +106,19 @@ contains
                                  'is missing)')
             return
          end if
-         if (rows == size(table%line) .or. columns > size(table%values, 1)) then
-            call resize(table, columns, max(1, 2*rows, least_numbers/columns), status)
-            if (status /= 0) exit
-         end if
          rows = rows + 1
          table%line(rows) = line
          table%values(:used, rows) = row(:used)
          table%values(used + 1:, rows) = ieee_value(0.0_dp, ieee_quiet_nan)
       end do
-      if (status == 0) call resize(table, columns, rows, status)
+      if (status == 0 .and. rows > 0) allocate (values, source=table%values(:columns, :rows), stat=status)
       if (status /= 0) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for its numbers')
       else if (rows == 0) then
          call fatal_error(error, exit_bad_input, escaped(path)//': there are no numbers in this file')
+      else
+         call move_alloc(values, table%values)
+         table%line = table%line(:rows)
       end if
 
    contains
@@ -121,28 +130,6 @@ contains
       end subroutine trouble_in_line
 
    end subroutine read_number_table
-
-   !> Gives a table room for other numbers of rows and columns; new places are missing numbers.
-   pure subroutine resize(table, columns, rows, status)
-      type(number_table), intent(inout) :: table
-      integer, intent(in) :: columns, rows
-      integer, intent(out) :: status   !! not 0 without memory: the table is as before
-
-      real(dp), allocatable :: values(:, :)
-      integer, allocatable :: line(:)
-      integer :: common, j
-
-      allocate (values(columns, rows), line(rows), stat=status)
-      if (status /= 0) return
-      common = min(columns, size(table%values, 1))
-      do j = 1, min(rows, size(table%line))
-         line(j) = table%line(j)
-         values(:common, j) = table%values(:common, j)
-         values(common + 1:, j) = ieee_value(0.0_dp, ieee_quiet_nan)
-      end do
-      call move_alloc(values, table%values)
-      call move_alloc(line, table%line)
-   end subroutine resize
 
    !> Whether a line begins with a word that is no number, and not `nan` or `inf` or their like.
    pure logical function is_remark(line)

@@ -40,6 +40,7 @@ contains
       type(axis_type) :: axis(2)
       character(:), allocatable :: grid_words
       logical, allocatable :: is_there(:, :)
+      real(dp) :: steps(2)   ! from the first coordinates to a point
       integer :: k, place(2), points(2)
 
       if (size(table%values, 1) /= 3) then
@@ -69,8 +70,9 @@ contains
       allocate (is_there(points(1), points(2)), source=.false.)
       do k = 1, size(table%line)
          associate (point => table%values(:, k))
-            place = index_on(axis, point(:2))
-            if (.not. all(is_on(axis, point(:2)))) then
+            steps = (point(:2) - axis%first)/merge(axis%step, 1.0_dp, points > 1)
+            place = 1 + nint(steps)
+            if (any(abs(steps - nint(steps)) > tolerance)) then
                call refuse(' is out of step: the points must form a regular grid, of '//grid_words// &
                            ' as it seems. Interpolate the heights to one')
                return
@@ -139,23 +141,6 @@ contains
       if (number == 0) axis%number = bins + 1
       axis%step = extent/(axis%number - 1)
    end function axis_of
-
-   !> The number of the coordinate of an axis that is closest to a value, from 1 on.
-   elemental integer function index_on(axis, coordinate)
-      type(axis_type), intent(in) :: axis
-      real(dp), intent(in) :: coordinate
-
-      index_on = 1
-      if (axis%number > 1) index_on = 1 + nint((coordinate - axis%first)/axis%step)
-   end function index_on
-
-   !> Whether a value is a coordinate of an axis.
-   elemental logical function is_on(axis, coordinate)
-      type(axis_type), intent(in) :: axis
-      real(dp), intent(in) :: coordinate
-
-      is_on = abs(coordinate - axis%first - (index_on(axis, coordinate) - 1)*axis%step) <= tolerance*axis%step
-   end function is_on
 
    !> Makes a profile, whose x rise; missing heights are NaN. If the steps of x are not equal it has these in `x` and is
    !> to be resampled. Errors: exit_bad_input for lines that have not two numbers, and for x that neither rise nor fall.

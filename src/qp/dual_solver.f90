@@ -50,13 +50,11 @@ contains
       class(dual_solver), intent(out) :: self
       type(qp_problem), intent(in) :: problem
       type(qp_solution), intent(out) :: solution
-      logical, intent(in), optional :: by_beale   !! start by Beale's method, with b <= 0; absent: no
+      logical, intent(in) :: by_beale   !! whether to start by Beale's method, with b <= 0
 
       self%problem = problem
       call self%set%start(problem)
-      if (present(by_beale)) then
-         if (by_beale) call descend(problem, self%set, solution%pivots)
-      end if
+      if (by_beale) call descend(problem, self%set, solution%pivots)
       call finish(self, solution)
    end subroutine solve
 

@@ -83,6 +83,7 @@ contains
       integer, intent(in) :: active(:)        !! constraints with a multiplier, each once
       real(dp), intent(in) :: multipliers(:)  !! y of the active constraints, shape (size(active))
 
+      real(dp), parameter :: smallest_scale = tiny(1.0_dp)   ! terms that are all 0 have no violation
       real(dp) :: gradient(size(x)), term(size(x)), slack(size(problem%bounds))
       real(dp) :: gradient_scale, force(size(active)), x_size
       integer :: i, n, m
@@ -98,7 +99,8 @@ contains
          gradient_scale = max(gradient_scale, maxval(abs(term)))
          gradient = gradient - term
       end do
-      residual = ratio(maxval(abs(gradient)), gradient_scale)
+      gradient_scale = max(gradient_scale, smallest_scale)
+      residual = maxval(abs(gradient))/gradient_scale
       if (m == 0) return
 
       ! Each constraint has its own scale, so that large units of one do not hide the violation of another.
@@ -106,15 +108,16 @@ contains
       call dgemv('T', n, m, 1.0_dp, problem%normals, n, x, 1, 1.0_dp, slack, 1)
       x_size = maxval(abs(x))
       do i = 1, m
-         if (slack(i) < 0.0_dp) residual = max(residual, ratio(-slack(i), slack_scale(i)))
+         if (slack(i) < 0.0_dp) residual = max(residual, -slack(i)/slack_scale(i))
       end do
       if (size(active) == 0) return
 
       ! A multiplier is measured by its term in the gradient.
       force = multipliers*maxval(abs(problem%normals(:, active)), dim=1)
-      residual = max(residual, ratio(max(0.0_dp, -minval(force)), gradient_scale))
+      residual = max(residual, -minval(force)/gradient_scale)
       do i = 1, size(active)
-         residual = max(residual, ratio(abs(force(i)*slack(active(i))), gradient_scale*slack_scale(active(i))))
+         residual = max(residual, abs(force(i)*slack(active(i)))/ &
+                                  max(gradient_scale*slack_scale(active(i)), smallest_scale))
       end do
 
    contains
@@ -123,20 +126,9 @@ contains
       pure real(dp) function slack_scale(i)
          integer, intent(in) :: i
 
-         slack_scale = abs(problem%bounds(i)) + x_size*maxval(abs(problem%normals(:, i)))
+         slack_scale = max(abs(problem%bounds(i)) + x_size*maxval(abs(problem%normals(:, i))), smallest_scale)
       end function slack_scale
 
    end function kkt_residual
-
-   !> a/b, and zero for 0/0.
-   pure real(dp) function ratio(a, b)
-      real(dp), intent(in) :: a, b  !! b >= 0
-
-      if (a <= tiny(a)) then
-         ratio = a
-      else
-         ratio = a/max(b, tiny(b))
-      end if
-   end function ratio
 
 end module wavycon_qp_problem

@@ -11,16 +11,16 @@ module wavycon_theory_tables
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact, hertz_roller
    use wavycon_kinds, only: dp
-   use wavycon_light_load, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
-      hertz_point_pressure_over_pstar, hertz_point_radius_over_wavelength, light_load_contact_area_longer, &
-      light_load_mean_gap_lattice, light_load_mean_gap_longer, light_load_mean_gap_one_square
    use wavycon_line_tables, only: line_columns, put_surface_line, start_surface_line, surface_line
    use wavycon_output_file, only: output_file
-   use wavycon_penny_crack, only: near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude, &
-      penny_crack_contact_area_fraction, penny_crack_mean_gap_over_amplitude, penny_crack_opening_over_amplitude, &
-      penny_crack_pressure_over_pstar, penny_crack_radius_over_wavelength
    use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
+   use wavycon_wave_2d_limits, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
+      hertz_point_pressure_over_pstar, hertz_point_radius_over_wavelength, light_load_contact_area_longer, &
+      light_load_mean_gap_lattice, light_load_mean_gap_longer, light_load_mean_gap_one_square, &
+      near_closure_contact_area_fraction, near_closure_mean_gap_over_amplitude, penny_crack_contact_area_fraction, &
+      penny_crack_mean_gap_over_amplitude, penny_crack_opening_over_amplitude, penny_crack_pressure_over_pstar, &
+      penny_crack_radius_over_wavelength
    use wavycon_westergaard, only: hertz_line_contact_area_fraction, kuznetsov_mean_gap_over_amplitude, &
       line_crack_contact_area_fraction, westergaard_contact_area_fraction, westergaard_displacement_over_amplitude, &
       westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, westergaard_pressure_over_pstar

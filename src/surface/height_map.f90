@@ -34,10 +34,11 @@ contains
 
       type(grid_slab) :: slab
       type(map_changes) :: changes
-      real(dp) :: largest(1), length(2)
+      logical :: repeats
+      real(dp) :: extremes(2), largest(1), length(2), mean(1)
 
-      length = sides/map%points()
       slab = map%columns()
+      length = sides/slab%points
       largest = maxval(abs(map%height))
       call slab%largest(largest)
       if (largest(1) > largest_number) &
@@ -46,52 +47,40 @@ contains
       if (.not. allocated(error)) call prepare_map(source, preparation, sides, map, changes, error)
       call slab%share_error(error)
       if (allocated(error)) return
-      ! Steps stay if the map is cropped.
-      length = length*map%points()
       call map%keep_own_columns()
       slab = map%columns()
+      ! Steps stay if the map is cropped.
+      length = length*slab%points
       ! The points of a map with free edges are those of a mirrored one: its opposite borders are no neighbours.
+      repeats = all(preparation%edges /= ['mirror', 'free  '])
       if (preparation%short_wavelength > 0.0_dp) &
-         call leave_out_short_waves(map%points(), length, any(preparation%edges == ['mirror', 'free  ']), &
-                                    preparation%short_wavelength, map%height, changes%rms_of_short)
-      call scale_heights(source, scale, slab, map%height, error)
-      if (allocated(error)) return
+         call leave_out_short_waves(slab%points, length, .not. repeats, preparation%short_wavelength, map%height, &
+                                    changes%rms_of_short)
+      extremes = [maxval(map%height), -minval(map%height)]
+      call slab%largest(extremes)
+      if (sum(extremes) <= 0.0_dp) then
+         ! Equal heights less their rounded mean would not be zero.
+         map%height = 0.0_dp
+      else
+         mean = slab%column_totals(reshape(sum(map%height, dim=1), [1, slab%columns()]))/product(real(slab%points, dp))
+         map%height = scale*(map%height - mean(1))
+      end if
+      largest = maxval(abs(map%height))
+      call slab%largest(largest)
+      if (largest(1) > largest_number .or. (largest(1) < smallest_number .and. largest(1) > 0.0_dp)) then
+         call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
+                          'height_scale, are up to '//short_number(largest(1))//' [length]: lengths may be '// &
+                          'from '//short_number(smallest_number)//' to '//short_number(largest_number))
+         return
+      end if
       changes%rise = scale*changes%rise
       changes%rms_of_short = scale*changes%rms_of_short
-      statistics = statistics_of(map%height, map%format, map%points(), length/map%points(), &
-                                 all(changes%edges /= ['mirror', 'free  ']))
-      surface = surface_of_points(length, map%height, changes%edges == 'mirror', map%points(), &
+      statistics = statistics_of(map%height, map%format, slab%points, length/slab%points, repeats)
+      surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
                                   changes%edges == 'free', radii)
       statistics%changes = changes
       if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
          call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)
    end subroutine surface_of_map
-
-   !> Subtracts the mean of the heights and converts them to lengths. Errors: exit_bad_input if they are out of range.
-   subroutine scale_heights(source, scale, slab, height, error)
-      character(*), intent(in) :: source           !! of the heights, for messages
-      real(dp), intent(in) :: scale                !! length of one unit of the heights, > 0
-      type(grid_slab), intent(in) :: slab          !! their columns
-      real(dp), intent(inout) :: height(:, :)      !! then over their mean [length]
-      type(error_type), allocatable, intent(out) :: error
-
-      real(dp) :: extremes(2), largest(1), mean(1)
-
-      extremes = [maxval(height), -minval(height)]
-      call slab%largest(extremes)
-      if (sum(extremes) <= 0.0_dp) then
-         ! Equal heights less their rounded mean would not be zero.
-         height = 0.0_dp
-      else
-         mean = slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(slab%points, dp))
-         height = scale*(height - mean(1))
-      end if
-      largest = maxval(abs(height))
-      call slab%largest(largest)
-      if (largest(1) > largest_number .or. (largest(1) < smallest_number .and. largest(1) > 0.0_dp)) &
-         call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
-                          'height_scale, are up to '//short_number(largest(1))//' [length]: lengths may be '// &
-                          'from '//short_number(smallest_number)//' to '//short_number(largest_number))
-   end subroutine scale_heights
 
 end module wavycon_height_map

@@ -68,7 +68,7 @@ contains
                           short_number(largest_number))
          return
       end if
-      map = statistics_of(height, 'made', points, spectrum%length/points)
+      map = statistics_of(height, 'made', points, spectrum%length/points, repeats=.true.)
       surface = surface_of_points(spectrum%length, height, points=points, has_free_edges=has_free_edges, radii=radii)
    end subroutine self_affine_surface
 
@@ -135,8 +135,7 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
       !> [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
       real(dp), intent(inout), contiguous :: height(:, :)
-      !> M, N, not below least_points_of, of a grid that may be distributed; the shape of height if absent.
-      integer, intent(in), optional :: points(2)
+      integer, intent(in) :: points(2)   !! M, N, not below least_points_of, of a grid that may be distributed
 
       type(c_ptr) :: generator
       type(fourier_series) :: waves
@@ -144,11 +143,9 @@ contains
       type(grid_transform) :: transform
       real(dp) :: moment(1)
       real(dp), allocatable :: moments(:, :)   ! of the waves of each of them
-      integer :: first, grid(2), highest(2), k, last, m, n
+      integer :: first, highest(2), k, last, m, n
 
-      grid = shape(height)
-      if (present(points)) grid = points
-      call transform%start(grid, even=.false.)
+      call transform%start(points, even=.false.)
       generator = gsl_rng_alloc(gsl_rng_mt19937)
       call gsl_rng_set(generator, int(spectrum%seed, c_long))
       highest = highest_waves(spectrum)

@@ -410,30 +410,22 @@ contains
    pure integer function paper_wave(self)
       class(surface_type), intent(in) :: self
 
+      real(dp) :: longest(0:1, 0:1)   ! coefficients of the longest waves
+      integer :: highest(2)
+
       paper_wave = no_paper_wave
       if (self%is_distributed() .or. self%has_free_edges .or. .not. self%shape%is_even()) return
-      if (self%dimension == 1) then
-         if (is_mean_of_waves(self%shape%c, [1, 0], [1, 0])) paper_wave = straight_paper_wave
-      else if (is_square(self)) then
-         if (is_mean_of_waves(self%shape%c, [1, 1], [1, 1])) paper_wave = straight_paper_wave
-         if (is_mean_of_waves(self%shape%c, [1, 0], [0, 1])) paper_wave = rotated_paper_wave
-      end if
+      if (self%dimension == 2 .and. .not. is_square(self)) return
+      longest = 0.0_dp
+      highest = min(1, ubound(self%shape%c))
+      longest(:highest(1), :highest(2)) = self%shape%c(:highest(1), :highest(2))
+      select case (count(abs(self%shape%c) > rounding))
+      case (1)
+         if (abs(longest(1, self%dimension - 1) - 1.0_dp) <= rounding) paper_wave = straight_paper_wave
+      case (2)
+         if (all(abs([longest(1, 0), longest(0, 1)] - 0.5_dp) <= rounding)) paper_wave = rotated_paper_wave
+      end select
    end function paper_wave
-
-   !> Whether a shape is the mean of two waves cos kX cos lY, which may be the same.
-   pure logical function is_mean_of_waves(c, first, second) result(is_mean)
-      real(dp), intent(in) :: c(0:, 0:)               !! coefficients of the shape
-      integer, intent(in) :: first(2), second(2)      !! k and l of each
-
-      real(dp) :: expected(0:ubound(c, 1), 0:ubound(c, 2))
-
-      is_mean = all(max(first, second) <= ubound(c))
-      if (.not. is_mean) return
-      expected = 0.0_dp
-      expected(first(1), first(2)) = 0.5_dp
-      expected(second(1), second(2)) = expected(second(1), second(2)) + 0.5_dp
-      is_mean = all(abs(c - expected) <= rounding)
-   end function is_mean_of_waves
 
    !> Whether the surface is a wave of the paper. A flat surface that is not a height map counts as one of amplitude 0
    !> in 1-D and on a square cell.

@@ -45,11 +45,11 @@ program stress_loads
    end select
 
    terms = choose_terms(dimension, harmonics, symmetry)
-   problem = energy_problem(terms, points, symmetry)
+   problem = energy_problem(terms, points, symmetry, has_hardness=.false.)
    do i = 1, size(loads)
       problem%bounds = -loads(i)
       if (i == 1) then
-         call solver%solve(problem, solution)
+         call solver%solve(problem, solution, by_beale=.false.)
       else
          call solver%pass_to(problem%bounds, solution)
       end if

@@ -298,7 +298,7 @@ contains
 
       terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
       call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
-      unknowns = terms%count()
+      unknowns = terms%count
       constraints = size(k)
    end subroutine find_size
 

@@ -3,6 +3,7 @@ module wavycon_height_map_kind
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_group_values, only: group_values
    use wavycon_height_map, only: surface_of_map
    use wavycon_kinds, only: dp
@@ -131,16 +132,17 @@ contains
 
       character(*), parameter :: keys(2) = ['length_x', 'length_y']
       character(:), allocatable :: sides, unit
-      integer :: d, points(2)
+      integer :: d
       logical :: is_given(2)   ! by the deck
+      type(grid_slab) :: slab
 
       assumed = ''
       unit = values%length_unit
       if (allocated(heights%length_unit)) unit = heights%length_unit
       if (unit /= '') unit = ' ['//escaped(unit)//']'
       is_given = [values%has(keys(1)), values%has(keys(2))]
-      points = heights%points()
-      associate (m => points(1), n => points(2), step => heights%step)
+      slab = heights%columns()
+      associate (m => slab%points(1), n => slab%points(2), step => heights%step)
          if (step(1) > 0.0_dp .and. .not. (all(heights%is_usual_side) .and. any(is_given))) then
             length = step*[m, n]
             if (n == 1) length(2) = length(1)
