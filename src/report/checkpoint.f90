@@ -16,7 +16,6 @@ module wavycon_checkpoint
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_kept_solution, only: is_kept, pack_solution, unpack_solution
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_results, only: results_type
    use wavycon_system, only: file_size, note_kept, path_absent, path_file, path_kind, process_id, remove_file, &
@@ -124,8 +123,8 @@ contains
 
       integer(int64), allocatable :: words(:)
 
-      if (.not. self%is_complete .or. .not. is_kept(solution)) return
-      call pack_solution(solution, words)
+      if (.not. self%is_complete .or. .not. solution%is_kept()) return
+      call solution%pack(words)
       if (allocated(words)) then
          call put(self, [int(load, int64), words])
          self%kept = self%kept + 1
@@ -273,7 +272,7 @@ contains
 
    !> Restores the solution of a record, if it is one of an own load.
    subroutine take_solution(words, results, known, understood)
-      integer(int64), intent(in) :: words(:)    !! number of the load; words of pack_solution
+      integer(int64), intent(in) :: words(:)    !! number of the load; words of contact_solution%pack
       type(results_type), intent(inout) :: results
       logical, intent(inout) :: known(:)        !! of each load
       logical, intent(out) :: understood        !! .false.: the record is no solution of a load of this deck
@@ -286,8 +285,7 @@ contains
       if (.not. understood) return
       load = int(words(1))
       if (known(load) .or. .not. results%sharing%is_own_load(load)) return
-      call unpack_solution(words(2:), results%sharing%kind /= distributed_grids, results%loads(load), known(load), &
-                           understood)
+      call results%loads(load)%unpack(words(2:), results%sharing%kind /= distributed_grids, known(load), understood)
    end subroutine take_solution
 
    !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
