@@ -127,8 +127,7 @@ contains
             residual_indentation = sum(gaps, at_hardness)
          end associate
       end if
-      allocate (source)
-      source = self%series
+      allocate (source, source=self%series)
       call move_alloc(programme%x, source%x)
       ! Without residual indentation no point is at H, although a peak between the points may come close.
       call measure_series(source%pressure(pbar_over_pstar), source%displacement(), source%options%edge_level, &
