@@ -1,9 +1,9 @@
 !> <case>.checkpoint: the loads solved so far, for --resume. It is removed when the tables are written.
 !>
-!> Only solutions that take long are written (wavycon_kept_solution); the others are fast to solve again. The file holds
-!> a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first record is a
-!> text that describes what is solved, each further one is a solution. A last record that was cut short by an
-!> interruption is ignored.
+!> Only solutions that take long are written (contact_solution%is_kept); the others are fast to solve again. The file
+!> holds a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first
+!> record is a text that describes what is solved, each further one is a solution. A last record that was cut short by
+!> an interruption is ignored.
 !>
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 !>
