@@ -2,24 +2,35 @@
 !> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb &
 !> Idnani's dual method or, as in the paper, by Beale's.
 module wavycon_beale_contact
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
    use wavycon_complementary_energy, only: bounds_at, energy_problem
-   use wavycon_contact_measures, only: measure_series
+   use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, trace_edges
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: load_derivatives, measure_series, measuring_intervals
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: status_of_programme
    use wavycon_contact_tuning, only: lightest_start
    use wavycon_dual_solver, only: dual_solver
-   use wavycon_fourier_terms, only: choose_terms, symmetry_full
+   use wavycon_field_source, only: field_source
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_full
+   use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
+   use wavycon_line_zeros, only: line_zeros
    use wavycon_qp_problem, only: qp_problem, qp_solution
-   use wavycon_series_source, only: series_source
-   use wavycon_solution_record, only: by_series
+   use wavycon_rotated_series, only: to_sum_angles
+   use wavycon_series_fields, only: series_fields
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_solution_record, only: by_series, solution_record
+   use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type, rotated_paper_wave
+   use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
 
-   public :: beale_contact, paper_constraint_points, paper_harmonics, qp_options
+   public :: beale_contact, paper_constraint_points, paper_harmonics, qp_options, series_source
 
    !> Harmonics of the paper's series, for 1-D and 2-D waves.
    integer, parameter :: paper_harmonics(2) = [10, 9]
@@ -32,10 +43,25 @@ module wavycon_beale_contact
       logical :: by_beale = .false.                !! by Beale's method in place of the dual method
    end type qp_options
 
+   !> The source of fields, edge and stresses of a pressure that is a truncated Fourier series.
+   type, extends(field_source) :: series_source
+      type(qp_options) :: options
+      type(fourier_terms) :: terms
+      logical :: rotated = .false.         !! phi and theta are the cell's angles rotated by 45 degrees
+      real(dp), allocatable :: x(:)        !! amplitudes of the terms of (p - pbar)/p*
+   contains
+      procedure :: pressure
+      procedure :: displacement
+      procedure :: fields
+      procedure :: contact_contours
+      procedure :: stresses
+      procedure :: coefficients
+      procedure :: derivatives
+   end type series_source
+
    type, extends(contact_solver) :: beale_contact
       type(series_source) :: series                    !! without amplitudes
       type(qp_problem) :: problem                      !! at zero load, or that of the last cold start
-      logical :: by_beale = .false.                    !! whether Beale's method solves each load
       type(dual_solver), allocatable, private :: solver   !! after the first load
    contains
       procedure :: start
@@ -68,10 +94,7 @@ contains
       call assert(options%edge_level > 0.0_dp, 'edge_level > 0')
       self%surface = surface
       self%is_started = surface%is_paper_wave()
-      self%by_beale = options%by_beale
-      self%series%edge_level = options%edge_level
-      self%series%constraint_points = options%constraint_points
-      self%series%symmetry = options%symmetry
+      self%series%options = options
       self%series%rotated = surface%paper_wave() == rotated_paper_wave
       self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
       self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
@@ -104,11 +127,10 @@ contains
             residual_indentation = sum(gaps, at_hardness)
          end associate
       end if
-      allocate (source)
-      source = self%series
+      allocate (source, source=self%series)
       call move_alloc(programme%x, source%x)
       ! Without residual indentation no point is at H, although a peak between the points may come close.
-      call measure_series(source%pressure(pbar_over_pstar), source%displacement(), self%series%edge_level, &
+      call measure_series(source%pressure(pbar_over_pstar), source%displacement(), source%options%edge_level, &
                           solution%measures, merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
       associate (x => source%x, n => self%surface%dimension)
          ! The mean square of the surface's own wave is 2^-n.
@@ -136,12 +158,12 @@ contains
 
       pivots = 0
       solved = .false.
-      if (self%by_beale .or. .not. allocated(self%solver)) then
+      if (self%series%options%by_beale .or. .not. allocated(self%solver)) then
          if (.not. allocated(self%solver)) allocate (self%solver)
          start = pbar_over_pstar
-         if (.not. self%by_beale) start = max(start, min(lightest_start, 0.5_dp*self%surface%hardness))
+         if (.not. self%series%options%by_beale) start = max(start, min(lightest_start, 0.5_dp*self%surface%hardness))
          self%problem%bounds = bounds_at(self%problem, start, self%surface%hardness)
-         call self%solver%solve(self%problem, programme, self%by_beale)
+         call self%solver%solve(self%problem, programme, self%series%options%by_beale)
          pivots = programme%pivots
          solved = pbar_over_pstar >= start
       end if
@@ -155,7 +177,7 @@ contains
       class(beale_contact), intent(in) :: self
 
       traits = solver_traits(solver=by_series, has_errors=.false., has_coefficients=.true., &
-                             continues_last_load=.not. self%by_beale)
+                             continues_last_load=.not. self%series%options%by_beale)
    end function traits
 
    subroutine forget_last_load(self)
@@ -163,5 +185,129 @@ contains
 
       if (allocated(self%solver)) deallocate (self%solver)
    end subroutine forget_last_load
+
+   !> p/p* as a series in phi and theta.
+   type(fourier_series) function pressure(self, pbar_over_pstar) result(series)
+      class(series_source), intent(in) :: self
+      real(dp), intent(in) :: pbar_over_pstar    !! P
+
+      call self%terms%coefficients(self%x, series%c)
+      series%c(0, 0) = pbar_over_pstar
+   end function pressure
+
+   !> (u - ubar)/Delta as a series in phi and theta: eqs. (13), (A10).
+   type(fourier_series) function displacement(self) result(series)
+      class(series_source), intent(in) :: self
+
+      call self%terms%coefficients(self%terms%compliance*self%x, series%c)
+   end function displacement
+
+   subroutine fields(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(series_fields), allocatable :: own
+
+      allocate (own)
+      call self%coefficients(record, own%pressure)
+      own%displacement = surface%displacement_of(own%pressure)
+      own%surface = surface
+      own%mean_gap = 1.0_dp - record%measures%approach_over_amplitude
+      call move_alloc(own, answer)
+   end subroutine fields
+
+   !> The error of a truncated series is not estimated.
+   subroutine stresses(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: series
+      type(series_stress), allocatable :: own
+
+      call self%coefficients(record, series)
+      allocate (own)
+      call start_series_stress(own, surface, series, record%pbar_over_pstar, &
+                               pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+      call move_alloc(own, answer)
+   end subroutine stresses
+
+   subroutine coefficients(self, record, series)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(fourier_series), intent(out) :: series
+
+      series = self%pressure(record%pbar_over_pstar)
+      if (self%rotated) series = to_sum_angles(series)
+   end subroutine coefficients
+
+   !> The isobar p = edge_level p*.
+   subroutine contact_contours(self, record, surface, curves, loads)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(contact_contour), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      type(fourier_series) :: series
+      type(isobar_grid) :: grid
+      real(dp), allocatable :: zeros(:)
+
+      series = self%pressure(record%pbar_over_pstar)
+      associate (level => self%options%edge_level, harmonics => self%terms%harmonics)
+         if (surface%dimension == 2) then
+            call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
+            if (self%rotated) then
+               ! A period of phi and theta is two cells.
+               call trace_edges(grid, curves, cell=grid%period/[1, 2], skew=grid%period(1)/2)
+               call rotate_contours(curves, factor=1.0_dp)
+            else
+               call trace_edges(grid, curves)
+            end if
+         else
+            series%c(0, 0) = series%c(0, 0) - level
+            call line_zeros(series%c(:, 0), measuring_intervals(harmonics), zeros)
+            call make_strips(zeros, sum(series%c) >= 0.0_dp, .true., curves)
+         end if
+         ! The part outside the isobar is not known.
+         allocate (loads(0))
+      end associate
+   end subroutine contact_contours
+
+   !> The slope of the mean gap at fixed active constraints, from the least energy of pressures of mean 1 that vanish at
+   !> these: (C30) of README.md in this directory. Unknown with a hardness, or if the constraints depend on each other.
+   subroutine derivatives(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      !> Pressures below this part of the peak pressure are rounding: the constraint is active.
+      real(dp), parameter :: active = 1e-9_dp
+      type(qp_problem) :: problem
+      type(working_set) :: set
+      integer, allocatable :: constraints(:)
+      integer :: i
+      real(dp), allocatable :: multipliers(:), x(:)
+
+      if (surface%has_hardness()) return
+      problem = energy_problem(self%terms, self%options%constraint_points, self%options%symmetry, has_hardness=.false.)
+      associate (pressure => record%pbar_over_pstar + matmul(self%x, problem%normals), &
+                 least => active*record%measures%peak_pressure_over_pstar)
+         constraints = pack([(i, i=1, size(pressure))], pressure < least)
+      end associate
+      problem%linear = 0.0_dp
+      problem%bounds = -1.0_dp
+      call set%start(problem)
+      call set%assign_active(problem, constraints)
+      if (set%count < size(constraints)) return
+      allocate (multipliers(set%count), x(size(self%x)))
+      call set%solve(problem, x, multipliers)
+      ! The energy is in units of the mean square of the surface's own wave.
+      answer%gap_slope = -sum(problem%hessian*x**2)/2**surface%dimension
+   end subroutine derivatives
 
 end module wavycon_beale_contact

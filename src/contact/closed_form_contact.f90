@@ -41,7 +41,6 @@ module wavycon_closed_form_contact
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P
    contains
       procedure :: at
-      procedure :: on_grid
    end type closed_form_fields
 
    type, extends(stress_fields) :: closed_form_stress
@@ -81,7 +80,9 @@ contains
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_solution), intent(out) :: solution
 
-      associate (unused => self, gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar))
+      ! The elastic energy per nominal area [p* Delta] is the integral of P d(approach), -P ln P dP by (20).
+      associate (unused => self, gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
+                 energy => pbar_over_pstar**2*(0.25_dp - 0.5_dp*log(pbar_over_pstar)))
          allocate (closed_form_source :: solution%source)
          solution%pbar_over_pstar = pbar_over_pstar
          solution%status = closed_form
@@ -90,17 +91,9 @@ contains
                              mean_gap_over_amplitude=gap, approach_over_amplitude=1.0_dp - gap, &
                              contact_area_fraction=westergaard_contact_area_fraction(pbar_over_pstar), &
                              peak_pressure_over_pstar=westergaard_peak_pressure_over_pstar(pbar_over_pstar), &
-                             min_pressure_over_pstar=0.0_dp, elastic_energy=energy(pbar_over_pstar), &
-                             elastic_energy_error=0.0_dp)
+                             min_pressure_over_pstar=0.0_dp, elastic_energy=energy, elastic_energy_error=0.0_dp)
       end associate
    end subroutine solve_partial_contact
-
-   !> The elastic energy per nominal area [p* Delta]: the integral of P d(approach), -P ln P dP by (20).
-   pure real(dp) function energy(pbar_over_pstar)
-      real(dp), intent(in) :: pbar_over_pstar   !! P, in (0, 1)
-
-      energy = pbar_over_pstar**2*(0.25_dp - 0.5_dp*log(pbar_over_pstar))
-   end function energy
 
    subroutine fields(self, record, surface, answer)
       class(closed_form_source), intent(in) :: self
@@ -124,24 +117,6 @@ contains
       gap = westergaard_gap_over_amplitude(x/2, self%pbar_over_pstar)
    end subroutine at
 
-   subroutine on_grid(self, points, offset, pressure, displacement, gap)
-      class(closed_form_fields), intent(inout) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)
-      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
-
-      integer :: k
-
-      allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
-      do k = 1, points(1)
-         call self%at(2*pi*(k - 1 + offset(1))/points(1), 0.0_dp, pressure(k, 1), displacement(k, 1), gap(k, 1))
-      end do
-      ! The fields of a profile do not depend on y.
-      pressure = spread(pressure(:, 1), 2, points(2))
-      displacement = spread(displacement(:, 1), 2, points(2))
-      gap = spread(gap(:, 1), 2, points(2))
-   end subroutine on_grid
-
    subroutine contact_contours(self, record, surface, curves, loads)
       class(closed_form_source), intent(in) :: self
       type(solution_record), intent(in) :: record
@@ -161,9 +136,7 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       associate (unused => self, unused_too => surface); end associate
-      allocate (closed_form_stress :: answer)
-      answer%pbar_over_pstar = record%pbar_over_pstar
-      answer%dimension = 1
+      allocate (answer, source=closed_form_stress(pbar_over_pstar=record%pbar_over_pstar, dimension=1))
    end subroutine stresses
 
    !> The stresses under Westergaard's pressure.
@@ -197,13 +170,9 @@ contains
       integer :: i, k
 
       half_width = pi*westergaard_contact_area_fraction(self%pbar_over_pstar)
-      allocate (places(3, size(across)*size(below)), widths(size(across)*size(below)))
-      do k = 1, size(below)
-         do i = 1, size(across)
-            places(:, (k - 1)*size(across) + i) = half_width*[across(i), 0.0_dp, below(k)]
-         end do
-      end do
-      widths = 0.5_dp*half_width
+      places = half_width*reshape([((across(i), 0.0_dp, below(k), i=1, size(across)), k=1, size(below))], &
+                                  [3, size(across)*size(below)])
+      allocate (widths(size(places, 2)), source=0.5_dp*half_width)
       call self%at_places(body, places, stresses)
    end subroutine start_places
 

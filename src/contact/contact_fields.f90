@@ -5,6 +5,7 @@
 !> gap = h + u - approach.
 module wavycon_contact_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_constants, only: pi
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -21,7 +22,7 @@ module wavycon_contact_fields
       type(grid_slab) :: own_slab = grid_slab()
    contains
       procedure(fields_at_point), deferred :: at
-      procedure(fields_on_grid), deferred :: on_grid
+      procedure :: on_grid
       procedure :: at_own_column
       procedure :: at_points
    end type contact_fields
@@ -36,20 +37,30 @@ module wavycon_contact_fields
          real(dp), intent(out) :: displacement    !! (u - ubar)/Delta
          real(dp), intent(out) :: gap             !! gap/Delta
       end subroutine fields_at_point
-
-      !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y. On a mirrored height map the points are
-      !> those of the map, X = pi (k + offset_x)/N_x.
-      subroutine fields_on_grid(self, points, offset, pressure, displacement, gap)
-         import :: contact_fields, dp
-         class(contact_fields), intent(inout) :: self
-         integer, intent(in) :: points(2)       !! N_x, N_y >= 1; N_y = 1 in 1-D
-         real(dp), intent(in) :: offset(2)      !! of the first point, in steps; 0 along y in 1-D
-         !> p/p*, (u - ubar)/Delta and gap/Delta, shape (N_x, N_y).
-         real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
-      end subroutine fields_on_grid
    end interface
 
 contains
+
+   !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y. On a mirrored height map the points are those
+   !> of the map, X = pi (k + offset_x)/N_x; the default, point by point, is for other surfaces.
+   subroutine on_grid(self, points, offset, pressure, displacement, gap)
+      class(contact_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)       !! N_x, N_y >= 1; N_y = 1 in 1-D
+      real(dp), intent(in) :: offset(2)      !! of the first point, in steps; 0 along y in 1-D
+      !> p/p*, (u - ubar)/Delta and gap/Delta, shape (N_x, N_y).
+      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
+
+      integer :: k, l
+
+      allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
+      do l = 1, points(2)
+         do k = 1, points(1)
+            associate (angles => 2*pi*([k, l] - 1 + offset)/points)
+               call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
+            end associate
+         end do
+      end do
+   end subroutine on_grid
 
    !> At many points.
    subroutine at_points(self, angle, shape, pressure, displacement, gap)

@@ -7,14 +7,15 @@ module wavycon_contact_solution
    use wavycon_contact_measures, only: contact_details, load_derivatives
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_spots, find_spots, one_region
-   use wavycon_contact_status, only: full_contact, is_good_status, no_load
+   use wavycon_contact_status, only: full_contact, interrupted, is_good_status, no_load, no_memory
    use wavycon_contact_contours, only: contact_contour
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
-   use wavycon_solution_record, only: solution_record
+   use wavycon_solution_record, only: by_grids, record_words, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -43,6 +44,9 @@ module wavycon_contact_solution
       procedure :: derivatives
       procedure :: distributed_points
       procedure :: collect_fields
+      procedure :: is_kept
+      procedure :: pack => pack_solution
+      procedure :: unpack => unpack_solution
    end type contact_solution
 
 contains
@@ -209,5 +213,54 @@ contains
       call self%source%collect(is_here)
       if (.not. is_here) deallocate (self%source)
    end subroutine collect_fields
+
+   !> Whether a solution is written to checkpoints: those on grids may take minutes, those of other solvers take
+   !> seconds. A load that lacked memory or was interrupted is solved again.
+   pure logical function is_kept(self)
+      class(contact_solution), intent(in) :: self
+
+      is_kept = self%solver == by_grids .and. .not. any(self%status == [interrupted, no_memory])
+   end function is_kept
+
+   !> What a checkpoint keeps, as 8-byte words, so that a resumed run need not compute the solution again: the record
+   !> and, if there is a source of fields, the numbers of that.
+   subroutine pack_solution(self, words)
+      class(contact_solution), intent(in) :: self            !! is_kept() is true
+      integer(int64), allocatable, intent(out) :: words(:)   !! not allocated if there is not enough memory
+
+      real(dp), allocatable :: values(:)
+
+      allocate (values(0))
+      if (allocated(self%source)) then
+         select type (source => self%source)
+         type is (grid_source)
+            call source%pack(values)
+         end select
+      end if
+      if (allocated(values)) words = [transfer(self%solution_record, [0_int64]), transfer(values, [0_int64])]
+   end subroutine pack_solution
+
+   !> Restores what pack_solution made. A grid that is distributed is restored by the words of all ranks that had
+   !> columns of it: called for one after the other, in any order.
+   subroutine unpack_solution(self, words, whole, complete, understood)
+      class(contact_solution), intent(inout) :: self     !! without a source at first
+      integer(int64), intent(in) :: words(:)
+      logical, intent(in) :: whole                       !! whether this rank needs all columns of a grid that was distributed
+      logical, intent(out) :: complete                   !! whether nothing is missing any more
+      logical, intent(out) :: understood                 !! .false. if these are not the words of a solution
+
+      complete = .false.
+      understood = size(words) >= record_words
+      if (.not. understood) return
+      self%solution_record = transfer(words(:record_words), self%solution_record)
+      complete = size(words) == record_words
+      if (complete) return
+      if (.not. allocated(self%source)) allocate (grid_source :: self%source)
+      select type (source => self%source)
+      type is (grid_source)
+         call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, understood)
+         if (understood) complete = source%has_all_columns()
+      end select
+   end subroutine unpack_solution
 
 end module wavycon_contact_solution

@@ -6,7 +6,7 @@ module wavycon_contact_solver
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
    use wavycon_kinds, only: dp
-   use wavycon_solution_record, only: no_solution, no_solver, solution_record
+   use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -72,63 +72,50 @@ module wavycon_contact_solver
 
 contains
 
-   !> Solves one load and measures the solution. Some loads need no solver. The status is not_found if the solver was
-   !> not started on a surface that it can solve, interrupted if self%progress asks it to stop.
+   !> Solves one load and measures the solution. Some loads need no solver: there is no load for P <= 0; contact is full
+   !> for P >= 1 unless the surface has free edges or the largest pressure, P + full_contact_peak, exceeds the hardness
+   !> H; there is no solution for P >= H and for NaN. The status is not_found if the solver was not started on a surface
+   !> that it can solve, interrupted if self%progress asks it to stop.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar             !! P; the status is not_finite if it is no number
       type(contact_solution), intent(out) :: solution     !! with a status
 
-      logical :: is_trivial, shall_stop
+      logical :: shall_stop
       type(solver_traits) :: traits
 
-      if (.not. self%is_started) then
-         traits = self%traits()
-         solution%solution_record = no_solution(pbar_over_pstar, traits%solver, not_found)
-         return
-      end if
-      call solve_trivial_load(self%surface, pbar_over_pstar, solution%solution_record, is_trivial)
-      if (is_trivial) return
-      shall_stop = .false.
-      if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
-      if (shall_stop) then
-         traits = self%traits()
-         solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
-      else
-         call self%solve_partial_contact(pbar_over_pstar, solution)
-      end if
+      traits = self%traits()
+      solution%pbar_over_pstar = pbar_over_pstar
+      associate (surface => self%surface)
+         ! Comparisons with a NaN raise an exception, which Debug builds trap.
+         if (.not. self%is_started) then
+            solution%solution_record = no_solution(pbar_over_pstar, traits%solver, not_found)
+         else if (ieee_is_nan(pbar_over_pstar)) then
+            solution%status = not_finite
+         else if (pbar_over_pstar <= 0.0_dp) then
+            solution%status = no_load
+            solution%measures%elastic_energy = 0.0_dp
+            solution%measures%elastic_energy_error = 0.0_dp
+         else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
+            solution%solution_record = no_solution(pbar_over_pstar, no_solver, above_hardness)
+         else if (pbar_over_pstar >= 1.0_dp .and. .not. surface%has_free_edges .and. &
+                  (.not. surface%has_hardness() .or. &
+                   pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
+            solution%status = full_contact
+            solution%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)
+            solution%measures%elastic_energy = surface%full_contact_energy()
+            solution%measures%elastic_energy_error = 0.0_dp
+         else
+            shall_stop = .false.
+            if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
+            if (shall_stop) then
+               solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
+            else
+               call self%solve_partial_contact(pbar_over_pstar, solution)
+            end if
+         end if
+      end associate
    end subroutine solve
-
-   !> Solves a load that needs no solver: there is no load for P <= 0; contact is full for P >= 1 unless the surface has
-   !> free edges or the largest pressure, P + full_contact_peak, exceeds the hardness H; there is no solution for P >= H
-   !> and for NaN.
-   subroutine solve_trivial_load(surface, pbar_over_pstar, record, is_trivial)
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: pbar_over_pstar        !! P; NaN is allowed
-      type(solution_record), intent(out) :: record   !! to be used only if is_trivial
-      logical, intent(out) :: is_trivial             !! otherwise the contact is partial: 0 < P < H
-
-      is_trivial = .true.
-      record%pbar_over_pstar = pbar_over_pstar
-      ! Comparisons with a NaN raise an exception, which Debug builds trap.
-      if (ieee_is_nan(pbar_over_pstar)) then
-         record%status = not_finite
-      else if (pbar_over_pstar <= 0.0_dp) then
-         record%status = no_load
-         record%measures%elastic_energy = 0.0_dp
-         record%measures%elastic_energy_error = 0.0_dp
-      else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
-         record = no_solution(pbar_over_pstar, no_solver, above_hardness)
-      else if (pbar_over_pstar >= 1.0_dp .and. .not. surface%has_free_edges .and. &
-               (.not. surface%has_hardness() .or. pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
-         record%status = full_contact
-         record%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)
-         record%measures%elastic_energy = surface%full_contact_energy()
-         record%measures%elastic_energy_error = 0.0_dp
-      else
-         is_trivial = .false.
-      end if
-   end subroutine solve_trivial_load
 
    !> Forgets the last solution: the next load starts as the first one does.
    subroutine forget_last_load(self)

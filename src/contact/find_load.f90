@@ -83,13 +83,13 @@ contains
             return
          end if
       end associate
-      search%logit_p = logit_t(search, search%target)
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
+         ! At the first level as well.
+         if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
          solver%level = level
          call find_root(solver, search, solution)
          if (solution%status == interrupted) exit
-         if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
       end do
       solver%level = 0
    end subroutine solve_for
@@ -105,6 +105,7 @@ contains
       !> Relative steps of logit P below this are rounding.
       real(dp), parameter :: shortest_step = 1e-13_dp
       real(dp) :: allowed, error, high, last_miss, last_logit_p, lightest, low, met, miss, next, scale
+      real(dp) :: values(3)   ! of the quantities that are searched for
       integer :: i
 
       low = -huge(low)
@@ -120,16 +121,12 @@ contains
             call solver%solve(exp(search%logit_p), solution)
          end if
          if (solution%status == interrupted) return
-         error = solution%measures%mean_gap_error
-         select case (search%quantity)
-         case (mean_gap)
-            met = solution%measures%mean_gap_over_amplitude
-         case (approach)
-            met = solution%measures%approach_over_amplitude
-         case default
-            met = solution%measures%contact_area_fraction
-            error = solution%measures%contact_area_error
-         end select
+         associate (measures => solution%measures)
+            values = [measures%contact_area_fraction, measures%mean_gap_over_amplitude, &
+                      measures%approach_over_amplitude]
+            error = merge(measures%contact_area_error, measures%mean_gap_error, search%quantity == contact_area)
+         end associate
+         met = values(search%quantity)
          allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
                        value_roundings*spacing(search%target))
          if (abs(met - search%target) <= allowed) return

@@ -36,11 +36,13 @@ contains
       real(dp), intent(in) :: target                        !! r > 0, stress over yield stress; 1: first yield
       type(contact_solution), intent(out) :: solution   !! of the load found
 
-      real(dp) :: log_p, slope
+      real(dp) :: first_log_p, log_p, slope
       type(solver_traits) :: traits
       integer :: level
 
-      log_p = first_log_p()
+      ! Below the hardness, which may be a small part of p*.
+      first_log_p = log(min(first_load, 0.5_dp*solver%surface%hardness))
+      log_p = first_log_p
       slope = light_slope(solver)
       traits = solver%traits()
       do level = traits%coarser_levels, 0, -1
@@ -48,19 +50,11 @@ contains
          call find_root(solver, setting, log(target), log_p, slope, solution)
          if (solution%status == interrupted) exit
          if (solution%status == not_found) then
-            log_p = first_log_p()
+            log_p = first_log_p
             slope = light_slope(solver)
          end if
       end do
       solver%level = 0
-
-   contains
-
-      !> ln P of the load at which the search begins: below the hardness, which may be a small part of p*.
-      real(dp) function first_log_p()
-         first_log_p = log(min(first_load, 0.5_dp*solver%surface%hardness))
-      end function first_log_p
-
    end subroutine solve_for_yield
 
    !> The secant method. A step that would leave the bracket of the root or reach the hardness is replaced by bisection.
@@ -72,14 +66,16 @@ contains
       real(dp), intent(inout) :: slope               !! d ln r/d ln P there
       type(contact_solution), intent(out) :: solution
 
+      class(stress_fields), allocatable :: fields
       type(solver_traits) :: traits
-      real(dp) :: at_hardness, at_largest, enough, error, high, largest, last_log_p, last_miss, low, miss, next
+      real(dp) :: at_hardness, at_largest, enough, error, high, largest, last_log_p, last_miss, low, miss, next, ratio
       integer :: i
       !> Rounding of the logarithm of a stress.
       real(dp), parameter :: rounding = 1e-10_dp
       !> A bracket narrower than this part of the tolerance has a jump.
       real(dp), parameter :: part_of_enough = 0.1_dp
 
+      traits = solver%traits()
       low = -huge(low)
       at_hardness = log(solver%surface%hardness)
       high = at_hardness
@@ -90,8 +86,13 @@ contains
       do i = 1, most_solves
          call solver%solve(exp(log_p), solution)
          if (solution%status == interrupted) return
-         call find_miss(solver, setting, log_target, solution, miss, error)
-         if (.not. ieee_is_finite(miss)) exit
+         call solution%stresses(solver%surface, fields)
+         call setting%find_over_yield_stress(fields, ratio, error)
+         if (.not. ieee_is_finite(ratio)) exit   ! NaN if the load has no solution
+         miss = log(ratio) - log_target
+         error = error/ratio
+         ! Without estimates there is nothing to compare with; an estimate that is unknown meets no accuracy.
+         if (.not. ieee_is_finite(error)) error = merge(unknown, 0.0_dp, traits%has_errors)
          if (miss > largest + rounding) then
             largest = miss
             at_largest = log_p
@@ -126,7 +127,6 @@ contains
          end if
          log_p = next
       end do
-      traits = solver%traits()
       if (allocated(solution%source)) deallocate (solution%source)
       solution%solution_record = no_solution(exp(at_largest), traits%solver, not_found)
    end subroutine find_root
@@ -137,28 +137,5 @@ contains
 
       light_slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
    end function light_slope
-
-   !> ln of the largest stress over the target, and its error estimate. NaN if the load has no solution.
-   subroutine find_miss(solver, setting, log_target, solution, miss, error)
-      class(contact_solver), intent(in) :: solver
-      type(stress_setting), intent(in) :: setting
-      real(dp), intent(in) :: log_target
-      type(contact_solution), intent(in) :: solution
-      real(dp), intent(out) :: miss, error
-
-      class(stress_fields), allocatable :: fields
-      type(solver_traits) :: traits
-      real(dp) :: ratio
-
-      call solution%stresses(solver%surface, fields)
-      call setting%find_over_yield_stress(fields, ratio, error)
-      miss = ratio
-      if (.not. ieee_is_finite(ratio)) return
-      miss = log(ratio) - log_target
-      error = error/ratio
-      ! Without estimates there is nothing to compare with; an estimate that is unknown meets no accuracy.
-      traits = solver%traits()
-      if (.not. ieee_is_finite(error)) error = merge(unknown, 0.0_dp, traits%has_errors)
-   end subroutine find_miss
 
 end module wavycon_find_yield

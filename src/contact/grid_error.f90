@@ -8,8 +8,8 @@ module wavycon_grid_error
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: unknown
-   use wavycon_contact_tuning, only: area_kept_change, area_safety, edge_bias, edge_scatter, gap_safety, &
-      kept_change, least_of_area, opening_ratio, peak_safety, unresolved_width
+   use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
+      least_of_area, opening_ratio, unresolved_width
    use wavycon_grid_area, only: edge_crossings
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
@@ -64,10 +64,9 @@ contains
       class(change_history), intent(in) :: self
       real(dp) :: errors(3)
 
-      real(dp), parameter :: safety(3) = [gap_safety, area_safety, peak_safety]
       real(dp), parameter :: kept(3) = [kept_change, area_kept_change, kept_change]
 
-      errors = safety*max(self%change, kept*self%change_before)
+      errors = change_safety*max(self%change, kept*self%change_before)
    end function errors_of_changes
 
    !> Errors that changes do not show (C15), (C16): of the area, because the position of the edge between points is

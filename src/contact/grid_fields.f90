@@ -19,7 +19,6 @@ module wavycon_grid_fields
       type(grid_edge) :: edge                !! pressure or -gap at the points
       type(surface_type) :: surface
       real(dp) :: approach = 0.0_dp          !! [Delta]
-      real(dp) :: hardness = huge(1.0_dp)    !! H, upper bound of the pressure [p*]
       logical :: rotated = .false.            !! whether the angles of the grid are X + Y and X - Y
       real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
       !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
@@ -48,7 +47,6 @@ contains
       fields%surface = surface
       fields%edge = edge
       fields%approach = approach
-      fields%hardness = surface%hardness
       fields%rotated = rotated
       fields%own_slab = edge%slab
       ! The points of a rotated grid are every other point of a grid of the cell.
@@ -79,13 +77,8 @@ contains
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
-      real(dp), dimension(1) :: own_displacement, own_gap, own_pressure
-
-      call self%at_points(reshape([x, y], [2, 1]), [self%surface%shape_at(x, y)], own_pressure, own_displacement, &
-                          own_gap)
-      pressure = own_pressure(1)
-      displacement = own_displacement(1)
-      gap = own_gap(1)
+      call interpolate(self, [x, y]/(2*pi), pressure, gap)
+      displacement = gap - (1.0_dp - self%approach) + self%surface%shape_at(x, y)
    end subroutine at
 
    subroutine at_points(self, angle, shape, pressure, displacement, gap)
@@ -96,9 +89,8 @@ contains
 
       integer :: k
 
-      if (.not. allocated(self%psi)) call find_psi(self)
       do k = 1, size(gap)
-         call interpolate(self, angle(1, k)/(2*pi), angle(2, k)/(2*pi), pressure(k), gap(k))
+         call interpolate(self, angle(:, k)/(2*pi), pressure(k), gap(k))
       end do
       displacement = gap - (1.0_dp - self%approach) + shape
    end subroutine at_points
@@ -110,12 +102,11 @@ contains
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
       integer :: k, l
-      real(dp) :: place(2), value
+      real(dp) :: value
       logical :: at_own
 
       allocate (pressure(points(1), points(2)), gap(points(1), points(2)))
       at_own = all(points == self%own_points) .and. all(abs(offset - self%own_offset) <= rounding)
-      if (.not. at_own .and. .not. allocated(self%psi)) call find_psi(self)
       do l = 1, points(2)
          do k = 1, points(1)
             if (at_own) then
@@ -123,8 +114,7 @@ contains
                pressure(k, l) = max(value, 0.0_dp)
                gap(k, l) = max(-value, 0.0_dp)
             else
-               place = ([k, l] - 1 + offset)/(self%surface%parts()*points)
-               call interpolate(self, place(1), place(2), pressure(k, l), gap(k, l))
+               call interpolate(self, ([k, l] - 1 + offset)/(self%surface%parts()*points), pressure(k, l), gap(k, l))
             end if
          end do
       end do
@@ -172,40 +162,36 @@ contains
       subroutine add_slopes(psi)
          real(dp), intent(in) :: psi(:)   !! shape (4)
 
-         logical :: contact(4)
+         real(dp) :: outwards(4)
 
-         contact = psi > 0.0_dp
-         if (contact(2) .eqv. contact(3)) return
-         if ((contact(1) .neqv. contact(2)) .or. (contact(3) .neqv. contact(4))) return
-         if (contact(2)) then
-            inside = inside + (psi(1) - psi(2))
-            outside = outside + (psi(3) - psi(4))
-         else
-            inside = inside + (psi(4) - psi(3))
-            outside = outside + (psi(2) - psi(1))
-         end if
+         outwards = psi
+         if (psi(4) > 0.0_dp) outwards = psi(4:1:-1)
+         if (any((outwards > 0.0_dp) .neqv. [.true., .true., .false., .false.])) return
+         inside = inside + (outwards(1) - outwards(2))
+         outside = outside + (outwards(3) - outwards(4))
       end subroutine add_slopes
 
    end subroutine find_psi
 
    !> Pressure and gap at a point.
-   pure subroutine interpolate(fields, x, y, pressure, gap)
-      type(grid_fields), intent(in) :: fields
-      real(dp), intent(in) :: x, y                !! in sides of the surface's cell
+   subroutine interpolate(fields, place, pressure, gap)
+      type(grid_fields), intent(inout) :: fields
+      real(dp), intent(in) :: place(2)            !! X, Y in sides of the surface's cell
       real(dp), intent(out) :: pressure, gap
 
       real(dp) :: psi, s(2), t(2)
       integer :: node(2)
 
-      s = [x, y]
-      if (fields%rotated) s = [x + y, x - y]
+      if (.not. allocated(fields%psi)) call find_psi(fields)
+      s = place
+      if (fields%rotated) s = [sum(place), place(1) - place(2)]
       call locate(s(1), size(fields%edge%pressure_or_gap, 1), fields%edge%even, node(1), t(1))
       call locate(s(2), size(fields%edge%pressure_or_gap, 2), fields%edge%even, node(2), t(2))
       psi = cubic(fields%psi(node(1) - 1:node(1) + 2, node(2) - 1:node(2) + 2), t(1), t(2))
       pressure = 0.0_dp
       gap = 0.0_dp
       if (psi > 0.0_dp) then
-         pressure = min(sqrt(psi), fields%hardness)
+         pressure = min(sqrt(psi), fields%surface%hardness)
       else
          gap = sqrt(-psi/fields%scale)**3
       end if

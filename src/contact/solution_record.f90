@@ -8,7 +8,7 @@ module wavycon_solution_record
    implicit none (type, external)
    private
 
-   public :: solution_record, no_solution, record_of_words, words_of_record
+   public :: solution_record, no_solution
 
    !> The solver of a solution. None is needed for no load and for full contact.
    integer, parameter, public :: no_solver = 0, by_series = 1, by_grids = 2, by_expansions = 3, by_closed_form = 4, &
@@ -25,13 +25,13 @@ module wavycon_solution_record
       integer :: iterations = 0               !! for a quadratic programme, exchanges of variables since the last load
       integer :: solver = no_solver           !! one of the names above
       integer :: status = not_found           !! one of wavycon_contact_status
+      integer :: padding = 0                  !! to a whole number of 8-byte words, so that no byte of these is undefined
    end type solution_record
 
-   type(contact_measures), parameter :: no_measures = contact_measures()
-   integer, parameter :: measures_words = storage_size(no_measures)/64
-
-   !> Words of 8 bytes that a record has.
-   integer, parameter, public :: record_words = measures_words + 6
+   !> Words of 8 bytes that a record has when it is written to a file or sent to another process: `transfer` makes them,
+   !> and a record of them.
+   type(solution_record), parameter :: empty = solution_record()
+   integer, parameter, public :: record_words = storage_size(empty)/64
 
 contains
 
@@ -46,26 +46,5 @@ contains
       record%solver = solver
       record%status = status
    end function no_solution
-
-   !> The bits of a record, to be written to a file or sent to another process.
-   pure function words_of_record(record) result(words)
-      class(solution_record), intent(in) :: record
-      integer(int64) :: words(record_words)
-
-      words = [transfer(record%pbar_over_pstar, words), transfer(record%measures, words), &
-               transfer(record%residual, words), record%active_constraints, &
-               int([record%iterations, record%solver, record%status], int64)]
-   end function words_of_record
-
-   !> The inverse of words_of_record.
-   pure type(solution_record) function record_of_words(words) result(record)
-      integer(int64), intent(in) :: words(record_words)
-
-      integer, parameter :: m = measures_words
-
-      record = solution_record(transfer(words(1), 1.0_dp), transfer(words(2:m + 1), no_measures), &
-                               transfer(words(m + 2), 1.0_dp), words(m + 3), &
-                               int(words(m + 4)), int(words(m + 5)), int(words(m + 6)))
-   end function record_of_words
 
 end module wavycon_solution_record

@@ -60,13 +60,9 @@ module wavycon_contact_tuning
 
    ! Error estimates of the grids.
 
-   !> Factor on the change of the mean gap from grid to grid, whose errors fall to a fifth. Above 1, as their fall is
-   !> not regular.
-   real(dp), parameter, public :: gap_safety = 1.25_dp
-   !> Factor on the change of the contact area, whose errors fall to a quarter.
-   real(dp), parameter, public :: area_safety = 1.25_dp
-   !> Factor on the change of the peak pressure.
-   real(dp), parameter, public :: peak_safety = 1.25_dp
+   !> Factor on the changes from grid to grid of mean gap, contact area and peak pressure, whose errors fall to a fifth
+   !> or a quarter. Above 1, as their fall is not regular.
+   real(dp), parameter, public :: change_safety = 1.25_dp
    !> The part of the change before that the error estimates of gap and peak keep, so that one change that is small by
    !> chance does not pass for accuracy.
    real(dp), parameter, public :: kept_change = 0.5_dp

@@ -6,7 +6,7 @@ module wavycon_fourier_series
    implicit none (type, external)
    private
 
-   public :: fourier_series, cosine_table, evaluate_line, folded
+   public :: fourier_series, cosine_table, divide_series, divided, evaluate_line, folded, weighted
 
    !> f(X, Y) = sum_ij  c_ij cos iX cos jY + cs_ij cos iX sin jY + sc_ij sin iX cos jY + ss_ij sin iX sin jY.
    !> An even field, f(-X, Y) = f(X, -Y) = f(X, Y), has the first term only. In 1-D j = 0 only.
@@ -171,5 +171,47 @@ contains
          slope = slope - i*c(i)*aimag(phase)
       end do
    end subroutine evaluate_line
+
+   !> A series with each term multiplied by a power of its frequency, one over its wavelength; the mean becomes 0.
+   pure type(fourier_series) function weighted(series, length, power)
+      type(fourier_series), intent(in) :: series
+      real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
+      integer, intent(in) :: power        !! not 0
+
+      real(dp) :: weight(lbound(series%c, 1):ubound(series%c, 1))
+      integer :: i, j
+
+      weighted = series
+      do j = 0, ubound(series%c, 2)
+         weight = hypot([(i, i=lbound(series%c, 1), ubound(series%c, 1))]/length(1), j/length(2))
+         where (weight > 0.0_dp) weight = weight**power
+         weighted%c(:, j) = weight*series%c(:, j)
+         if (series%is_even()) cycle
+         weighted%cs(:, j) = weight*series%cs(:, j)
+         weighted%sc(:, j) = weight*series%sc(:, j)
+         weighted%ss(:, j) = weight*series%ss(:, j)
+      end do
+   end function weighted
+
+   !> A series divided by a number; unchanged if that is 0.
+   pure type(fourier_series) function divided(series, unit)
+      type(fourier_series), intent(in) :: series
+      real(dp), intent(in) :: unit
+
+      divided = series
+      if (abs(unit) > 0.0_dp) call divide_series(divided, unit)
+   end function divided
+
+   !> Divides a series by a number in place.
+   pure subroutine divide_series(series, unit)
+      type(fourier_series), intent(inout) :: series
+      real(dp), intent(in) :: unit   !! not 0
+
+      series%c = series%c/unit
+      if (series%is_even()) return
+      series%cs = series%cs/unit
+      series%sc = series%sc/unit
+      series%ss = series%ss/unit
+   end subroutine divide_series
 
 end module wavycon_fourier_series

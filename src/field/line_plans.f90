@@ -63,7 +63,9 @@ contains
       complex(c_float_complex), allocatable :: single_waves(:), more_single_waves(:)
       real(c_double), allocatable :: more_values(:), values(:)
       real(c_float), allocatable :: single_values(:)
+      integer(c_int) :: sign_of_waves
 
+      sign_of_waves = merge(FFTW_FORWARD, FFTW_BACKWARD, transform == waves_forward)
       if (is_double) then
          allocate (values(length), more_values(length), waves(length), more_waves(length))
          select case (transform)
@@ -71,14 +73,11 @@ contains
             plan = fftw_plan_dft_r2c_1d(length, values, waves, flags)
          case (waves_to_real)
             plan = fftw_plan_dft_c2r_1d(length, waves, values, flags)
-         case (waves_forward)
-            plan = fftw_plan_dft_1d(length, waves, more_waves, FFTW_FORWARD, flags)
-         case (values_to_cosines)
-            plan = fftw_plan_r2r_1d(length, values, more_values, FFTW_REDFT10, flags)
-         case (cosines_to_values)
-            plan = fftw_plan_r2r_1d(length, values, more_values, FFTW_REDFT01, flags)
+         case (values_to_cosines, cosines_to_values)
+            plan = fftw_plan_r2r_1d(length, values, more_values, &
+                                    merge(FFTW_REDFT10, FFTW_REDFT01, transform == values_to_cosines), flags)
          case default
-            plan = fftw_plan_dft_1d(length, waves, more_waves, FFTW_BACKWARD, flags)
+            plan = fftw_plan_dft_1d(length, waves, more_waves, sign_of_waves, flags)
          end select
       else
          allocate (single_values(length), single_waves(length), more_single_waves(length))
@@ -87,10 +86,8 @@ contains
             plan = fftwf_plan_dft_r2c_1d(length, single_values, single_waves, flags)
          case (waves_to_real)
             plan = fftwf_plan_dft_c2r_1d(length, single_waves, single_values, flags)
-         case (waves_forward)
-            plan = fftwf_plan_dft_1d(length, single_waves, more_single_waves, FFTW_FORWARD, flags)
          case default
-            plan = fftwf_plan_dft_1d(length, single_waves, more_single_waves, FFTW_BACKWARD, flags)
+            plan = fftwf_plan_dft_1d(length, single_waves, more_single_waves, sign_of_waves, flags)
          end select
       end if
    end function new_plan

@@ -18,8 +18,7 @@ contains
       integer, intent(in) :: points(2)                     !! N_x, N_y >= 1; N_y = 1 in 1-D
       real(dp), intent(in) :: offset(2)                    !! of the first point, in steps
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
-      !> How often the points fit into the cell along x and y, 1 or 2; 1 if absent.
-      integer, intent(in), optional :: parts(2)
+      integer, intent(in) :: parts(2)   !! how often the points fit into the cell along x and y, 1 or 2
 
       complex(dp) :: turn_x(-ubound(series%c, 1):ubound(series%c, 1)), turn_y(-ubound(series%c, 2):ubound(series%c, 2))
       complex(dp) :: wave
@@ -27,8 +26,7 @@ contains
       type(grid_transform) :: transform
       integer :: i, j, sign_x, sign_y, k, l, whole(2)   ! whole: points of the cell
 
-      whole = points
-      if (present(parts)) whole = parts*points
+      whole = parts*points
       allocate (values(whole(1), whole(2)))
       call transform%start(whole, even=.false., whole=.true.)
       allocate (waves(whole(1)/2 + 1, whole(2)), source=(0.0_dp, 0.0_dp))
@@ -52,7 +50,7 @@ contains
          end do
       end do
       call transform%sample_waves(waves, values)
-      if (present(parts)) values = values(:points(1), :points(2))
+      if (any(parts > 1)) values = values(:points(1), :points(2))
 
    contains
 

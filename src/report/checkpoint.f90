@@ -1,9 +1,9 @@
 !> <case>.checkpoint: the loads solved so far, for --resume. It is removed when the tables are written.
 !>
-!> Only solutions that take long are written (wavycon_kept_solution); the others are fast to solve again. The file holds
-!> a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first record is a
-!> text that describes what is solved, each further one is a solution. A last record that was cut short by an
-!> interruption is ignored.
+!> Only solutions that take long are written (contact_solution%is_kept); the others are fast to solve again. The file
+!> holds a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first
+!> record is a text that describes what is solved, each further one is a solution. A last record that was cut short by
+!> an interruption is ignored.
 !>
 !> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
 !>
@@ -16,7 +16,6 @@ module wavycon_checkpoint
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_kept_solution, only: is_kept, pack_solution, unpack_solution
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_results, only: results_type
    use wavycon_system, only: file_size, note_kept, path_absent, path_file, path_kind, process_id, remove_file, &
@@ -30,7 +29,7 @@ module wavycon_checkpoint
 
    !> Stands for the number of a rank in a run whose work is not shared.
    integer, parameter :: alone = -1
-   character(*), parameter :: mark = 'wavycon checkpoint 8'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 9'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
@@ -124,8 +123,8 @@ contains
 
       integer(int64), allocatable :: words(:)
 
-      if (.not. self%is_complete .or. .not. is_kept(solution)) return
-      call pack_solution(solution, words)
+      if (.not. self%is_complete .or. .not. solution%is_kept()) return
+      call solution%pack(words)
       if (allocated(words)) then
          call put(self, [int(load, int64), words])
       else
@@ -261,8 +260,8 @@ contains
             if (understood) understood = words(1) >= 1 .and. words(1) <= size(known)
             if (.not. understood) exit
             load = int(words(1))
-            if (.not. known(load) .and. results%sharing%is_own_load(load)) call unpack_solution( &
-               words(2:), results%sharing%kind /= distributed_grids, results%loads(load), known(load), understood)
+            if (.not. known(load) .and. results%sharing%is_own_load(load)) call results%loads(load)%unpack( &
+               words(2:), results%sharing%kind /= distributed_grids, known(load), understood)
          end do
          if (.not. understood) &
             call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)

@@ -17,7 +17,7 @@ module wavycon_solve_loads
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_yield
-   use wavycon_solution_record, only: record_of_words, record_words, words_of_record
+   use wavycon_solution_record, only: record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
    use wavycon_work_sharing, only: distributed_loads, work_sharing
@@ -123,11 +123,11 @@ contains
       integer :: load
       integer(int64), allocatable :: words(:)
 
-      allocate (words, source=[(words_of_record(results%loads(load)), load=1, size(results%loads))])
+      allocate (words, source=[(transfer(results%loads(load)%solution_record, [0_int64]), load=1, size(results%loads))])
       call results%sharing%share_loads(words)
       do load = 1, size(results%loads)
-         if (.not. results%sharing%is_own_load(load)) &
-            results%loads(load)%solution_record = record_of_words(words((load - 1)*record_words + 1:load*record_words))
+         if (.not. results%sharing%is_own_load(load)) results%loads(load)%solution_record = &
+            transfer(words((load - 1)*record_words + 1:load*record_words), results%loads(load)%solution_record)
       end do
    end subroutine share_solutions
 

@@ -2,7 +2,7 @@
 module wavycon_surface
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt2
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: divide_series, divided, fourier_series, weighted
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
@@ -10,7 +10,6 @@ module wavycon_surface
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
    use wavycon_series_samples, only: sample_series
-   use wavycon_series_weights, only: divide_series, divided, weighted
    use wavycon_rotated_series, only: to_sum_angles
    implicit none (type, external)
    private
