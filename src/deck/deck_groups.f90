@@ -4,7 +4,8 @@ module wavycon_deck_groups
       is_word, next_token, quotes, starts_entry, token_type
    use wavycon_group_values, only: group_values
    use wavycon_interface_group, only: interface_keys
-   use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, text_value
+   use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, key_type, name_length, &
+      text_value, words_of
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: load_keys
@@ -12,7 +13,7 @@ module wavycon_deck_groups
    use wavycon_methods, only: method_table
    use wavycon_nearest_name, only: did_you_mean, nearest_name
    use wavycon_output_group, only: output_table
-   use wavycon_plain_text, only: excerpt, integer_text, listed, lower_case, newline, quoted
+   use wavycon_plain_text, only: excerpt, in_quotes, integer_text, listed, lower_case, newline, quoted
    use wavycon_problems, only: problem_list_type
    use wavycon_scene_group, only: scene_keys
    use wavycon_settings, only: replaces, setting_type
@@ -359,8 +360,37 @@ contains
          words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
       else
          words = "there is no key '"//excerpt(key)//"' in &"//trim(table%name)// &
-                 did_you_mean(key, table%keys%name, "'", "'", '; its keys are '//listed(table%keys%name))
+                 did_you_mean(key, table%keys%name, "'", "'", related_keys(key, table%keys))
       end if
    end function unknown_key
+
+   !> Words for a key that no name is near: which keys it may mean, namely those whose name is a part of it, or else
+   !> those whose meaning has its longest part; all keys if that says little.
+   pure function related_keys(key, keys) result(words)
+      character(*), intent(in) :: key
+      type(key_type), intent(in) :: keys(:)
+      character(:), allocatable :: words
+
+      integer, parameter :: most_related = 4, shortest = 4
+      character(:), allocatable :: part
+      character(len(key)) :: parts
+      character(name_length), allocatable :: split(:)
+      integer :: i
+      logical :: is_related(size(keys))
+
+      parts = key
+      do i = 1, len(key)
+         if (key(i:i) == '_') parts(i:i) = ' '
+      end do
+      allocate (split, source=words_of(parts))
+      part = trim(split(maxloc(len_trim(split), dim=1)))
+      is_related = [(len_trim(keys(i)%name) >= shortest .and. &
+                     index(' '//parts//' ', ' '//trim(keys(i)%name)//' ') > 0, i=1, size(keys))]
+      if (.not. any(is_related)) &
+         is_related = [(len(part) >= shortest .and. index(lower_case(keys(i)%meaning), part) > 0, i=1, size(keys))]
+      words = '; its keys are '//listed(keys%name)
+      if (any(is_related) .and. count(is_related) <= most_related) &
+         words = '; did you mean '//listed(in_quotes(pack(keys%name, is_related)), ' or ')//'?'
+   end function related_keys
 
 end module wavycon_deck_groups
