@@ -30,7 +30,7 @@ module wavycon_solution_record
 
    !> Words of 8 bytes that a record has when it is written to a file or sent to another process: `transfer` makes them,
    !> and a record of them.
-   type(solution_record), parameter :: empty = solution_record()
+   type(solution_record), parameter :: empty = solution_record(measures=contact_measures())
    integer, parameter, public :: record_words = storage_size(empty)/64
 
 contains
