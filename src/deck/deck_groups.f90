@@ -371,24 +371,26 @@ contains
       type(key_type), intent(in) :: keys(:)
       character(:), allocatable :: words
 
-      integer, parameter :: most_related = 4, shortest = 4
+      integer, parameter :: longest = 40, most_related = 4, shortest = 4   ! letters of a key, keys, letters of a part
       character(:), allocatable :: part
-      character(len(key)) :: parts
+      character(longest) :: parts
       character(name_length), allocatable :: split(:)
       integer :: i
       logical :: is_related(size(keys))
 
+      words = '; its keys are '//listed(keys%name)
+      if (len(key) > longest) return
       parts = key
       do i = 1, len(key)
          if (key(i:i) == '_') parts(i:i) = ' '
       end do
+      if (parts == '') return
       allocate (split, source=words_of(parts))
       part = trim(split(maxloc(len_trim(split), dim=1)))
       is_related = [(len_trim(keys(i)%name) >= shortest .and. &
-                     index(' '//parts//' ', ' '//trim(keys(i)%name)//' ') > 0, i=1, size(keys))]
+                     index(' '//trim(parts)//' ', ' '//trim(keys(i)%name)//' ') > 0, i=1, size(keys))]
       if (.not. any(is_related)) &
          is_related = [(len(part) >= shortest .and. index(lower_case(keys(i)%meaning), part) > 0, i=1, size(keys))]
-      words = '; its keys are '//listed(keys%name)
       if (any(is_related) .and. count(is_related) <= most_related) &
          words = '; did you mean '//listed(in_quotes(pack(keys%name, is_related)), ' or ')//'?'
    end function related_keys
