@@ -135,7 +135,13 @@ contains
          end if
          if (options%has('--output')) then
             sweeps = sweeps + 1
-            sweep(sweeps)%values = [setting_type('output', 'directory', quoted(options%text('--output')))]
+            ! gfortran 12 loses the memory of texts in an array constructor.
+            allocate (sweep(sweeps)%values(1))
+            associate (setting => sweep(sweeps)%values(1))
+               setting%group = 'output'
+               setting%key = 'directory'
+               setting%value = quoted(options%text('--output'))
+            end associate
          end if
       end associate
       call make_runs(deck(:decks), sweep(:sweeps), command_line%runs, error)

@@ -56,7 +56,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
-      character(:), allocatable :: command, library, text
+      character(:), allocatable :: command, text
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -66,19 +66,17 @@ contains
       call use_one_thread_for_matrices()
       call keep_memory()
       call outlive_file_size_limit()
-      library = ''
-      if (allocated(comm)) library = comm%library
       call read_command_line(command_line, error)
-      if (library /= '' .and. command_line%options%integer('--jobs') > 1 .and. .not. allocated(error)) &
+      if (allocated(comm) .and. command_line%options%integer('--jobs') > 1 .and. .not. allocated(error)) &
          call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')
       if (allocated(error)) error%message = error%message//new_line('a')//'wavycon --help shows all options'
       call share_error(error)
       call stop_on(error)
       if (command_line%options%logical('--version')) then
          text = 'wavycon '//version//' ('//revision//')'
-         if (library /= '') text = text//', '//library
+         if (allocated(comm)) text = text//', '//comm%library
       end if
-      if (command_line%options%logical('--help')) text = help_text(library /= '')
+      if (command_line%options%logical('--help')) text = help_text(allocated(comm))
       if (allocated(text)) then
          if (is_first_rank()) write (output_unit, '(a)') text
          call finish(exit_fine)
