@@ -4,6 +4,7 @@
 module wavycon_beale_contact
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
+   use wavycon_beale, only: solve_by_beale
    use wavycon_complementary_energy, only: bounds_at, energy_problem
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, trace_edges
    use wavycon_contact_fields, only: contact_fields
@@ -156,14 +157,18 @@ contains
       integer :: pivots
       logical :: solved
 
+      if (self%series%options%by_beale) then
+         self%problem%bounds = bounds_at(self%problem, pbar_over_pstar, self%surface%hardness)
+         call solve_by_beale(self%problem, programme)
+         return
+      end if
       pivots = 0
       solved = .false.
-      if (self%series%options%by_beale .or. .not. allocated(self%solver)) then
-         if (.not. allocated(self%solver)) allocate (self%solver)
-         start = pbar_over_pstar
-         if (.not. self%series%options%by_beale) start = max(start, min(lightest_start, 0.5_dp*self%surface%hardness))
+      if (.not. allocated(self%solver)) then
+         allocate (self%solver)
+         start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
          self%problem%bounds = bounds_at(self%problem, start, self%surface%hardness)
-         call self%solver%solve(self%problem, programme, self%series%options%by_beale)
+         call self%solver%solve(self%problem, programme)
          pivots = programme%pivots
          solved = pbar_over_pstar >= start
       end if

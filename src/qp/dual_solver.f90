@@ -11,11 +11,9 @@
 !> on that set is computed from D, c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have
 !> lost digits the set is factorised afresh and the pass continues.
 module wavycon_dual_solver
-   use wavycon_beale, only: descend
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: ddot, dgemv, dtrsv
-   use wavycon_qp_problem, only: kkt_residual, kkt_tolerance, qp_problem, qp_solution, qp_converged, qp_inaccurate, &
-      qp_iteration_limit
+   use wavycon_qp_problem, only: kkt_tolerance, qp_converged, qp_iteration_limit, qp_problem, qp_solution
    use wavycon_working_set, only: dependence, working_set
    implicit none (type, external)
    private
@@ -46,15 +44,13 @@ module wavycon_dual_solver
 contains
 
    !> Solves (Q1).
-   subroutine solve(self, problem, solution, by_beale)
+   subroutine solve(self, problem, solution)
       class(dual_solver), intent(out) :: self
       type(qp_problem), intent(in) :: problem
       type(qp_solution), intent(out) :: solution
-      logical, intent(in) :: by_beale   !! whether to start by Beale's method, with b <= 0
 
       self%problem = problem
       call self%set%start(problem)
-      if (by_beale) call descend(problem, self%set, solution%pivots)
       call finish(self, solution)
    end subroutine solve
 
@@ -82,31 +78,16 @@ contains
       do
          pivots_before = solution%pivots
          call restore_optimum(self%problem, self%set, limit, solution%pivots)
-         call check_on_active_set(self%problem, self%set, solution)
+         call self%set%check(self%problem, solution)
          if (solution%kkt_residual <= fresh_residual) return
-         call self%set%assign_active(self%problem, solution%active)
-         call check_on_active_set(self%problem, self%set, solution)
+         call self%set%refresh(self%problem)
+         call self%set%check(self%problem, solution)
          if (solution%status == qp_converged) return
          if (solution%pivots >= limit) solution%status = qp_iteration_limit
          if (solution%pivots >= limit .or. was_fresh .and. solution%pivots == pivots_before) return
          was_fresh = .true.
       end do
    end subroutine finish
-
-   !> Computes the minimum on the active constraints (Q5) and its KKT residual (Q3). The status is `qp_converged` if the
-   !> residual is within `kkt_tolerance`, otherwise `qp_inaccurate`.
-   subroutine check_on_active_set(problem, set, solution)
-      type(qp_problem), intent(in) :: problem
-      type(working_set), intent(in) :: set
-      type(qp_solution), intent(inout) :: solution   !! all but `pivots` is set
-
-      if (allocated(solution%x)) deallocate (solution%x, solution%active, solution%multipliers)
-      allocate (solution%x(size(problem%linear)), solution%multipliers(set%count))
-      allocate (solution%active, source=set%active(:set%count))
-      call set%solve(problem, solution%x, solution%multipliers)
-      solution%kkt_residual = kkt_residual(problem, solution%x, solution%active, solution%multipliers)
-      solution%status = merge(qp_converged, qp_inaccurate, solution%kkt_residual <= kkt_tolerance)
-   end subroutine check_on_active_set
 
    !> Changes the active constraints to those of the programme's minimum, but for rounding.
    subroutine restore_optimum(problem, set, pivot_limit, pivots)

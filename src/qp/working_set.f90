@@ -11,7 +11,7 @@
 module wavycon_working_set
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: ddot, dgemv, drot, dtrsv
-   use wavycon_qp_problem, only: qp_problem
+   use wavycon_qp_problem, only: kkt_residual, kkt_tolerance, qp_converged, qp_inaccurate, qp_problem, qp_solution
    implicit none (type, external)
    private
 
@@ -37,6 +37,8 @@ module wavycon_working_set
       procedure :: add
       procedure :: remove
       procedure :: solve
+      procedure :: refresh
+      procedure :: check
    end type working_set
 
 contains
@@ -169,6 +171,33 @@ contains
       x = x + x_change
       multipliers = multipliers + change
    end subroutine solve
+
+   !> Factorises the active constraints afresh.
+   subroutine refresh(self, problem)
+      class(working_set), intent(inout) :: self
+      type(qp_problem), intent(in) :: problem
+
+      integer :: list(self%count)
+
+      list = self%active(:self%count)
+      call self%assign_active(problem, list)
+   end subroutine refresh
+
+   !> Computes the minimum on the active constraints (Q5) and its KKT residual (Q3). The status is `qp_converged` if the
+   !> residual is within `kkt_tolerance`, otherwise `qp_inaccurate`.
+   subroutine check(self, problem, solution)
+      class(working_set), intent(in) :: self
+      type(qp_problem), intent(in) :: problem
+      type(qp_solution), intent(inout) :: solution   !! all but `pivots` is set
+
+      if (allocated(solution%x)) deallocate (solution%x, solution%active, solution%multipliers)
+      allocate (solution%x(size(problem%linear)), solution%multipliers(self%count))
+      allocate (solution%active, source=self%active(:self%count))
+      call self%solve(problem, solution%x, solution%multipliers)
+      solution%kkt_residual = kkt_residual(problem, solution%x, solution%active, solution%multipliers)
+      solution%status = qp_inaccurate
+      if (solution%kkt_residual <= kkt_tolerance) solution%status = qp_converged
+   end subroutine check
 
    !> Solves  Dx - C_W'y = c,  C_W x = b_W  by the factors.
    subroutine solve_equations(self, linear, bounds, x, multipliers)

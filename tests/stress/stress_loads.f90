@@ -49,7 +49,7 @@ program stress_loads
    do i = 1, size(loads)
       problem%bounds = -loads(i)
       if (i == 1) then
-         call solver%solve(problem, solution, by_beale=.false.)
+         call solver%solve(problem, solution)
       else
          call solver%pass_to(problem%bounds, solution)
       end if

@@ -9,6 +9,7 @@ program stress_qp
                                      random_recipe, recipe_type
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use stress_random_numbers, only: random_stream
+   use wavycon_beale, only: solve_by_beale
    use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_dual_solver, only: dual_solver
    use wavycon_kinds, only: dp
@@ -86,7 +87,11 @@ contains
       first = problem
       if (by_beale) first%bounds = min(problem%bounds, 0.0_dp)
       call system_clock(begun, rate)
-      call solver%solve(first, solution, by_beale)
+      if (by_beale) then
+         call solve_by_beale(first, solution)
+      else
+         call solver%solve(first, solution)
+      end if
       if (any(abs(first%bounds - problem%bounds) > 0.0_dp)) then
          pivots = solution%pivots
          call solver%pass_to(problem%bounds, solution)
