@@ -38,7 +38,7 @@ contains
       reason = why_chosen(results%traits)
       if (.not. results%scene%method%has('solver')) then
          if (reason /= '') reason = '; '//reason
-         reason = "'"//results%scene%method%text('solver')//"' is the default for this surface"//reason
+         reason = "'"//results%scene%method%text('solver')//"' is the default"//reason
       end if
       if (reason /= '') call log%say('because: '//reason)
       if (all(results%traits%finest_grid > 0)) then

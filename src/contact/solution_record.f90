@@ -11,11 +11,11 @@ module wavycon_solution_record
    public :: solution_record, no_solution
 
    !> The solver of a solution. None is needed for no load and for full contact.
-   integer, parameter, public :: no_solver = 0, by_series = 1, by_grids = 2, by_expansions = 3, by_closed_form = 4, &
-      by_choice = 5
+   integer, parameter, public :: no_solver = 0, by_beale = 1, by_grids = 2, by_expansions = 3, by_closed_form = 4, &
+      by_choice = 5, by_dual = 6
    !> Their names in decks and tables.
-   character(12), parameter, public :: solver_names(0:5) = [character(12) :: 'none', 'beale', 'grid', 'fitted', &
-      'closed_form', 'auto']
+   character(12), parameter, public :: solver_names(0:6) = [character(12) :: 'none', 'beale', 'grid', 'fitted', &
+      'closed_form', 'auto', 'series']
 
    type :: solution_record
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P >= 0, the mean pressure over p*

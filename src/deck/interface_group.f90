@@ -89,7 +89,7 @@ contains
       if (.not. has_adhesion(surface)) then
          call values%complain(problems, 'work_of_adhesion', 'adhesion is computed for wave_1d, for the 2-D waves '// &
          "that solver = 'fitted' takes and for a round ball: on other surfaces the superposition does not hold")
-      else if (any(method%text('solver') == ['grid ', 'beale']) .and. .not. surface%is_ball()) then
+      else if (any(method%text('solver') == ['grid  ', 'beale ', 'series']) .and. .not. surface%is_ball()) then
          call values%complain(problems, 'work_of_adhesion', "adhesion needs solver = 'auto', 'fitted' or "// &
                               "'closed_form', which tell how the edge of contact moves with the load")
       end if

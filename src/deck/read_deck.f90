@@ -104,7 +104,7 @@ contains
           scene%load%place > 0 .and. allocated(scene%surface)) &
          call check_loads_of_surface(scene%load, scene%surface, scene%p_star, problems)
       call check_stress_group(scene%stress, scene%material, scene%load, problems, scene%surface)
-      call check_method_group(scene%method, scene%surface_values%text('kind'), scene%surface, problems)
+      call check_method_group(scene%method, scene%surface, problems)
       call check_interface_group(scene%interface, scene%material, scene%method, problems, scene%surface)
       call check_output_group(scene%output, scene%scene_values%text('case'), scene%method, scene%surface, problems)
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of

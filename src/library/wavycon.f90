@@ -5,7 +5,7 @@
 !> `deck_session` takes and gives the deck's units.
 module wavycon
    use wavycon_auto_contact, only: auto_contact
-   use wavycon_beale_contact, only: beale_contact, qp_options
+   use wavycon_series_contact, only: series_contact, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_details, contact_measures

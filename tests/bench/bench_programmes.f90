@@ -9,7 +9,7 @@
 !> is the programme: D (n numbers a line), c, and the columns of C' (n numbers a line).
 program bench_programmes
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
-   use wavycon_beale_contact, only: beale_contact, qp_options
+   use wavycon_series_contact, only: series_contact, qp_options
    use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full
    use wavycon_kinds, only: dp
@@ -18,7 +18,7 @@ program bench_programmes
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'
-   type(beale_contact) :: fresh, contact
+   type(series_contact) :: fresh, contact
    type(qp_solution) :: programme
    character(12) :: words(4)
    real(dp), allocatable :: times(:)

@@ -1,14 +1,14 @@
 !> What decks say about solvers: their names, their keys of &method, what they refuse, and how values start them.
 module wavycon_methods
    use wavycon_auto_contact, only: auto_contact, has_closed_form, has_expansions
-   use wavycon_beale_contact, only: beale_contact, paper_constraint_points, paper_harmonics, qp_options
+   use wavycon_series_contact, only: series_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_constraint_points, only: choose_points
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fitted_frame, only: find_frame, fitted_frame
-   use wavycon_formula_kinds, only: paper_kinds, paper_waves
+   use wavycon_formula_kinds, only: paper_waves
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_group_values, only: group_values
@@ -24,9 +24,9 @@ module wavycon_methods
    public :: method_table, check_method_group, points_of_grid, solvers_for, traits_of, start_solver, why_chosen
 
    !> All solvers, in the order of the key reference.
-   character(*), parameter :: names = 'beale grid fitted closed_form auto'
+   character(*), parameter :: names = 'auto beale series fitted grid closed_form'
 
-   !> Largest values of 'beale' accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for
+   !> Largest values of the series accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for
    !> hours.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
    !> Most elements of its constraints' matrix. A few copies of it exist at a time, each of 160 MB.
@@ -43,14 +43,15 @@ contains
       type(qp_options) :: default
 
       table = key_group_type('method', 'how the contact is computed', selector='solver', keys=[ &
-         key_type(choice_value, 'solver', 'by the surface', '', &
-            "'beale': the paper's truncated Fourier series, for its waves; their default. The key minimiser says "// &
-            "how its quadratic programme is solved: by default not by Beale's method. 'grid': ever finer grids "// &
-            "until mean gap, area and peak pressure are accurate. 'fitted': collocation fitted to the edge of "// &
-            "contact, of spots or of closed pools of gap. 'closed_form': Westergaard's solution of the 1-D wave. "// &
+         key_type(choice_value, 'solver', "'auto'", '', &
             "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for "// &
-            "loads at which these are not accurate enough, otherwise and with a hardness 'grid'.", choices=names), &
-         of('beale', [ &
+            "loads at which these are not accurate enough, otherwise and with a hardness 'grid'. 'beale': the "// &
+            "paper's truncated Fourier series for its waves, with Beale's method as the minimiser of the energy, as "// &
+            "in the paper. 'series': the same with Goldfarb and Idnani's dual method, for many harmonics. "// &
+            "'fitted': collocation fitted to the edge of contact, of spots or of closed pools of gap. 'grid': ever "// &
+            "finer grids until mean gap, area and peak pressure are accurate. 'closed_form': Westergaard's "// &
+            "solution of the 1-D wave.", choices=names), &
+         of('beale series', [ &
             key_type(integer_value, 'harmonics', '9 (2-D), 10 (1-D)', '', &
                'highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
             key_type(integer_value, 'constraint_points', 'in proportion to harmonics', '', &
@@ -62,10 +63,6 @@ contains
                "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
                "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
                choices='full diagonal none'), &
-            key_type(choice_value, 'minimiser', "'dual'", '', &
-               "how the minimum of the energy is found, which is one and the same. 'dual': Goldfarb and Idnani's "// &
-               "method, from the load before; 'beale': Beale's method as in the paper, each load from an even "// &
-               'pressure.', choices='dual beale'), &
             key_type(real_value, 'edge_level', short_number(default%edge_level), 'p*', &
                'the isobar that is taken as the edge of contact.', above=0, below=1)]), &
          of('grid fitted auto', &
@@ -86,17 +83,13 @@ contains
    end function method_table
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver.
-   subroutine check_method_group(values, kind, surface, problems)
+   subroutine check_method_group(values, surface, problems)
       type(group_values), intent(inout) :: values
-      character(*), intent(in) :: kind                           !! of the surface, as the deck names it
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
       type(problem_list_type), intent(inout) :: problems
 
       character(:), allocatable :: solver, words
 
-      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
-      if (allocated(surface)) call values%set_default('solver', text=merge('beale', 'auto ', &
-         any(paper_kinds == kind) .and. surface%is_paper_wave()))
       call values%check_relations(problems)
       ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface) .or. values%is_bad('solver')) return
@@ -107,8 +100,8 @@ contains
          return
       end if
       select case (solver)
-      case ('beale')
-         call check_beale_keys(values, surface, problems)
+      case ('beale', 'series')
+         call check_series_keys(values, surface, problems)
       case ('grid', 'auto')
          call check_grid_keys(values, surface, problems)
       end select
@@ -126,7 +119,7 @@ contains
       if (any(solver == ['fitted     ', 'closed_form']) .and. surface%has_hardness()) &
          words = 'has no solution with a hardness'
       select case (solver)
-      case ('beale')
+      case ('beale', 'series')
          if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves
       case ('closed_form')
          if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
@@ -181,8 +174,8 @@ contains
       class(contact_solver), allocatable, intent(out) :: solver   !! not allocated if no solver has the name
 
       select case (name)
-      case ('beale')
-         allocate (beale_contact :: solver)
+      case ('beale', 'series')
+         allocate (series_contact :: solver)
       case ('grid')
          allocate (grid_contact :: solver)
       case ('fitted')
@@ -211,11 +204,11 @@ contains
       words = ''
       fitted = 'collocation fitted to the edge to within '//short_number(values%real('accuracy'))
       select type (solver)
-      type is (beale_contact)
+      type is (series_contact)
          call solver%start(surface, qp_options( &
             values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
-            values%real('edge_level'), values%text('minimiser') == 'beale'))
-         words = beale_in_words(values, surface)
+            values%real('edge_level'), values%text('solver') == 'beale'))
+         words = series_in_words(values, surface)
       type is (closed_form_contact)
          call solver%start(surface)
          words = closed_form
@@ -251,7 +244,7 @@ contains
    end function why_chosen
 
    !> Sets the defaults that depend on the surface, and reports numbers that do not fit each other or the memory.
-   subroutine check_beale_keys(values, surface, problems)
+   subroutine check_series_keys(values, surface, problems)
       type(group_values), intent(inout) :: values
       type(surface_type), intent(in) :: surface
       type(problem_list_type), intent(inout) :: problems
@@ -285,7 +278,7 @@ contains
                ' unknowns and '//integer_text(constraints)//' constraints: too many for the memory. Give fewer '// &
                'constraint_points (harmonics + 1 serve well), or a symmetry')
       end if
-   end subroutine check_beale_keys
+   end subroutine check_series_keys
 
    !> The size of the quadratic programme.
    subroutine find_size(values, surface, unknowns, constraints)
@@ -308,8 +301,8 @@ contains
       symmetry = symmetry_is(values%choice('symmetry'))
    end function symmetry_of
 
-   !> The discretisation of 'beale' in words.
-   function beale_in_words(values, surface) result(words)
+   !> The discretisation of the series in words.
+   function series_in_words(values, surface) result(words)
       type(group_values), intent(in) :: values   !! of &method
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
@@ -320,7 +313,7 @@ contains
       words = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
               integer_text(constraints*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
               short_number(values%real('edge_level'))
-   end function beale_in_words
+   end function series_in_words
 
    !> The grid in effect on the whole cell, along x and y: that of the deck, which refers to surface%parts(), or,
    !> without an accuracy, that which the surface was given on. Zeros if the accuracy decides.

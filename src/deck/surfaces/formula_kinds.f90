@@ -13,9 +13,9 @@ module wavycon_formula_kinds
 
    public :: check_sum, formula_surface, radii_of
 
-   !> The kinds that are waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), and their conditions.
-   character(*), parameter, public :: paper_kinds(*) = ['wave_1d   ', 'wave_2d   ', 'crossed_1d'], &
-      paper_waves = 'wave_1d, wave_2d with one wavelength, crossed_1d with equal waves'
+   !> The waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21).
+   character(*), parameter, public :: paper_waves = &
+      'wave_1d, wave_2d with one wavelength, crossed_1d with equal waves'
 
 contains
 

@@ -197,7 +197,6 @@ def solve(surface: Surface, *, keep_fields: bool = True, **options) -> Results:
         raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}")
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
     groups["scene"] = {"length_unit": surface.length_unit, **groups["scene"]}
-    groups["method"] = {"solver": "auto", **groups["method"]}
     if not groups.get("load"):
         raise ValueError(f"there is no load: give one of {', '.join(keys()['load'])}")
     rows, columns = (0, 0) if surface.heights is None else surface.heights.shape

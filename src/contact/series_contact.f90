@@ -1,7 +1,7 @@
-!> The method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series
-!> whose coefficients minimise the complementary energy, a quadratic programme. Its minimum is found by Goldfarb &
-!> Idnani's dual method or, as in the paper, by Beale's.
-module wavycon_beale_contact
+!> The method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series whose coefficients
+!> minimise the complementary energy, a quadratic programme. Beale's method finds its minimum, as in the paper, or
+!> Goldfarb & Idnani's dual method, which is faster with many harmonics.
+module wavycon_series_contact
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
    use wavycon_beale, only: solve_by_beale
@@ -24,14 +24,14 @@ module wavycon_beale_contact
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
-   use wavycon_solution_record, only: by_series, solution_record
+   use wavycon_solution_record, only: by_beale, by_dual, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type, rotated_paper_wave
    use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
 
-   public :: beale_contact, paper_constraint_points, paper_harmonics, qp_options, series_source
+   public :: series_contact, paper_constraint_points, paper_harmonics, qp_options, series_source
 
    !> Harmonics of the paper's series, for 1-D and 2-D waves.
    integer, parameter :: paper_harmonics(2) = [10, 9]
@@ -41,7 +41,7 @@ module wavycon_beale_contact
       integer :: constraint_points = 27            !! on [0, pi] in each direction, >= 2
       integer :: symmetry = symmetry_full          !! one of the names of wavycon_fourier_terms
       real(dp) :: edge_level = 0.1_dp              !! isobar taken as the edge of contact [p*], > 0
-      logical :: by_beale = .false.                !! by Beale's method in place of the dual method
+      logical :: by_beale = .true.                 !! by Beale's method; otherwise by the dual method
    end type qp_options
 
    !> The source of fields, edge and stresses of a pressure that is a truncated Fourier series.
@@ -60,17 +60,17 @@ module wavycon_beale_contact
       procedure :: derivatives
    end type series_source
 
-   type, extends(contact_solver) :: beale_contact
+   type, extends(contact_solver) :: series_contact
       type(series_source) :: series                    !! without amplitudes
       type(qp_problem) :: problem                      !! at zero load, or that of the last cold start
-      type(dual_solver), allocatable, private :: solver   !! after the first load
+      type(dual_solver), allocatable, private :: dual   !! after the first load
    contains
       procedure :: start
       procedure :: solve_partial_contact
       procedure :: solve_programme
       procedure :: traits
       procedure :: forget_last_load
-   end type beale_contact
+   end type series_contact
 
 contains
 
@@ -86,7 +86,7 @@ contains
 
    !> Chooses the terms of the series and the points of the constraints. Solutions always keep their fields.
    subroutine start(self, surface, options)
-      class(beale_contact), intent(out) :: self
+      class(series_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface  !! a wave of the paper
       type(qp_options), intent(in) :: options
 
@@ -103,7 +103,7 @@ contains
    end subroutine start
 
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
-      class(beale_contact), intent(inout) :: self
+      class(series_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_solution), intent(out) :: solution
 
@@ -113,7 +113,7 @@ contains
 
       call self%solve_programme(pbar_over_pstar, programme)
       solution%pbar_over_pstar = pbar_over_pstar
-      solution%solver = by_series
+      solution%solver = solver_of(self)
       solution%status = status_of_programme(programme%status)
       solution%iterations = programme%pivots
       solution%residual = programme%kkt_residual
@@ -149,7 +149,7 @@ contains
    !> hardness. Its pivots are those since the last load; its x are the amplitudes of the Fourier terms of
    !> (p - pbar)/p*.
    subroutine solve_programme(self, pbar_over_pstar, programme)
-      class(beale_contact), intent(inout) :: self
+      class(series_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H
       type(qp_solution), intent(out) :: programme
 
@@ -164,31 +164,38 @@ contains
       end if
       pivots = 0
       solved = .false.
-      if (.not. allocated(self%solver)) then
-         allocate (self%solver)
+      if (.not. allocated(self%dual)) then
+         allocate (self%dual)
          start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
          self%problem%bounds = bounds_at(self%problem, start, self%surface%hardness)
-         call self%solver%solve(self%problem, programme)
+         call self%dual%solve(self%problem, programme)
          pivots = programme%pivots
          solved = pbar_over_pstar >= start
       end if
       if (.not. solved) then
-         call self%solver%pass_to(bounds_at(self%problem, pbar_over_pstar, self%surface%hardness), programme)
+         call self%dual%pass_to(bounds_at(self%problem, pbar_over_pstar, self%surface%hardness), programme)
          programme%pivots = programme%pivots + pivots
       end if
    end subroutine solve_programme
 
    type(solver_traits) function traits(self)
-      class(beale_contact), intent(in) :: self
+      class(series_contact), intent(in) :: self
 
-      traits = solver_traits(solver=by_series, has_errors=.false., has_coefficients=.true., &
+      traits = solver_traits(solver=solver_of(self), has_errors=.false., has_coefficients=.true., &
                              continues_last_load=.not. self%series%options%by_beale)
    end function traits
 
-   subroutine forget_last_load(self)
-      class(beale_contact), intent(inout) :: self
+   pure integer function solver_of(self)
+      class(series_contact), intent(in) :: self
 
-      if (allocated(self%solver)) deallocate (self%solver)
+      solver_of = by_dual
+      if (self%series%options%by_beale) solver_of = by_beale
+   end function solver_of
+
+   subroutine forget_last_load(self)
+      class(series_contact), intent(inout) :: self
+
+      if (allocated(self%dual)) deallocate (self%dual)
    end subroutine forget_last_load
 
    !> p/p* as a series in phi and theta.
@@ -315,4 +322,4 @@ contains
       answer%gap_slope = -sum(problem%hessian*x**2)/2**surface%dimension
    end subroutine derivatives
 
-end module wavycon_beale_contact
+end module wavycon_series_contact
