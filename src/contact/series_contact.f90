@@ -12,7 +12,7 @@ module wavycon_series_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: status_of_programme
-   use wavycon_contact_tuning, only: lightest_start
+   use wavycon_contact_tuning, only: lightest_start, most_points_to_continue
    use wavycon_dual_solver, only: dual_solver
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
@@ -155,7 +155,6 @@ contains
 
       real(dp) :: start
       integer :: pivots
-      logical :: solved
 
       if (self%series%options%by_beale) then
          self%problem%bounds = bounds_at(self%problem, pbar_over_pstar, self%surface%hardness)
@@ -163,26 +162,35 @@ contains
          return
       end if
       pivots = 0
-      solved = .false.
+      start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
+      if (.not. continues(self)) call self%forget_last_load()
       if (.not. allocated(self%dual)) then
          allocate (self%dual)
-         start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
          self%problem%bounds = bounds_at(self%problem, start, self%surface%hardness)
          call self%dual%solve(self%problem, programme)
          pivots = programme%pivots
-         solved = pbar_over_pstar >= start
+         if (pbar_over_pstar >= start) return
       end if
-      if (.not. solved) then
-         call self%dual%pass_to(bounds_at(self%problem, pbar_over_pstar, self%surface%hardness), programme)
-         programme%pivots = programme%pivots + pivots
-      end if
+      call self%dual%pass_to(bounds_at(self%problem, pbar_over_pstar, self%surface%hardness), programme)
+      programme%pivots = programme%pivots + pivots
    end subroutine solve_programme
+
+   !> Whether a load starts from the active constraints of the last one. With few more points than harmonics two loads
+   !> have most of these in common.
+   pure logical function continues(self)
+      class(series_contact), intent(in) :: self
+
+      associate (options => self%series%options)
+         continues = .not. options%by_beale .and. &
+                     options%constraint_points <= most_points_to_continue*options%harmonics
+      end associate
+   end function continues
 
    type(solver_traits) function traits(self)
       class(series_contact), intent(in) :: self
 
       traits = solver_traits(solver=solver_of(self), has_errors=.false., has_coefficients=.true., &
-                             continues_last_load=.not. self%series%options%by_beale)
+                             continues_last_load=continues(self))
    end function traits
 
    pure integer function solver_of(self)

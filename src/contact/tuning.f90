@@ -142,6 +142,10 @@ module wavycon_contact_tuning
    !> constraints hardly change, so that the pass takes few steps.
    real(dp), parameter, public :: lightest_start = 1e-6_dp
 
+   !> The dual method continues from the load before with at most so many constraint points to a harmonic. Ten loads
+   !> took 0.44, 0.64, 0.64, 0.98, 0.9 and 1.0 of the time without with 1.02, 1.05, 1.1, 1.5, 1.55 and 3 points.
+   real(dp), parameter, public :: most_points_to_continue = 1.25_dp
+
    !> Difference of the loads that derivatives are from, over P or 1 - P (C29). At .05 the points that enter the contact
    !> one after another show more, at .2 the differences' own error.
    real(dp), parameter, public :: load_difference = 0.1_dp

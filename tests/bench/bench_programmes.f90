@@ -2,7 +2,7 @@
 !>
 !>    bench_programmes HARMONICS POINTS SYMMETRY WAY
 !>
-!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full' or 'diagonal',  min 1/2 x'Dx - c'x
+!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none',  min 1/2 x'Dx - c'x
 !> subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m of C', and reads
 !> lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of the
 !> solves [ms], each from nothing; x. With 0 solves there is one, which starts from the last answer. With -1 the answer
@@ -11,7 +11,7 @@ program bench_programmes
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use wavycon_series_contact, only: series_contact, qp_options
    use wavycon_contact_status, only: status_name, status_of_programme
-   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full
+   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_solution
    use wavycon_wave_surfaces, only: wave_2d
@@ -34,7 +34,7 @@ program bench_programmes
       stop 1
    end if
    call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(harmonics, points, &
-      merge(symmetry_diagonal, symmetry_full, words(3) == 'diagonal'), by_beale=words(4) == 'beale'))
+      symmetry_of(words(3)), by_beale=words(4) == 'beale'))
    contact = fresh
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    flush (output_unit)
@@ -66,5 +66,20 @@ program bench_programmes
       end if
       flush (output_unit)
    end do
+
+contains
+
+   pure integer function symmetry_of(name)
+      character(*), intent(in) :: name
+
+      select case (name)
+      case ('none')
+         symmetry_of = symmetry_none
+      case ('diagonal')
+         symmetry_of = symmetry_diagonal
+      case default
+         symmetry_of = symmetry_full
+      end select
+   end function symmetry_of
 
 end program bench_programmes
