@@ -8,13 +8,13 @@ module wavycon_gwyddion_map
    use wavycon_decimal_number, only: read_decimal
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
-   use wavycon_length_unit, only: find_factor
+   use wavycon_length_unit, only: angstrom, find_factor, micro_sign
    use wavycon_measured_map, only: laid_along_x, measured_map
    use wavycon_plain_text, only: excerpt, newline
    implicit none (type, external)
    private
 
-   public :: entry_of, read_gsf_map, take_text_head
+   public :: entry_of, positive_number, read_gsf_map, take_text_head
 
    !> First bytes of a .gsf file.
    character(*), parameter, public :: gsf_magic = 'Gwyddion Simple Field 1.'
@@ -81,8 +81,9 @@ contains
    !> or points, with `# Lateral units: m` in place of the first two. Numbers may have a decimal comma. Width and height
    !> without a unit, which may be numbers of points, and one without the other are remarks. Errors: exit_bad_input for
    !> units of the sides that do not convert into each other.
-   subroutine take_text_head(file, map, error)
+   subroutine take_text_head(file, head, map, error)
       class(binary_file), intent(in) :: file
+      character(*), intent(in) :: head           !! the first lines of the file, behind an empty one
       type(measured_map), intent(inout) :: map   !! with heights
       type(error_type), allocatable, intent(out) :: error
 
@@ -90,20 +91,18 @@ contains
       real(dp) :: factor, sides(2)
       logical :: is_known
 
-      associate (head => newline//file%head)
-         call read_length(entry_of(head, 'Width', ':'), sides(1), unit)
-         call read_length(entry_of(head, 'Height', ':'), sides(2), unit_y)
-         if (any(map%step > 0.0_dp) .or. any(sides <= 0.0_dp)) then
-            unit = entry_of(head, 'Lateral units', ':')
-         else
-            call find_factor(unit_y, unit, factor, is_known)
-            if (.not. is_known) call file%refuse("its head gives the width in '"//excerpt(unit)// &
-                                                 "' and the height in '"//excerpt(unit_y)//"': they must be lengths", &
-                                                 error)
-            map%step = sides*[1.0_dp, factor]/shape(map%height)
-         end if
-         height_unit = entry_of(head, 'Value units', ':')
-      end associate
+      call read_length(entry_of(head, 'Width', ':'), sides(1), unit)
+      call read_length(entry_of(head, 'Height', ':'), sides(2), unit_y)
+      if (any(map%step > 0.0_dp) .or. any(sides <= 0.0_dp)) then
+         unit = entry_of(head, 'Lateral units', ':')
+      else
+         call find_factor(unit_y, unit, factor, is_known)
+         if (.not. is_known) call file%refuse("its head gives the width in '"//excerpt(unit)// &
+                                              "' and the height in '"//excerpt(unit_y)//"': they must be lengths", &
+                                              error)
+         map%step = sides*[1.0_dp, factor]/shape(map%height)
+      end if
+      height_unit = entry_of(head, 'Value units', ':')
       call map%set_units(unit, height_unit)
    end subroutine take_text_head
 
@@ -138,7 +137,7 @@ contains
    end function positive_number
 
    !> The entry of a key in the lines behind the first one, without the blanks around it; empty if it is not there.
-   !> Lines may begin with the mark of a comment.
+   !> Lines may begin with the mark of a comment. At its end the units µm and Å of Latin-1 are put into UTF-8.
    pure function entry_of(words, key, separator) result(entry)
       character(*), intent(in) :: words, key
       character(1), intent(in) :: separator   !! between key and entry
@@ -158,9 +157,15 @@ contains
             if (middle == 0) cycle
             if (between(line(:middle - 1), blanks//'#') /= key) cycle
             entry = between(line(middle + 1:), blanks)
-            return
+            exit
          end associate
       end do
+      first = index(entry, char(181)//'m')
+      if (first > 0 .and. index(entry, char(194)) == 0) entry = entry(:first - 1)//micro_sign//entry(first + 2:)
+      first = len(entry)
+      if (first > 0) then
+         if (entry(first:) == char(197)) entry = entry(:first - 1)//angstrom
+      end if
 
    contains
 
