@@ -12,8 +12,8 @@ module wavycon_table_layout
 
    public :: find_layout
 
-   !> So many heights in equal steps one after the other, and not on the other side of the map, are no chance: they are
-   !> coordinates. Of independent heights 1e-7 of the rows of five do so.
+   !> So many heights in equal steps, without a slope that goes on beside them, are no chance: they are coordinates. Of
+   !> independent heights 1e-6 of the rows of five are so.
    integer, parameter :: least_values = 5
    !> The same of both axes of a table together, and of each.
    integer, parameter :: least_of_both = 7, least_of_each = 3
@@ -54,8 +54,7 @@ contains
       if (columns == 2 .and. rows > 2) map%format = 'xz'
       if (columns < 4 .or. rows < 4) return
       associate (v => table%values)
-         is_axis = [rises_evenly(v(1, 2:)) .and. .not. rises_evenly(v(columns, 2:)), &
-                    rises_evenly(v(2:, 1)) .and. .not. rises_evenly(v(2:, rows))]
+         is_axis = [are_coordinates(v(1, 2:), v(2, 2:)), are_coordinates(v(2:, 1), v(2:, 2))]
          if (all(is_axis) .and. (columns + rows - 2 >= least_of_both .or. ieee_is_nan(v(1, 1)))) then
             map%step = abs([v(columns, 1) - v(2, 1), v(1, rows) - v(1, 2)])/[columns - 2, rows - 2]
             ! x and y of the map rise.
@@ -79,6 +78,23 @@ contains
       end associate
       if (allocated(values)) call move_alloc(values, table%values)
    end subroutine find_layout
+
+   !> Whether a row or column has equal steps, and the next one does not go on with their slope, as on a tilted plane.
+   pure logical function are_coordinates(values, next)
+      real(dp), intent(in) :: values(:)
+      real(dp), intent(in) :: next(:)   !! as many
+
+      real(dp) :: from_mean(size(values)), squares
+      logical :: is_there(size(values))
+
+      are_coordinates = rises_evenly(values)
+      is_there = .not. ieee_is_nan(next)
+      if (.not. are_coordinates .or. .not. any(is_there)) return
+      from_mean = values - sum(values, mask=is_there)/count(is_there)
+      squares = sum(from_mean**2, mask=is_there)
+      ! By least squares the slope of the next is below a half, or above two, of that of the values.
+      are_coordinates = abs(2*sum(from_mean*next, mask=is_there) - 2.5_dp*squares) > 1.5_dp*squares
+   end function are_coordinates
 
    !> Whether two columns are x and y of a grid, of which at least half is there.
    logical function is_grid(table, first)
