@@ -5,20 +5,18 @@ module wavycon_map_file
       ieee_set_halting_mode, ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
-   use wavycon_esri_grid, only: esri_points, take_esri_head
-   use wavycon_file_bytes, only: byte_order_mark
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_gwyddion_map, only: entry_of, gsf_magic, read_gsf_map, take_text_head
+   use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, read_gsf_map, take_esri_head, &
+      take_text_head
    use wavycon_kinds, only: dp, sp
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: npy_magic, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, lower_case, newline
-   use wavycon_point_map, only: resample_profile, take_points, take_profile
+   use wavycon_point_map, only: check_matrix, resample_profile, take_points, take_profile
    use wavycon_ranks, only: share_error
    use wavycon_system, only: path_device, path_kind
-   use wavycon_table_layout, only: find_layout
    implicit none (type, external)
    private
 
@@ -95,8 +93,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(number_table) :: table
-      character(:), allocatable :: head, remedy
-      logical :: is_esri_grid
+      character(:), allocatable :: remedy
 
       remedy = remedy_of_content(file%head, file%path)
       if (index(file%head, npy_magic) == 1) remedy = "this is a file of numpy: file_format = 'npy' reads it"
@@ -113,13 +110,16 @@ contains
          return
       end if
       map%head_lines = table%words
-      head = lines_of(file%head)
-      is_esri_grid = all(esri_points(head) > 0)
       if (map%format == 'auto') then
          map%format = 'matrix'
-         ! The heads say that rows are heights, however many.
-         if (.not. is_esri_grid .and. entry_of(head, 'Width', ':') == '') call find_layout(table, map, error)
-         if (allocated(error)) return
+         ! Texts of Gwyddion with the sides of a map, and grids of ESRI, have rows of heights, however many.
+         if (entry_of(newline//file%head, 'Width', ':') == '' .and. &
+             entry_of(newline//lower_case(file%head), 'ncols', blanks) == '') then
+            if (size(table%values, 1) == 3 .and. size(table%line) > 3) map%format = 'xyz'
+            if (size(table%values, 1) == 2 .and. size(table%line) > 2) map%format = 'xz'
+            if (map%format == 'matrix') call check_matrix(table, error)
+            if (allocated(error)) return
+         end if
       end if
       call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
       if (allocated(error)) return
@@ -130,31 +130,15 @@ contains
          call take_profile(table, map, error)
       case default
          call move_alloc(table%values, map%height)
-         if (is_esri_grid) call take_esri_head(file%path, head, map, error)
+         call take_esri_head(file, map, error)
          if (.not. allocated(error)) call check_map_size(file%path, laid_along_x(shape(map%height)), error)
       end select
-      if (.not. allocated(error)) call take_text_head(file, head, map, error)
+      if (.not. allocated(error)) call take_text_head(file, map, error)
       if (allocated(error)) return
       if (size(map%height, 1) > 1) return
       map%height = transpose(map%height)
       map%step = map%step(2:1:-1)
    end subroutine read_text
-
-   !> The first bytes of a text behind an empty line, without the mark of their order: lines end in LF, and blanks stand
-   !> for tabs.
-   pure function lines_of(bytes) result(lines)
-      character(*), intent(in) :: bytes
-      character(:), allocatable :: lines
-
-      integer :: i
-
-      lines = newline//bytes
-      if (index(bytes, byte_order_mark) == 1) lines = newline//bytes(len(byte_order_mark) + 1:)
-      do i = 1, len(lines)
-         if (lines(i:i) == achar(13)) lines(i:i) = newline
-         if (lines(i:i) == achar(9)) lines(i:i) = ' '
-      end do
-   end function lines_of
 
    !> Marks the missing heights: those that are NaN and those that have a given value, in double or in single precision.
    subroutine mark_missing(map, missing_value)

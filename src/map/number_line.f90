@@ -11,7 +11,7 @@ module wavycon_number_line
    implicit none (type, external)
    private
 
-   public :: is_infinite, is_missing, read_line
+   public :: is_missing, read_line
 
    character(*), parameter :: tab = achar(9)
    !> What separates numbers.
@@ -51,13 +51,15 @@ contains
             if (tight > 0 .and. is_loose) then
                first = scan(line(:tight - 2), gaps, back=.true.) + 1
                last = scan(line(tight:)//' ', gaps) + tight - 2
-               trouble = comma_trouble(line(first:last))
+               trouble = "is '"//excerpt(line(first:last))// &
+                         "' a number with a decimal comma? Write a point, or separate all numbers of a line by "// &
+                         'commas alone'
                return
             end if
          end if
          values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
          used = used + holes + 1
-         call read_number(trim(line(first:last)), values(used), trouble)
+         call read_number(line(first:last), values(used), trouble)
          if (allocated(trouble)) return
          behind = last + 1
       end do
@@ -116,6 +118,7 @@ contains
          if (byte == '"' .or. (is_gap(byte) .and. .not. is_quoted)) exit
       end do
       last = last - 1
+      if (is_quoted) last = first - 1 + len_trim(line(first:last))
    end subroutine next_word
 
    !> Reads a word as a number.
@@ -135,56 +138,29 @@ contains
       end if
       if (is_missing(word)) then
          value = ieee_value(0.0_dp, ieee_quiet_nan)
-      else if (is_infinite(word)) then
+         return
+      end if
+      select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
+      case ('inf', 'infinity')
          trouble = "'"//excerpt(word)//"' is not a height: write nan if it is missing"
-      else if (index(word, ',') > 0) then
-         trouble = comma_trouble(word)
-      else
+      case default
          trouble = "'"//excerpt(word)//"' is no number: put # before a line that is a remark, and write nan for a "// &
                    'number that is missing'
-      end if
+      end select
    end subroutine read_number
 
-   !> The message for a word or words with a comma that may be decimal.
-   pure function comma_trouble(words) result(trouble)
-      character(*), intent(in) :: words
-      character(:), allocatable :: trouble
-
-      trouble = "is '"//excerpt(words)//"' a number with a decimal comma? Write a point, or separate all numbers "// &
-                'of a line by commas alone'
-   end function comma_trouble
-
    !> Whether a word stands for a missing number: as programs write what is no number, and the errors of spreadsheets.
+   !> Older C libraries of Windows write 1.#QNAN and -1.#IND, with few digits 1.#R.
    pure logical function is_missing(word)
-      character(*), intent(in) :: word
+      character(*), intent(in) :: word   !! not empty
 
-      is_missing = .false.
-      select case (without_sign(word))
-      case ('nan', 'nan(ind)', 'nan(snan)', 'na', 'n/a', '#n/a', '#num!', '#value!', '#div/0!', '#ref!')
-         is_missing = .true.
-      case ('-')
-         is_missing = word /= '+-'
-      case default
-         ! As older C libraries of Windows write it: 1.#QNAN, -1.#IND, and with few digits 1.#R.
-         is_missing = index(without_sign(word), '1.#') == 1 .and. .not. is_infinite(word)
-      end select
+      character(*), parameter :: words(*) = [character(9) :: 'nan', 'nan(ind)', 'nan(snan)', 'na', 'n/a', '#n/a', &
+                                             '#num!', '#value!', '#div/0!', '#ref!']
+      character(:), allocatable :: unsigned
+
+      unsigned = lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):))
+      is_missing = any(unsigned == words) .or. index(unsigned, '1.#') == 1 .or. word == '--'
    end function is_missing
-
-   !> Whether a word means an infinite number.
-   pure logical function is_infinite(word)
-      character(*), intent(in) :: word
-
-      is_infinite = without_sign(word) == 'inf' .or. without_sign(word) == 'infinity' .or. &
-                    index(without_sign(word), '1.#inf') == 1
-   end function is_infinite
-
-   !> A word in small letters, without a sign before it.
-   pure function without_sign(word) result(rest)
-      character(*), intent(in) :: word
-      character(:), allocatable :: rest
-
-      rest = lower_case(word(merge(2, 1, scan(word(:min(1, len(word))), '+-') == 1):))
-   end function without_sign
 
    !> Whether a byte separates numbers.
    elemental logical function is_gap(byte)

@@ -8,7 +8,7 @@ module wavycon_number_table
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_kinds, only: dp
-   use wavycon_number_line, only: gaps, is_infinite, is_missing, read_line
+   use wavycon_number_line, only: gaps, is_missing, read_line
    use wavycon_plain_text, only: escaped, integer_text, lower_case
    implicit none (type, external)
    private
@@ -56,7 +56,7 @@ contains
       if (allocated(error)) return
       table%path = path
       if (index(content(:min(len(content), len(byte_order_mark))), byte_order_mark) == 1) &
-         content = content(len(byte_order_mark) + 1:)
+         content(:len(byte_order_mark)) = ' '
       call write_decimal_points(content)
       most_rows = 1
       do i = 1, len(content)
@@ -141,7 +141,7 @@ contains
       first = verify(line, gaps)
       is_remark = first > 0
       if (is_remark) is_remark = verify(line(first:first), '+-.0123456789') > 0 .and. .not. &
-         (is_infinite(word_at(line, first)) .or. is_missing(word_at(line, first)))
+         (is_missing(word_at(line, first)) .or. index(lower_case(word_at(line, first)), 'inf') == 1)
    end function is_remark
 
    !> The word that begins at a place, as far as the longest word for a missing number.
@@ -152,8 +152,8 @@ contains
 
       integer, parameter :: longest = 9
 
-      word = text(first:min(first + longest, len(text)))
-      word = word(:scan(word//' ', gaps//line_feed//carriage_return) - 1)
+      word = text(first:min(first + longest, len(text)))//' '
+      word = word(:scan(word, gaps//line_feed//carriage_return) - 1)
    end function word_at
 
    !> Replaces decimal commas by points. Commas are decimal if each line that has one separates its numbers by tabs or
@@ -193,7 +193,9 @@ contains
       do behind = first, len(content)
          ! Most bytes are beyond '#', and line ends are before it.
          if (iachar(content(behind:behind)) > iachar('#')) cycle
-         if (is_line_end(content(behind:behind)) .or. starts_comment(content, behind)) exit
+         if (is_line_end(content(behind:behind))) exit
+         if (content(behind:behind) /= '#') cycle
+         if (starts_comment(content, behind)) exit
       end do
       last = behind - 1
       do behind = behind, len(content)
@@ -203,15 +205,14 @@ contains
       behind = behind + 1
    end subroutine next_line
 
-   !> Whether a byte starts a comment: '#', but not in `#N/A` and the like, nor in `1.#QNAN`.
+   !> Whether a '#' starts a comment: not in `#N/A` and the like, nor in `1.#QNAN`.
    pure logical function starts_comment(content, place)
       character(*), intent(in) :: content
       integer, intent(in) :: place
 
-      starts_comment = content(place:place) == '#'
-      if (starts_comment) starts_comment = .not. is_missing(word_at(content, place)) .and. .not. &
-         (content(max(1, place - 2):place - 1) == '1.' .and. &
-          scan(lower_case(content(place + 1:min(place + 1, len(content)))), 'abcdefghijklmnopqrstuvwxyz') == 1)
+      starts_comment = .not. is_missing(word_at(content, place)) .and. .not. &
+                       (content(max(1, place - 2):place - 1) == '1.' .and. &
+                        scan(lower_case(word_at(content, place)), 'abcdefghijklmnopqrstuvwxyz') == 2)
    end function starts_comment
 
    !> Whether a byte ends a line.

@@ -14,7 +14,7 @@ module wavycon_point_map
    implicit none (type, external)
    private
 
-   public :: resample_profile, rises_evenly, take_points, take_profile
+   public :: check_matrix, resample_profile, take_points, take_profile
 
    !> Largest deviation of a point from the grid, in steps. Coordinates in files are rounded, by up to a hundredth of a
    !> step, and so are the outermost ones, through which the grid is laid.
@@ -28,6 +28,39 @@ module wavycon_point_map
    end type axis_type
 
 contains
+
+   !> Checks that numbers are a matrix of heights. Errors: exit_bad_input for coordinates or numbers of lines in the
+   !> first row or column, and for points with other values behind their heights.
+   subroutine check_matrix(table, error)
+      type(number_table), intent(in) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      !> So many numbers in equal steps, whose slope does not go on beside them, are no heights, and so many of both
+      !> sides together: README.md of this directory has the chances.
+      integer, parameter :: least_numbers = 5, least_of_both = 7
+      !> More columns are no points, and fewer lines may be a grid by chance.
+      integer, parameter :: most_columns = 8, least_points = 9
+      character(*), parameter :: advice = ": leave out what is no height, or give file_format = 'matrix' if all are"
+      type(measured_map) :: map
+      type(number_table) :: points
+      type(error_type), allocatable :: trouble
+      logical :: is_axis(2)
+
+      associate (v => table%values, columns => size(table%values, 1), rows => size(table%values, 2))
+         if (min(columns, rows) < 4) return
+         is_axis = [are_coordinates(v(1, 2:), v(2, 2:)), are_coordinates(v(2:, 1), v(2:, 2))]
+         if (any(is_axis .and. [rows, columns] > least_numbers) .or. &
+             (all(is_axis) .and. rows + columns - 2 >= least_of_both)) then
+            call table%refuse(1, 'the first '//trim(merge('column', 'row   ', is_axis(1)))//' has numbers in equal '// &
+                              'steps, as coordinates or numbers of lines are'//advice, error)
+         else if (columns <= most_columns .and. rows >= least_points) then
+            points = table
+            points%values = v(:3, :)
+            call take_points(points, map, trouble)
+            if (.not. allocated(trouble)) call table%refuse(1, 'columns 1 and 2 are x and y of a grid'//advice, error)
+         end if
+      end associate
+   end subroutine check_matrix
 
    !> Makes a map from points in any order; heights of points without a line are NaN. x and y of the map rise. Errors:
    !> exit_bad_input if the points do not form a regular grid.
@@ -184,6 +217,21 @@ contains
       if (.not. rises_evenly(x)) call move_alloc(x, map%x)
    end subroutine take_profile
 
+   !> Whether a row or column has equal steps, and the next one does not go on with its slope, as on a tilted plane: by
+   !> least squares the slope is less than half, or more than twice, as large.
+   pure logical function are_coordinates(values, next)
+      real(dp), intent(in) :: values(:), next(:)   !! as many
+
+      logical :: is_there(size(next))
+      real(dp) :: from_mean(size(values)), squares
+
+      is_there = .not. ieee_is_nan(next)
+      from_mean = values - sum(values, mask=is_there)/max(1, count(is_there))
+      squares = sum(from_mean**2, mask=is_there)
+      are_coordinates = rises_evenly(values) .and. &
+                        abs(2*sum(from_mean*next, mask=is_there) - 2.5_dp*squares) > 1.5_dp*squares
+   end function are_coordinates
+
    !> Whether three or more numbers rise, or fall, in equal steps.
    pure logical function rises_evenly(x)
       real(dp), intent(in) :: x(:)
@@ -191,8 +239,6 @@ contains
       real(dp) :: step
       integer :: i
 
-      rises_evenly = .false.
-      if (size(x) < 3) return
       step = (x(size(x)) - x(1))/(size(x) - 1)
       rises_evenly = abs(step) > 0.0_dp .and. all(abs(x - x(1) - step*[(i, i=0, size(x) - 1)]) <= tolerance*abs(step))
    end function rises_evenly
