@@ -5,7 +5,7 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_measures, only: contact_measures, known_errors, unknown
+   use wavycon_contact_measures, only: contact_measures, is_known, known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
@@ -86,7 +86,7 @@ contains
          if (.not. ends) has_room = fits_memory(plan%next(grid))
          if (surface%has_hardness()) call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
          ! Only the errors of an answer are of interest.
-         call measure_level(surface, mean_pressure, history, &
+         call measure_level(surface, mean_pressure, h, history, &
                             ends .or. .not. has_room .or. all(grid >= plan%trusted), answer)
          if (surface%has_hardness()) then
             call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
@@ -115,8 +115,13 @@ contains
       else
          answer%errors = known_errors(answer%errors, surface%full_contact_peak)
       end if
-      ! No pressure is negative: an estimate as large as the peak says nothing of it.
-      if (.not. answer%accurate .and. answer%errors(3) >= answer%values(3)) answer%errors(3) = unknown
+      ! No pressure is negative: an estimate as large as the peak says nothing of it. With free edges the same is true of
+      ! the approach, and the area may be any part of the map.
+      if (.not. answer%accurate) then
+         where (answer%errors >= answer%values .and. answer%errors > 0.0_dp .and. &
+                [surface%has_free_edges, surface%has_free_edges, .true.]) answer%errors = unknown
+      end if
+      if (.not. is_known(answer%values(3))) answer%errors(3) = unknown
       associate (measures => answer%measures)
          measures%mean_gap_over_amplitude = answer%state%open_gap()
          measures%approach_over_amplitude = answer%state%approach
@@ -205,16 +210,17 @@ contains
    !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
    !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
    !> area although there is contact. The edge takes over the memory of the gap, which no longer exists afterwards.
-   subroutine measure_level(surface, mean_pressure, history, estimated, answer)
+   subroutine measure_level(surface, mean_pressure, h, history, estimated, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
+      real(dp), intent(in) :: h(:, :)    !! undeformed gap [Delta], of the columns of answer%state%gap
       type(change_history), intent(inout) :: history
       logical, intent(in) :: estimated   !! whether the errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area
       integer :: j
-      logical :: peak_resolved
+      logical :: has_corners, peak_resolved
 
       answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), &
                                 surface%has_free_edges .and. surface%dimension == 2)
@@ -226,18 +232,64 @@ contains
                           pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, &
                           surface%has_free_edges)
       call answer%edge%fetch_neighbours()
-      area = grid_contact_area(answer%edge)
-      answer%values(2) = area
       answer%measures%contact_area_counted_fraction = counted_area_fraction(answer%edge)
+      area = grid_contact_area(answer%edge)
+      ! At a step the pressure next to it does not say where the contact ends: it ends with the block.
+      if (surface%has_steps) area = answer%measures%contact_area_counted_fraction
+      answer%values(2) = area
       if (surface%dimension == 2) answer%measures%contact_area_corrected_fraction = corrected_area_fraction(answer%edge)
       call grid_peak_pressure(answer%edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
       call history%push(answer%values)
       if (estimated) answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
+      has_corners = surface%has_free_edges
+      if (has_corners) has_corners = ends_at_corners(surface, answer%edge%pressure_or_gap)
+      if (surface%has_steps) then
+         answer%errors(2) = max(answer%errors(2), counting_error(h, answer%edge%pressure_or_gap))
+      else if (has_corners .and. surface%dimension == 2) then
+         answer%errors(2) = max(answer%errors(2), answer%errors(1)/max(answer%values(1), tiny(area))*area)
+      end if
       if (.not. area > 0.0_dp) answer%errors(2) = unknown
+      if (has_corners .and. answer%values(3) < surface%hardness) then
+         answer%values(3) = unknown
+         answer%errors(3) = 0.0_dp   ! finer grids have no peak either
+      end if
       if (surface%has_hardness()) answer%values(2) = max(area, mean_pressure/surface%hardness)
    end subroutine measure_level
+
+   !> The error of the counted area of a map of two heights. Contact may end up to half a step of the grid from where the
+   !> cells of its points end, unless that is at a step; and it ends beside a step between two points that touch.
+   pure real(dp) function counting_error(h, p) result(error)
+      real(dp), intent(in) :: h(:, :), p(:, :)   !! undeformed gap, and > 0 in contact, at the points of the map
+
+      real(dp) :: step
+
+      associate (m => size(h, 1), n => size(h, 2))
+         step = 0.5_dp*max(maxval(abs(h(2:, :) - h(:m - 1, :))), maxval(abs(h(:, 2:) - h(:, :n - 1))))
+         error = 0.5_dp*(count(is_uncertain(h(2:, :) - h(:m - 1, :), p(2:, :), p(:m - 1, :), step)) + &
+                         count(is_uncertain(h(:, 2:) - h(:, :n - 1), p(:, 2:), p(:, :n - 1), step)))/size(h)
+      end associate
+   end function counting_error
+
+   !> Whether an edge of contact may lie somewhere between two points.
+   elemental logical function is_uncertain(difference, p, q, step)
+      real(dp), intent(in) :: difference   !! of their heights
+      real(dp), intent(in) :: p, q         !! > 0 in contact
+      real(dp), intent(in) :: step         !! half that of the map
+
+      is_uncertain = max(p, q) > 0.0_dp .and. ((p > 0.0_dp .neqv. q > 0.0_dp) .eqv. abs(difference) <= step)
+   end function is_uncertain
+
+   !> Whether contact ends at the border of the map or at a step, where the pressure grows beyond all bounds as at the
+   !> edge of a punch.
+   pure logical function ends_at_corners(surface, p)
+      type(surface_type), intent(in) :: surface   !! with free edges
+      real(dp), intent(in) :: p(:, :)             !! > 0 in contact, at the points of the map
+
+      ends_at_corners = surface%has_steps .or. any(p([1, size(p, 1)], :) > 0.0_dp)
+      if (surface%dimension == 2) ends_at_corners = ends_at_corners .or. any(p(:, [1, size(p, 2)]) > 0.0_dp)
+   end function ends_at_corners
 
    !> The edge of the area at which p = H. H - p and minus the gap behave there as gap and pressure do at the edge of
    !> contact (C23).
