@@ -7,7 +7,7 @@ module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_measures, only: contact_measures, is_known, known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
-   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, grid_contact_area
+   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
@@ -95,7 +95,7 @@ contains
          scale = 1.0_dp
          if (surface%has_free_edges) scale = answer%values
          answer%accurate = answer%state%converged .and. all(grid >= plan%trusted) .and. &
-            all(answer%errors <= accuracy*scale) .and. &
+            all(answer%errors <= accuracy*scale .or. .not. is_known(answer%values)) .and. &
             answer%measures%area_at_hardness_error <= accuracy*scale(2)
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
@@ -117,11 +117,9 @@ contains
       end if
       ! No pressure is negative: an estimate as large as the peak says nothing of it. With free edges the same is true of
       ! the approach, and the area may be any part of the map.
-      if (.not. answer%accurate) then
-         where (answer%errors >= answer%values .and. answer%errors > 0.0_dp .and. &
-                [surface%has_free_edges, surface%has_free_edges, .true.]) answer%errors = unknown
-      end if
-      if (.not. is_known(answer%values(3))) answer%errors(3) = unknown
+      where ((.not. answer%accurate .and. answer%errors >= max(answer%values, tiny(scale)) .and. &
+              [surface%has_free_edges, surface%has_free_edges, .true.]) .or. .not. is_known(answer%values)) &
+         answer%errors = unknown
       associate (measures => answer%measures)
          measures%mean_gap_over_amplitude = answer%state%open_gap()
          measures%approach_over_amplitude = answer%state%approach
@@ -221,6 +219,7 @@ contains
       real(dp) :: area
       integer :: j
       logical :: has_corners, peak_resolved
+      type(grid_edge) :: astray
 
       answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), &
                                 surface%has_free_edges .and. surface%dimension == 2)
@@ -243,52 +242,32 @@ contains
       answer%values(3) = min(answer%values(3), surface%hardness)
       call history%push(answer%values)
       if (estimated) answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
-      has_corners = surface%has_free_edges
-      if (has_corners) has_corners = ends_at_corners(surface, answer%edge%pressure_or_gap)
-      if (surface%has_steps) then
-         answer%errors(2) = max(answer%errors(2), counting_error(h, answer%edge%pressure_or_gap))
-      else if (has_corners .and. surface%dimension == 2) then
-         answer%errors(2) = max(answer%errors(2), answer%errors(1)/max(answer%values(1), tiny(area))*area)
-      end if
+      associate (errors => answer%errors, p => answer%edge%pressure_or_gap)
+         has_corners = ends_at_corners(surface, p)
+         if (surface%has_steps) then
+            ! The cells in contact are the area where contact ends with a block, and else to half a step: where only one
+            ! of contact and height changes between two points.
+            call start_grid_edge(astray, merge(1.0_dp, 0.0_dp, (p > 0.0_dp) .neqv. (2*h < maxval(h))), h, even=.true.)
+            errors(2) = max(errors(2), 0.5_dp*edge_crossings(astray)/size(h))
+         else if (has_corners .and. surface%dimension == 2) then
+            errors(2) = max(errors(2), errors(1)/max(answer%values(1), tiny(area))*area)
+         end if
+      end associate
       if (.not. area > 0.0_dp) answer%errors(2) = unknown
-      if (has_corners .and. answer%values(3) < surface%hardness) then
-         answer%values(3) = unknown
-         answer%errors(3) = 0.0_dp   ! finer grids have no peak either
-      end if
+      if (has_corners .and. answer%values(3) < surface%hardness) answer%values(3) = unknown
       if (surface%has_hardness()) answer%values(2) = max(area, mean_pressure/surface%hardness)
    end subroutine measure_level
-
-   !> The error of the counted area of a map of two heights. Contact may end up to half a step of the grid from where the
-   !> cells of its points end, unless that is at a step; and it ends beside a step between two points that touch.
-   pure real(dp) function counting_error(h, p) result(error)
-      real(dp), intent(in) :: h(:, :), p(:, :)   !! undeformed gap, and > 0 in contact, at the points of the map
-
-      real(dp) :: step
-
-      associate (m => size(h, 1), n => size(h, 2))
-         step = 0.5_dp*max(maxval(abs(h(2:, :) - h(:m - 1, :))), maxval(abs(h(:, 2:) - h(:, :n - 1))))
-         error = 0.5_dp*(count(is_uncertain(h(2:, :) - h(:m - 1, :), p(2:, :), p(:m - 1, :), step)) + &
-                         count(is_uncertain(h(:, 2:) - h(:, :n - 1), p(:, 2:), p(:, :n - 1), step)))/size(h)
-      end associate
-   end function counting_error
-
-   !> Whether an edge of contact may lie somewhere between two points.
-   elemental logical function is_uncertain(difference, p, q, step)
-      real(dp), intent(in) :: difference   !! of their heights
-      real(dp), intent(in) :: p, q         !! > 0 in contact
-      real(dp), intent(in) :: step         !! half that of the map
-
-      is_uncertain = max(p, q) > 0.0_dp .and. ((p > 0.0_dp .neqv. q > 0.0_dp) .eqv. abs(difference) <= step)
-   end function is_uncertain
 
    !> Whether contact ends at the border of the map or at a step, where the pressure grows beyond all bounds as at the
    !> edge of a punch.
    pure logical function ends_at_corners(surface, p)
-      type(surface_type), intent(in) :: surface   !! with free edges
-      real(dp), intent(in) :: p(:, :)             !! > 0 in contact, at the points of the map
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: p(:, :)   !! > 0 in contact; with free edges at the points of the map
 
-      ends_at_corners = surface%has_steps .or. any(p([1, size(p, 1)], :) > 0.0_dp)
-      if (surface%dimension == 2) ends_at_corners = ends_at_corners .or. any(p(:, [1, size(p, 2)]) > 0.0_dp)
+      associate (m => size(p, 1), n => size(p, 2))
+         ends_at_corners = surface%has_free_edges .and. &
+            (surface%has_steps .or. any(p([1, m], :) > 0.0_dp) .or. (n > 1 .and. any(p(:, [1, n]) > 0.0_dp)))
+      end associate
    end function ends_at_corners
 
    !> The edge of the area at which p = H. H - p and minus the gap behave there as gap and pressure do at the edge of

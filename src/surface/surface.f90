@@ -139,8 +139,11 @@ contains
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
       if (present(radii)) surface%form = half_curvatures(surface, radii)
       ! A flat map on a ball is the ball.
-      surface%has_steps = surface%has_free_edges .and. all(height <= minval(height) .or. height >= maxval(height)) .and. &
-                          (maxval(height) > minval(height) .or. all(surface%form <= 0.0_dp))
+      extremes = [maxval(height), -minval(height)]
+      call transform%slab%largest(extremes)
+      surface%has_steps = .not. transform%slab%any(any(height < extremes(1) .and. height > -extremes(2)))
+      surface%has_steps = surface%has_steps .and. surface%has_free_edges .and. &
+                          (sum(extremes) > 0.0_dp .or. all(surface%form <= 0.0_dp))
       allocate (values, source=height)
       call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
                                  2*pi/surface%points)
@@ -358,12 +361,8 @@ contains
       real(dp), intent(in) :: offset(2)                    !! of the first point, in steps
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
 
-      if (self%has_steps) then
-         allocate (values(points(1), points(2)))
-         call sample_blocks(self, offset, values)
-      else
-         call sample_series(self%shape, points, offset, values, self%parts())
-      end if
+      call sample_series(self%shape, points, offset, values, self%parts())
+      if (self%has_steps) call sample_blocks(self, offset, values)
       call self%subtract_form(values, 2*pi*offset/(self%parts()*points), 2*pi/(self%parts()*points))
    end subroutine sample_shape
 
@@ -377,31 +376,29 @@ contains
       type(grid_transform) :: transform
 
       call transform%start(slab%points, self%shape%is_even())
-      if (self%has_steps) then
-         call sample_blocks(self, [0.5_dp, 0.5_dp], h)
-      else
-         call transform%sample(self%shape, h)
-      end if
+      call transform%sample(self%shape, h)
+      if (self%has_steps) call sample_blocks(self, [0.5_dp, 0.5_dp], h)
       call self%subtract_form(h, [transform%x_angle(1), transform%y_angle(slab%first)], 2*pi/(self%parts()*slab%points))
       h = 1.0_dp - h
    end subroutine sample_gap
 
    !> The shape of a map of two heights without the paraboloid: at each point that of the map's nearest one.
    subroutine sample_blocks(surface, offset, values)
-      type(surface_type), intent(in) :: surface     !! with steps
-      real(dp), intent(in) :: offset(2)             !! of the first point, in steps
-      real(dp), intent(out) :: values(:, :)         !! at equal steps over the map
+      type(surface_type), intent(in) :: surface   !! with steps
+      real(dp), intent(in) :: offset(2)           !! of the first point, in steps
+      real(dp), intent(out) :: values(:, :)       !! at equal steps over the map
 
-      integer :: i, j
       real(dp), allocatable :: blocks(:, :)
+      integer :: i, grid(2)
       type(grid_transform) :: transform
 
-      associate (grid => surface%points/surface%parts(), points => shape(values))
-         allocate (blocks(grid(1), grid(2)))
-         call transform%start(grid, even=.true., whole=.true.)
-         call transform%sample(surface%shape, blocks)
-         values = blocks([(modulo(floor((i - 1 + offset(1))*grid(1)/points(1)), grid(1)) + 1, i=1, points(1))], &
-                         [(modulo(floor((j - 1 + offset(2))*grid(2)/points(2)), grid(2)) + 1, j=1, points(2))])
+      grid = surface%points/surface%parts()
+      allocate (blocks(grid(1), grid(2)))
+      call transform%start(grid, even=.true., whole=.true.)
+      call transform%sample(surface%shape, blocks)
+      associate (n => shape(values))
+         values = blocks([(modulo(floor((i + offset(1))*grid(1)/n(1)), grid(1)) + 1, i=0, n(1) - 1)], &
+                         [(modulo(floor((i + offset(2))*grid(2)/n(2)), grid(2)) + 1, i=0, n(2) - 1)])
       end associate
    end subroutine sample_blocks
 
