@@ -139,14 +139,16 @@ contains
    end function errors_of_measures
 
    !> Whether mean gap, contact area and peak pressure are exact, larger than their error estimates, or do not exist.
-   pure function are_resolved(self)
+   pure function are_resolved(self, surface)
       class(contact_measures), intent(in) :: self
+      type(surface_type), intent(in) :: surface   !! that was solved: with free edges the first error is the approach's
       logical :: are_resolved(3)
 
       real(dp) :: errors(3), values(3)
 
       errors = self%errors()
       values = [self%mean_gap_over_amplitude, self%contact_area_fraction, self%peak_pressure_over_pstar]
+      if (surface%has_free_edges .and. surface%dimension == 2) values(1) = self%approach_over_amplitude
       are_resolved = errors < values .or. errors <= 0.0_dp .or. .not. is_known(values)
    end function are_resolved
 

@@ -348,13 +348,14 @@ contains
       integer :: coarse(3), i, unknown
 
       values = [character(32) :: 'the mean gap', 'the contact area', 'the peak pressure']
+      if (results%solver%surface%has_free_edges) values(1) = 'the approach'
       coarse = 0
       unknown = 0
       do i = 1, size(results%loads)
          associate (solution => results%loads(i))
             if (solution%status /= unresolved) cycle
             if (any(is_known(solution%measures%errors()))) then
-               coarse = coarse + merge(0, 1, solution%measures%are_resolved())
+               coarse = coarse + merge(0, 1, solution%measures%are_resolved(results%solver%surface))
             else
                unknown = unknown + 1
             end if
