@@ -115,8 +115,8 @@ contains
       else
          answer%errors = known_errors(answer%errors, surface%full_contact_peak)
       end if
-      ! No pressure is negative: an estimate as large as the peak says nothing of it. With free edges the same is true of
-      ! the approach, and the area may be any part of the map.
+      ! No pressure is negative: an estimate as large as the peak says nothing of it. With free edges the same is true
+      ! of the approach and of the area.
       where ((.not. answer%accurate .and. answer%errors >= max(answer%values, tiny(scale)) .and. &
               [surface%has_free_edges, surface%has_free_edges, .true.]) .or. .not. is_known(answer%values)) &
          answer%errors = unknown

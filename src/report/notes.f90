@@ -281,8 +281,8 @@ contains
                'note: contact reaches the border: up to '//percent(maxval(all_measures%load_at_border))// &
                ' of the load is within '//percent(border)// &
                ' of the sides from it, where a larger map might carry more')
-            if (surface%has_steps) call log%say('note: a map of two heights at most is taken as blocks, the cells of '// &
-               'its points, as a punch is')
+            if (surface%has_steps) call log%say('note: a map of two heights at most is taken as blocks, the cells '// &
+               'of its points, as a punch is')
             if (.not. all(is_known(all_measures%peak_pressure_over_pstar))) call log%say('note: where contact ends '// &
                'at a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
             if (surface%dimension == 1) call log%say('note: the approach of a profile with free edges is not '// &

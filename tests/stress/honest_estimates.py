@@ -75,8 +75,8 @@ def patch(stream, points):
 
 
 def free_case(stream, kind):
-    """The files of a ball to a random accuracy, of a rough map on a ball or, of the kind `patch`, of a map that may touch
-    up to its border, on its own points, and those of a much finer solution."""
+    """The files of a ball to a random accuracy, of a rough map on a ball or, of the kind `patch`, of a map that may
+    touch up to its border, on its own points, and those of a much finer solution."""
     if kind == "patch":
         points = stream.choice((32, 48, 64))
         surface = "kind = 'file', file = 'map.dat', edges = 'free', height_scale = 0.01"
