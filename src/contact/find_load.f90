@@ -25,6 +25,8 @@ module wavycon_find_load
       real(dp) :: target = 0.5_dp          !! the contact area fraction, G or the approach [Delta]
       integer :: quantity = contact_area   !! which of them: one of the names above
       logical :: is_bounded = .true.       !! whether the target is below 1; only an approach may not be
+      !> Whether it is the least load at which all of a map with free edges touches: the area is 1 at heavier loads too.
+      logical :: closes = .false.
       !> The least load that certainly closes the gap or exceeds what H carries; huge if there is none.
       real(dp) :: most = 1.0_dp
       real(dp) :: logit_p = 0.0_dp         !! logit P/most, or ln P, of the next solution
@@ -75,6 +77,7 @@ contains
 
       associate (surface => solver%surface)
          search = root_search(target=target, quantity=quantity)
+         search%closes = quantity == contact_area .and. target >= 1.0_dp
          search%most = surface%hardness
          if (.not. surface%has_free_edges) search%most = min(1.0_dp, surface%hardness)
          if (quantity == approach) search%is_bounded = .not. (surface%has_free_edges .or. surface%has_hardness())
@@ -87,6 +90,7 @@ contains
       do level = traits%coarser_levels, 0, -1
          ! At the first level as well.
          if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
+         if (search%closes) search%logit_p = min(search%logit_p, 0.0_dp)
          solver%level = level
          call find_root(solver, search, solution)
          if (solution%status == interrupted) exit
@@ -129,8 +133,11 @@ contains
          met = values(search%quantity)
          allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
                        value_roundings*spacing(search%target))
-         if (abs(met - search%target) <= allowed) return
+         if (abs(met - search%target) <= allowed .and. &
+             .not. (search%closes .and. search%logit_p - low > largest_fraction)) return
          miss = logit_t(search, met) - logit_t(search, search%target)
+         ! A lighter load may close the map too.
+         if (search%closes .and. abs(met - search%target) <= allowed) miss = longest_step
          if (i > 1 .and. abs(search%logit_p - last_logit_p) > 0.0_dp) &
             search%slope = min(max((miss - last_miss)/(search%logit_p - last_logit_p), flattest), steepest)
          last_logit_p = search%logit_p

@@ -150,7 +150,7 @@ contains
          solution%status = no_memory
       else if (any(self%options%points == 0)) then
          solution%status = not_accurate
-      else if (all(solution%measures%are_resolved())) then
+      else if (all(solution%measures%are_resolved(self%surface))) then
          solution%status = converged
       else
          solution%status = unresolved

@@ -88,6 +88,8 @@ contains
       ! With the open part of the surface the mean gap falls as the power 5/2 or faster, and so does the change of the
       ! peak.
       errors = [open_part**2, open_part, open_part**2]
+      ! With free edges Delta and p* are no measures of approach and peak: (C17) has the same relative to their values.
+      if (surface%has_free_edges) errors([1, 3]) = 0.0_dp
       errors(2) = max(errors(2), edge_scatter*sqrt(real(crossings, dp))/points, edge_bias*crossings/points)
       if (.not. peak_resolved) errors(3) = max(errors(3), unresolved_peak(surface, edge))
    end function unresolved_errors

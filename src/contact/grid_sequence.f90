@@ -5,9 +5,9 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_measures, only: contact_measures, known_errors, unknown
+   use wavycon_contact_measures, only: contact_measures, is_known, known_errors, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
-   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, grid_contact_area
+   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
@@ -86,7 +86,7 @@ contains
          if (.not. ends) has_room = fits_memory(plan%next(grid))
          if (surface%has_hardness()) call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
          ! Only the errors of an answer are of interest.
-         call measure_level(surface, mean_pressure, history, &
+         call measure_level(surface, mean_pressure, h, history, &
                             ends .or. .not. has_room .or. all(grid >= plan%trusted), answer)
          if (surface%has_hardness()) then
             call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
@@ -95,7 +95,7 @@ contains
          scale = 1.0_dp
          if (surface%has_free_edges) scale = answer%values
          answer%accurate = answer%state%converged .and. all(grid >= plan%trusted) .and. &
-            all(answer%errors <= accuracy*scale) .and. &
+            all(answer%errors <= accuracy*scale .or. .not. is_known(answer%values)) .and. &
             answer%measures%area_at_hardness_error <= accuracy*scale(2)
          if (present(progress)) &
             call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
@@ -115,8 +115,11 @@ contains
       else
          answer%errors = known_errors(answer%errors, surface%full_contact_peak)
       end if
-      ! No pressure is negative: an estimate as large as the peak says nothing of it.
-      if (.not. answer%accurate .and. answer%errors(3) >= answer%values(3)) answer%errors(3) = unknown
+      ! No pressure is negative: an estimate as large as the peak says nothing of it. With free edges the same is true
+      ! of the approach and of the area.
+      where ((.not. answer%accurate .and. answer%errors >= max(answer%values, tiny(scale)) .and. &
+              [surface%has_free_edges, surface%has_free_edges, .true.]) .or. .not. is_known(answer%values)) &
+         answer%errors = unknown
       associate (measures => answer%measures)
          measures%mean_gap_over_amplitude = answer%state%open_gap()
          measures%approach_over_amplitude = answer%state%approach
@@ -205,16 +208,18 @@ contains
    !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
    !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
    !> area although there is contact. The edge takes over the memory of the gap, which no longer exists afterwards.
-   subroutine measure_level(surface, mean_pressure, history, estimated, answer)
+   subroutine measure_level(surface, mean_pressure, h, history, estimated, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
+      real(dp), intent(in) :: h(:, :)    !! undeformed gap [Delta], of the columns of answer%state%gap
       type(change_history), intent(inout) :: history
       logical, intent(in) :: estimated   !! whether the errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area
       integer :: j
-      logical :: peak_resolved
+      logical :: has_corners, peak_resolved
+      type(grid_edge) :: astray
 
       answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), &
                                 surface%has_free_edges .and. surface%dimension == 2)
@@ -226,18 +231,44 @@ contains
                           pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, &
                           surface%has_free_edges)
       call answer%edge%fetch_neighbours()
-      area = grid_contact_area(answer%edge)
-      answer%values(2) = area
       answer%measures%contact_area_counted_fraction = counted_area_fraction(answer%edge)
+      area = grid_contact_area(answer%edge)
+      ! At a step the pressure next to it does not say where the contact ends: it ends with the block.
+      if (surface%has_steps) area = answer%measures%contact_area_counted_fraction
+      answer%values(2) = area
       if (surface%dimension == 2) answer%measures%contact_area_corrected_fraction = corrected_area_fraction(answer%edge)
       call grid_peak_pressure(answer%edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
       call history%push(answer%values)
       if (estimated) answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
+      associate (errors => answer%errors, p => answer%edge%pressure_or_gap)
+         has_corners = ends_at_corners(surface, p)
+         if (surface%has_steps) then
+            ! The cells in contact are the area where contact ends with a block, and else to half a step: where only one
+            ! of contact and height changes between two points.
+            call start_grid_edge(astray, merge(1.0_dp, 0.0_dp, (p > 0.0_dp) .neqv. (2*h < maxval(h))), h, even=.true.)
+            errors(2) = max(errors(2), 0.5_dp*edge_crossings(astray)/size(h))
+         else if (has_corners .and. surface%dimension == 2) then
+            errors(2) = max(errors(2), errors(1)/max(answer%values(1), tiny(area))*area)
+         end if
+      end associate
       if (.not. area > 0.0_dp) answer%errors(2) = unknown
+      if (has_corners .and. answer%values(3) < surface%hardness) answer%values(3) = unknown
       if (surface%has_hardness()) answer%values(2) = max(area, mean_pressure/surface%hardness)
    end subroutine measure_level
+
+   !> Whether contact ends at the border of the map or at a step, where the pressure grows beyond all bounds as at the
+   !> edge of a punch.
+   pure logical function ends_at_corners(surface, p)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: p(:, :)   !! > 0 in contact; with free edges at the points of the map
+
+      associate (m => size(p, 1), n => size(p, 2))
+         ends_at_corners = surface%has_free_edges .and. &
+            (surface%has_steps .or. any(p([1, m], :) > 0.0_dp) .or. (n > 1 .and. any(p(:, [1, n]) > 0.0_dp)))
+      end associate
+   end function ends_at_corners
 
    !> The edge of the area at which p = H. H - p and minus the gap behave there as gap and pressure do at the edge of
    !> contact (C23).

@@ -57,7 +57,7 @@ contains
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
       !> Heights of the surface in place of those of its file: upwards to the other body, NaN where they are missing, x
-      !> first, one column of a profile.
+      !> first, one column or row of a profile.
       real(dp), intent(in), optional :: heights(:, :)
       !> Whether the deck is no file: it may have no group &load, and its name need not serve as that of a case.
       logical, intent(in), optional :: in_memory

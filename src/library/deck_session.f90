@@ -81,7 +81,7 @@ contains
       logical, intent(in) :: keep_fields    !! whether fields, edges or stresses will be asked for
       type(error_type), allocatable, intent(out) :: error
       !> In place of those of the file of kind = 'file': upwards to the other body, NaN where they are missing, x first,
-      !> one column for a profile.
+      !> one column or row for a profile.
       real(dp), intent(in), optional :: heights(:, :)
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 

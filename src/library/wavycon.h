@@ -62,7 +62,7 @@ int wavycon_set_threads(wavycon_error error, int number);
    are looked for beside it. &load may be left out; &output has no effect but on the points of tables.
    keep_fields: nonzero if fields, edges or stresses of solutions will be asked for.
    heights: NULL, or heights[points_y][points_x] in place of those of the file of kind = 'file', upwards to the other body,
-   in the unit that height_scale says, NaN where they are missing; points_y = 1 for a profile. */
+   in the unit that height_scale says, NaN where they are missing; points_y or points_x is 1 for a profile. */
 wavycon_scene wavycon_new_scene(wavycon_error error, const char *deck, const char *path, int keep_fields, int points_x,
                                 int points_y, const double *heights);
 

@@ -34,11 +34,11 @@ module wavycon_foreign_format
    character(*), parameter :: magics(*) = [character(18) :: char(137)//'PNG', char(255)//char(216)//char(255), 'GIF8', &
       'II*'//char(0), 'MM'//char(0)//'*', &
       'GWYP', 'Gwyddion XYZ Field', 'AliconaImaging', 'DIGITAL SURF', 'DSCOMPRESSED', 'aISO-1.0', 'bISO-1.0', 'aBCR-', &
-      'bBCR-', 'VK4_', 'VK6', '\*File list', char(208)//char(207)//char(17)//char(224), &
+      'bBCR-', 'VK4_', 'VK6', '\*File list', 'DSAA', 'DSBB', char(208)//char(207)//char(17)//char(224), &
       char(137)//'HDF', 'CDF', 'MATLAB', &
       char(31)//char(139), 'BZh', char(253)//'7zXZ', &
       char(255)//char(254), char(254)//char(255)]
-   integer, parameter :: kinds(*) = [spread(picture, 1, 5), spread(instrument, 1, 13), spread(numbers, 1, 3), &
+   integer, parameter :: kinds(*) = [spread(picture, 1, 5), spread(instrument, 1, 15), spread(numbers, 1, 3), &
                                      spread(compressed, 1, 3), spread(wide, 1, 2)]
 
 contains
@@ -63,7 +63,7 @@ contains
       if (words /= '' .or. .not. (is_archive .or. scan(head, no_text) > 0)) return
       words = remedy_of_name(path)
       if (words /= '') return
-      words = 'this is no text, and no binary format that is read: '//by_gwyddion
+      words = 'this is no text, and no binary format that is read, which are .npy and .gsf: '//by_gwyddion
       if (is_archive) words = 'this is an archive: '//by_gwyddion
    end function remedy_of_content
 

@@ -1,25 +1,29 @@
 !> Reads what Gwyddion writes: height maps in its simple field format, .gsf,
-!> https://gwyddion.net/documentation/user-guide-en/gsf.html, and the heads of its texts. Both heads are lines of a key
-!> and its entry.
+!> https://gwyddion.net/documentation/user-guide-en/gsf.html, and the heads of its texts and of ESRI's ASCII grids,
+!> https://desktop.arcgis.com/en/arcmap/latest/manage-data/raster-and-images/esri-ascii-raster-format.htm. All heads are
+!> lines of a key and its entry.
 module wavycon_gwyddion_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_decimal_number, only: read_decimal
    use wavycon_error, only: error_type
+   use wavycon_file_bytes, only: byte_order_mark
    use wavycon_kinds, only: dp
-   use wavycon_length_unit, only: find_factor
+   use wavycon_length_unit, only: angstrom, find_factor, micro_sign
    use wavycon_measured_map, only: laid_along_x, measured_map
-   use wavycon_plain_text, only: excerpt, newline
+   use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, short_number
    implicit none (type, external)
    private
 
-   public :: entry_of, read_gsf_map, take_text_head
+   public :: entry_of, read_gsf_map, take_esri_head, take_text_head
 
    !> First bytes of a .gsf file.
    character(*), parameter, public :: gsf_magic = 'Gwyddion Simple Field 1.'
    !> The numbers begin at a multiple of so many bytes, behind one to so many null characters.
    integer, parameter :: alignment = 4
+   !> Around keys and entries.
+   character(*), parameter, public :: blanks = ' '//achar(9)
 
 contains
 
@@ -107,6 +111,40 @@ contains
       call map%set_units(unit, height_unit)
    end subroutine take_text_head
 
+   !> Takes steps and missing heights from the head of an ESRI ASCII grid, if this is one. Its first row is that of the
+   !> largest y; y of the map rises. Errors: exit_bad_input for another number of heights than the head gives.
+   subroutine take_esri_head(file, map, error)
+      class(binary_file), intent(in) :: file
+      type(measured_map), intent(inout) :: map   !! with the heights in the order of the file, in any rows
+      type(error_type), allocatable, intent(out) :: error
+
+      character(*), parameter :: keys(*) = [character(8) :: 'ncols', 'nrows', 'dx', 'dy', 'cellsize']
+      !> Where the head does not give it.
+      real(dp), parameter :: usual_no_data = -9999.0_dp
+      character(:), allocatable :: head
+      integer :: i
+      logical :: is_number
+      real(dp) :: numbers(size(keys))   ! 0 if they are not there
+
+      head = newline//lower_case(file%head)
+      do i = 1, size(keys)
+         numbers(i) = positive_number(entry_of(head, trim(keys(i)), blanks))
+      end do
+      if (any(numbers(:2) <= 0)) return
+      if (abs(product(anint(numbers(:2))) - size(map%height)) > 0.0_dp) then
+         call file%refuse('its head announces '//short_number(numbers(1))//' x '//short_number(numbers(2))// &
+                          ' heights, but it has '//integer_text(size(map%height)), error)
+         return
+      end if
+      map%height = reshape(map%height, nint(numbers(:2)))
+      map%height = map%height(:, size(map%height, 2):1:-1)
+      map%step = merge(numbers(5), numbers(3:4), numbers(5) > 0)
+      map%head_lines = 0
+      allocate (map%no_data)
+      call read_decimal(entry_of(head, 'nodata_value', blanks), map%no_data, is_number)
+      if (.not. is_number) map%no_data = usual_no_data
+   end subroutine take_esri_head
+
    !> Reads a length and its unit, such as '10.00 µm'.
    subroutine read_length(entry, length, unit)
       character(*), intent(in) :: entry
@@ -138,29 +176,35 @@ contains
    end function positive_number
 
    !> The entry of a key in the lines behind the first one, without the blanks around it; empty if it is not there.
-   !> Lines may begin with the mark of a comment.
+   !> Lines may begin with the mark of a comment. At its end the units µm and Å of Latin-1 are put into UTF-8.
    pure function entry_of(words, key, separator) result(entry)
       character(*), intent(in) :: words, key
-      character(1), intent(in) :: separator   !! between key and entry
+      character(*), intent(in) :: separator   !! the characters that stand between key and entry
       character(:), allocatable :: entry
 
-      character(*), parameter :: blanks = ' '//achar(9)//achar(13)
+      character(*), parameter :: line_ends = newline//achar(13)
       integer :: first, last, middle
 
       entry = ''
-      last = index(words, newline)
+      last = scan(words, line_ends)
       do while (last > 0 .and. last < len(words))
          first = last + 1
-         last = index(words(first:), newline)
+         last = scan(words(first:), line_ends)
          if (last > 0) last = last + first - 1
          associate (line => words(first:merge(last - 1, len(words), last > 0)))
-            middle = index(line, separator)
+            middle = scan(line, separator)
             if (middle == 0) cycle
-            if (between(line(:middle - 1), blanks//'#') /= key) cycle
+            if (between(line(:middle - 1), blanks//'#'//byte_order_mark) /= key) cycle
             entry = between(line(middle + 1:), blanks)
-            return
+            exit
          end associate
       end do
+      first = index(entry, char(181)//'m')
+      if (first > 0 .and. index(entry, char(194)) == 0) entry = entry(:first - 1)//micro_sign//entry(first + 2:)
+      first = len(entry)
+      if (first > 0) then
+         if (entry(first:) == char(197)) entry = entry(:first - 1)//angstrom
+      end if
 
    contains
 

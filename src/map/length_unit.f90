@@ -10,8 +10,8 @@ module wavycon_length_unit
    public :: convert_lengths, find_factor
 
    !> 'um' in the letters of ASCII, with the micro sign and with the Greek letter.
-   character(*), parameter :: micro_sign = char(194)//char(181)//'m', greek_letter = char(206)//char(188)//'m'
-   character(*), parameter :: angstrom = char(195)//char(133)
+   character(*), parameter, public :: micro_sign = char(194)//char(181)//'m', angstrom = char(195)//char(133)
+   character(*), parameter :: greek_letter = char(206)//char(188)//'m'
    character(*), parameter :: units(*) = [character(3) :: 'km', 'm', 'cm', 'mm', 'um', micro_sign, greek_letter, 'nm', &
                                           angstrom, 'pm']
    integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -10, -12]   !! of ten, in metres

@@ -7,13 +7,14 @@ module wavycon_map_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_gwyddion_map, only: entry_of, gsf_magic, read_gsf_map, take_text_head
+   use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, read_gsf_map, take_esri_head, &
+      take_text_head
    use wavycon_kinds, only: dp, sp
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: npy_magic, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
    use wavycon_plain_text, only: escaped, lower_case, newline
-   use wavycon_point_map, only: resample_profile, take_points, take_profile
+   use wavycon_point_map, only: check_matrix, resample_profile, take_points, take_profile
    use wavycon_ranks, only: share_error
    use wavycon_system, only: path_device, path_kind
    implicit none (type, external)
@@ -76,6 +77,7 @@ contains
       end if
       call file%close()
       if (.not. allocated(error)) call mark_missing(map, missing_value)
+      if (allocated(map%no_data) .and. .not. allocated(error)) call mark_missing(map, map%no_data)
       call ieee_set_status(floating_point)
       if (allocated(map%x) .and. .not. allocated(error)) call resample_profile(path, map, error)
       call share_error(error)
@@ -108,27 +110,29 @@ contains
          return
       end if
       map%head_lines = table%words
-      associate (columns => size(table%values, 1), rows => size(table%values, 2))
-         if (map%format == 'auto') then
-            map%format = 'matrix'
-            ! A text of Gwyddion with the sides of a map has rows of heights, however many.
-            if (rows > 3 .and. entry_of(newline//file%head, 'Width', ':') == '') then
-               if (columns == 3) map%format = 'xyz'
-               if (columns == 2) map%format = 'xz'
-            end if
+      if (map%format == 'auto') then
+         map%format = 'matrix'
+         ! Texts of Gwyddion with the sides of a map, and grids of ESRI, have rows of heights, however many.
+         if (entry_of(newline//file%head, 'Width', ':') == '' .and. &
+             entry_of(newline//lower_case(file%head), 'ncols', blanks) == '') then
+            if (size(table%values, 1) == 3 .and. size(table%line) > 3) map%format = 'xyz'
+            if (size(table%values, 1) == 2 .and. size(table%line) > 2) map%format = 'xz'
+            if (map%format == 'matrix') call check_matrix(table, error)
+            if (allocated(error)) return
          end if
-         call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
-         if (allocated(error)) return
-         select case (map%format)
-         case ('xyz')
-            call take_points(table, map, error)
-         case ('xz')
-            call take_profile(table, map, error)
-         case default
-            call check_map_size(table%path, laid_along_x([columns, rows]), error)
-            call move_alloc(table%values, map%height)
-         end select
-      end associate
+      end if
+      call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
+      if (allocated(error)) return
+      select case (map%format)
+      case ('xyz')
+         call take_points(table, map, error)
+      case ('xz')
+         call take_profile(table, map, error)
+      case default
+         call move_alloc(table%values, map%height)
+         call take_esri_head(file, map, error)
+         if (.not. allocated(error)) call check_map_size(file%path, laid_along_x(shape(map%height)), error)
+      end select
       if (.not. allocated(error)) call take_text_head(file, map, error)
       if (allocated(error)) return
       if (size(map%height, 1) > 1) return

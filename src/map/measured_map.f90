@@ -23,6 +23,7 @@ module wavycon_measured_map
       real(dp) :: step(2) = 0.0_dp                 !! between points along x and y; 0 where the file does not give it
       real(dp), allocatable :: x(:)                !! of a profile until it is resampled, if its steps are not equal
       real(dp) :: uneven_steps(2) = 0.0_dp         !! least and largest of a profile that was resampled, otherwise 0
+      real(dp), allocatable :: no_data             !! height that stands for a missing one, if the file names it
       integer :: head_lines = 0                    !! of a text that begin with words and were left out
       logical :: is_usual_side(2) = .false.        !! whether a step is that of the format's default of the side
       character(7) :: format = ''                  !! of the file, as of read_height_map, but not 'auto'

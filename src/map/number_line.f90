@@ -1,7 +1,7 @@
 !> Reads the numbers of a line.
 !>
-!> Numbers are separated by blanks, tabs, commas or semicolons, and written as `read_decimal` takes them. `nan` and
-!> `--` are missing numbers, and so is nothing between two commas, semicolons or tabs.
+!> Numbers are separated by blanks, tabs, commas or semicolons, and written as `read_decimal` takes them, perhaps in
+!> quotes. Words such as `nan` and `--` are missing numbers, and so is nothing between two commas, semicolons or tabs.
 module wavycon_number_line
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: largest_number
@@ -11,9 +11,11 @@ module wavycon_number_line
    implicit none (type, external)
    private
 
-   public :: read_line
+   public :: is_missing, read_line
 
-   character(*), parameter :: tab = achar(9), gaps = ' ,;'//tab
+   character(*), parameter :: tab = achar(9)
+   !> What separates numbers.
+   character(*), parameter, public :: gaps = ' ,;"'//tab
 
 contains
 
@@ -27,15 +29,16 @@ contains
 
       integer :: behind           !! the number before, place behind its last byte; 1 at the start of the line
       integer :: commas, first, holes, last, separators, tight
-      logical :: are_tabs, is_loose
+      logical :: are_tabs, is_loose, is_quoted
 
       ends_open = .false.
       used = 0
       behind = 1
       tight = 0
       is_loose = .false.
+      is_quoted = .false.
       do
-         call next_word(line, behind, first, last, commas, separators, are_tabs)
+         call next_word(line, behind, first, last, commas, separators, are_tabs, is_quoted)
          if (first > len(line)) exit
          holes = max(0, separators - 1)
          if (behind == 1) then
@@ -72,14 +75,16 @@ contains
       used = used + holes
    end subroutine read_line
 
-   !> The next word from a place on, and what stands before it; first > len(line) if there is none.
-   pure subroutine next_word(line, place, first, last, commas, separators, are_tabs)
+   !> The next word from a place on, and what stands before it; first > len(line) if there is none. Between quotes all
+   !> is one word.
+   pure subroutine next_word(line, place, first, last, commas, separators, are_tabs, is_quoted)
       character(*), intent(in) :: line
       integer, intent(in) :: place
       integer, intent(out) :: first, last
       integer, intent(out) :: commas        !! before the word
       integer, intent(out) :: separators    !! before the word: commas and semicolons or, without these, tabs
       logical, intent(out) :: are_tabs      !! whether the separators are tabs
+      logical, intent(inout) :: is_quoted   !! whether a quote is open, at the place and at the word
 
       character(1) :: byte
       integer :: tabs
@@ -89,8 +94,11 @@ contains
       tabs = 0
       do first = place, len(line)
          byte = line(first:first)
+         if (is_quoted .and. byte /= '"' .and. byte /= ' ') exit
          select case (byte)
          case (' ')
+         case ('"')
+            is_quoted = .not. is_quoted
          case (tab)
             tabs = tabs + 1
          case (',')
@@ -107,9 +115,10 @@ contains
       do last = first, len(line)
          byte = line(last:last)
          if (byte >= '0' .and. byte <= '9') cycle
-         if (is_gap(byte)) exit
+         if (byte == '"' .or. (is_gap(byte) .and. .not. is_quoted)) exit
       end do
       last = last - 1
+      if (is_quoted) last = first - 1 + len_trim(line(first:last))
    end subroutine next_word
 
    !> Reads a word as a number.
@@ -127,26 +136,38 @@ contains
                    ' in size; a number that stands for a missing height must be nan'
          return
       end if
+      if (is_missing(word)) then
+         value = ieee_value(0.0_dp, ieee_quiet_nan)
+         return
+      end if
       select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
-      case ('nan', '-')
-         if (word /= '+-') then
-            value = ieee_value(0.0_dp, ieee_quiet_nan)
-            return
-         end if
       case ('inf', 'infinity')
          trouble = "'"//excerpt(word)//"' is not a height: write nan if it is missing"
-         return
+      case default
+         trouble = "'"//excerpt(word)//"' is no number: put # before a line that is a remark, and write nan for a "// &
+                   'number that is missing'
       end select
-      trouble = "'"//excerpt(word)//"' is no number: put # before a line that is a remark, and write nan for a "// &
-                'number that is missing'
    end subroutine read_number
+
+   !> Whether a word stands for a missing number: as programs write what is no number, and the errors of spreadsheets.
+   !> Older C libraries of Windows write 1.#QNAN and -1.#IND, with few digits 1.#R.
+   pure logical function is_missing(word)
+      character(*), intent(in) :: word   !! not empty
+
+      character(*), parameter :: words(*) = [character(9) :: 'nan', 'nan(ind)', 'nan(snan)', 'na', 'n/a', '#n/a', &
+                                             '#num!', '#value!', '#div/0!', '#ref!']
+      character(:), allocatable :: unsigned
+
+      unsigned = lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):))
+      is_missing = any(unsigned == words) .or. index(unsigned, '1.#') == 1 .or. word == '--'
+   end function is_missing
 
    !> Whether a byte separates numbers.
    elemental logical function is_gap(byte)
       character(1), intent(in) :: byte
 
       ! gfortran 12 compares with a blank by a call of its library.
-      is_gap = iachar(byte) == iachar(' ') .or. byte == tab .or. byte == ',' .or. byte == ';'
+      is_gap = iachar(byte) == iachar(' ') .or. byte == tab .or. byte == ',' .or. byte == ';' .or. byte == '"'
    end function is_gap
 
 end module wavycon_number_line

@@ -1,13 +1,14 @@
 !> Reads a file of lines of numbers, as many on each.
 !>
 !> Comments, from '#' to the end of the line, and lines without numbers are ignored, and so is a head: lines before the
-!> first number that begin with a word. Lines end in LF, CR LF or CR.
+!> first number that begin with a word. Lines end in LF, CR LF or CR. The marks of missing numbers that have a '#', such
+!> as `#N/A` and `1.#QNAN`, begin no comment.
 module wavycon_number_table
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_kinds, only: dp
-   use wavycon_number_line, only: read_line
+   use wavycon_number_line, only: gaps, is_missing, read_line
    use wavycon_plain_text, only: escaped, integer_text, lower_case
    implicit none (type, external)
    private
@@ -54,6 +55,8 @@ contains
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
       table%path = path
+      if (index(content(:min(len(content), len(byte_order_mark))), byte_order_mark) == 1) &
+         content(:len(byte_order_mark)) = ' '
       call write_decimal_points(content)
       most_rows = 1
       do i = 1, len(content)
@@ -66,8 +69,6 @@ contains
       status = 0
       may_grow = .true.
       behind = 1
-      if (index(content(:min(len(content), len(byte_order_mark))), byte_order_mark) == 1) &
-         behind = len(byte_order_mark) + 1
       do while (behind <= len(content))
          line = line + 1
          call next_line(content, behind, first, last)
@@ -131,19 +132,29 @@ contains
 
    end subroutine read_number_table
 
-   !> Whether a line begins with a word that is no number, and not `nan` or `inf` or their like.
+   !> Whether a line begins with a word that is no number, no missing one and not `inf` or its like.
    pure logical function is_remark(line)
       character(*), intent(in) :: line
 
-      character(3) :: start
       integer :: first
 
-      first = verify(line, ' '//tab)
-      is_remark = .false.
-      if (first == 0) return
-      start = lower_case(line(first:))
-      is_remark = verify(start(1:1), '+-.,;0123456789') > 0 .and. start /= 'nan' .and. start /= 'inf'
+      first = verify(line, gaps)
+      is_remark = first > 0
+      if (is_remark) is_remark = verify(line(first:first), '+-.0123456789') > 0 .and. .not. &
+         (is_missing(word_at(line, first)) .or. index(lower_case(word_at(line, first)), 'inf') == 1)
    end function is_remark
+
+   !> The word that begins at a place, as far as the longest word for a missing number.
+   pure function word_at(text, first) result(word)
+      character(*), intent(in) :: text
+      integer, intent(in) :: first
+      character(:), allocatable :: word
+
+      integer, parameter :: longest = 9
+
+      word = text(first:min(first + longest, len(text)))//' '
+      word = word(:scan(word, gaps//line_feed//carriage_return) - 1)
+   end function word_at
 
    !> Replaces decimal commas by points. Commas are decimal if each line that has one separates its numbers by tabs or
    !> semicolons, and each comma stands between two digits, one in a number.
@@ -182,7 +193,9 @@ contains
       do behind = first, len(content)
          ! Most bytes are beyond '#', and line ends are before it.
          if (iachar(content(behind:behind)) > iachar('#')) cycle
-         if (is_line_end(content(behind:behind)) .or. content(behind:behind) == '#') exit
+         if (is_line_end(content(behind:behind))) exit
+         if (content(behind:behind) /= '#') cycle
+         if (starts_comment(content, behind)) exit
       end do
       last = behind - 1
       do behind = behind, len(content)
@@ -191,6 +204,16 @@ contains
       if (content(behind:min(behind + 1, len(content))) == carriage_return//line_feed) behind = behind + 1
       behind = behind + 1
    end subroutine next_line
+
+   !> Whether a '#' starts a comment: not in `#N/A` and the like, nor in `1.#QNAN`.
+   pure logical function starts_comment(content, place)
+      character(*), intent(in) :: content
+      integer, intent(in) :: place
+
+      starts_comment = .not. is_missing(word_at(content, place)) .and. .not. &
+                       (content(max(1, place - 2):place - 1) == '1.' .and. &
+                        scan(lower_case(word_at(content, place)), 'abcdefghijklmnopqrstuvwxyz') == 2)
+   end function starts_comment
 
    !> Whether a byte ends a line.
    elemental logical function is_line_end(byte)

@@ -14,10 +14,11 @@ module wavycon_point_map
    implicit none (type, external)
    private
 
-   public :: resample_profile, take_points, take_profile
+   public :: check_matrix, resample_profile, take_points, take_profile
 
-   !> Largest deviation of a point from the grid, in steps: coordinates in files are often rounded.
-   real(dp), parameter :: tolerance = 0.01_dp
+   !> Largest deviation of a point from the grid, in steps. Coordinates in files are rounded, by up to a hundredth of a
+   !> step, and so are the outermost ones, through which the grid is laid.
+   real(dp), parameter :: tolerance = 0.0201_dp
 
    !> Equidistant coordinates.
    type :: axis_type
@@ -27,6 +28,39 @@ module wavycon_point_map
    end type axis_type
 
 contains
+
+   !> Checks that numbers are a matrix of heights. Errors: exit_bad_input for coordinates or numbers of lines in the
+   !> first row or column, and for points with other values behind their heights.
+   subroutine check_matrix(table, error)
+      type(number_table), intent(in) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      !> So many numbers in equal steps, whose slope does not go on beside them, are no heights, and so many of both
+      !> sides together: README.md of this directory has the chances.
+      integer, parameter :: least_numbers = 5, least_of_both = 7
+      !> More columns are no points, and fewer lines may be a grid by chance.
+      integer, parameter :: most_columns = 8, least_points = 9
+      character(*), parameter :: advice = ": leave out what is no height, or give file_format = 'matrix' if all are"
+      type(measured_map) :: map
+      type(number_table) :: points
+      type(error_type), allocatable :: trouble
+      logical :: is_axis(2)
+
+      associate (v => table%values, columns => size(table%values, 1), rows => size(table%values, 2))
+         if (min(columns, rows) < 4) return
+         is_axis = [are_coordinates(v(1, 2:), v(2, 2:)), are_coordinates(v(2:, 1), v(2:, 2))]
+         if (any(is_axis .and. [rows, columns] > least_numbers) .or. &
+             (all(is_axis) .and. rows + columns - 2 >= least_of_both)) then
+            call table%refuse(1, 'the first '//trim(merge('column', 'row   ', is_axis(1)))//' has numbers in equal '// &
+                              'steps, as coordinates or numbers of lines are'//advice, error)
+         else if (columns <= most_columns .and. rows >= least_points) then
+            points = table
+            points%values = v(:3, :)
+            call take_points(points, map, trouble)
+            if (.not. allocated(trouble)) call table%refuse(1, 'columns 1 and 2 are x and y of a grid'//advice, error)
+         end if
+      end associate
+   end subroutine check_matrix
 
    !> Makes a map from points in any order; heights of points without a line are NaN. x and y of the map rise. Errors:
    !> exit_bad_input if the points do not form a regular grid.
@@ -100,7 +134,8 @@ contains
    !> The equidistant coordinates that points have, if they have such.
    !>
    !> The range is divided into bins, four to the least step. The gaps between the bins that hold coordinates are steps,
-   !> multiples of steps where whole rows are missing, or rounding errors, which are smaller than all of these.
+   !> multiples of steps where whole rows are missing, or rounding errors, which are smaller than all of these. The
+   !> search begins with the largest gap: the least one says what may be a rounding error, until there is none smaller.
    pure type(axis_type) function axis_of(coordinate) result(axis)
       real(dp), intent(in) :: coordinate(:)   !! at least one
 
@@ -108,7 +143,7 @@ contains
       integer, parameter :: bins = 262144
       real(dp), allocatable :: lowest(:)   ! in each bin
       real(dp) :: extent, gap, largest, last, step, steps
-      integer :: b, k, number, pass
+      integer :: b, k, number
 
       axis%first = minval(coordinate)
       extent = maxval(coordinate) - axis%first
@@ -119,22 +154,23 @@ contains
          lowest(b) = min(lowest(b), coordinate(k))
       end do
       lowest = pack(lowest, lowest < huge(1.0_dp))
-      largest = maxval(lowest(2:) - lowest(:size(lowest) - 1))
-      ! First the least step, then the mean of the equal steps, whose rounding error is smaller.
-      step = extent
-      do pass = 1, 2
+      step = maxval(lowest(2:) - lowest(:size(lowest) - 1))
+      do
+         ! The mean of the equal steps has a smaller rounding error than the least.
+         largest = step
          number = 0
          steps = 0.0_dp
          last = axis%first
          do b = 2, size(lowest)
             gap = lowest(b) - last
-            if (gap <= max(2*extent/bins, 2*tolerance*largest)) cycle
+            if (gap <= max(2*extent/bins, 1.25_dp*tolerance*largest)) cycle
             last = lowest(b)
-            if (pass == 1) step = min(step, gap)
-            if (pass == 1 .or. gap > 1.5_dp*step) cycle
+            step = min(step, gap)
+            if (gap > 1.5_dp*largest) cycle
             number = number + 1
             steps = steps + gap
          end do
+         if (.not. step < largest) exit
       end do
       ! Without a gap that large there are more coordinates than a map can have.
       if (number > 0) axis%number = nint(extent/(steps/number)) + 1
@@ -150,7 +186,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(dp), allocatable :: x(:)
-      integer :: i, k, n
+      integer :: k, n
 
       n = size(table%line)
       if (size(table%values, 1) /= 2) then
@@ -178,8 +214,34 @@ contains
          map%height(:, 1) = map%height(n:1:-1, 1)
       end if
       map%step(1) = (x(n) - x(1))/(n - 1)
-      if (any(abs(x - x(1) - map%step(1)*[(i, i=0, n - 1)]) > tolerance*map%step(1))) call move_alloc(x, map%x)
+      if (.not. rises_evenly(x)) call move_alloc(x, map%x)
    end subroutine take_profile
+
+   !> Whether a row or column has equal steps, and the next one does not go on with its slope, as on a tilted plane: by
+   !> least squares the slope is less than half, or more than twice, as large.
+   pure logical function are_coordinates(values, next)
+      real(dp), intent(in) :: values(:), next(:)   !! as many
+
+      logical :: is_there(size(next))
+      real(dp) :: from_mean(size(values)), squares
+
+      is_there = .not. ieee_is_nan(next)
+      from_mean = values - sum(values, mask=is_there)/max(1, count(is_there))
+      squares = sum(from_mean**2, mask=is_there)
+      are_coordinates = rises_evenly(values) .and. &
+                        abs(2*sum(from_mean*next, mask=is_there) - 2.5_dp*squares) > 1.5_dp*squares
+   end function are_coordinates
+
+   !> Whether three or more numbers rise, or fall, in equal steps.
+   pure logical function rises_evenly(x)
+      real(dp), intent(in) :: x(:)
+
+      real(dp) :: step
+      integer :: i
+
+      step = (x(size(x)) - x(1))/(size(x) - 1)
+      rises_evenly = abs(step) > 0.0_dp .and. all(abs(x - x(1) - step*[(i, i=0, size(x) - 1)]) <= tolerance*abs(step))
+   end function rises_evenly
 
    !> Replaces the heights of a profile whose steps are not equal by those at as many points that are equally far apart,
    !> from its first x to its last: (M7) of README.md in this directory. A point next to a missing height is missing.

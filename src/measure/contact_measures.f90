@@ -24,7 +24,7 @@ module wavycon_contact_measures
       !> (C22) if there is a hardness.
       real(dp) :: approach_over_amplitude = 0.0_dp
       real(dp) :: contact_area_fraction = 0.0_dp         !! of the nominal area; 1 by definition from P = 1 on
-      real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest
+      real(dp) :: peak_pressure_over_pstar = 0.0_dp      !! largest; `unknown` where it is infinite
       real(dp) :: min_pressure_over_pstar = 0.0_dp       !! smallest; negative between the points of a series
       real(dp) :: mean_gap_error = 0.0_dp                !! error estimate of the mean gap, in its unit, or `unknown`
       real(dp) :: contact_area_error = 0.0_dp            !! error estimate of the contact area, or `unknown`
@@ -138,16 +138,18 @@ contains
       errors = [self%mean_gap_error, self%contact_area_error, self%peak_pressure_error]
    end function errors_of_measures
 
-   !> Whether mean gap, contact area and peak pressure are exact or larger than their error estimates.
-   pure function are_resolved(self)
+   !> Whether mean gap, contact area and peak pressure are exact, larger than their error estimates, or do not exist.
+   pure function are_resolved(self, surface)
       class(contact_measures), intent(in) :: self
+      type(surface_type), intent(in) :: surface   !! that was solved: with free edges the first error is the approach's
       logical :: are_resolved(3)
 
       real(dp) :: errors(3), values(3)
 
       errors = self%errors()
       values = [self%mean_gap_over_amplitude, self%contact_area_fraction, self%peak_pressure_over_pstar]
-      are_resolved = errors < values .or. errors <= 0.0_dp
+      if (surface%has_free_edges .and. surface%dimension == 2) values(1) = self%approach_over_amplitude
+      are_resolved = errors < values .or. errors <= 0.0_dp .or. .not. is_known(values)
    end function are_resolved
 
    !> The fraction of the nominal area in contact by the linear law of light loads on rough surfaces, A/A0 = kappa

@@ -58,6 +58,7 @@ contains
             allocate (p, u, gap, mold=line%t)
             shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%t) &
                     - surface%form_gap(line%angle(1, :), line%angle(2, :))
+            if (surface%has_steps) shape = surface%shape_at(line%angle(1, :), line%angle(2, :))
             call fields%at_points(line%angle, shape, p, u, gap)
             call put_surface_line(line, results, load, transpose(reshape( &
                [results%in_p_star(p), u, gap, 1.0_dp - shape, p_star*p, surface%amplitude*u, surface%amplitude*gap], &

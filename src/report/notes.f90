@@ -139,7 +139,7 @@ contains
          do load = 1, size(results%loads)
             associate (measures => results%loads(load)%measures)
                values = [measures%mean_gap_over_amplitude, measures%contact_area_fraction, &
-                         measures%peak_pressure_over_pstar]
+                         or_nan(measures%peak_pressure_over_pstar)]
                errors = or_nan(measures%errors())
             end associate
             if (surface%has_free_edges) then
@@ -281,6 +281,10 @@ contains
                'note: contact reaches the border: up to '//percent(maxval(all_measures%load_at_border))// &
                ' of the load is within '//percent(border)// &
                ' of the sides from it, where a larger map might carry more')
+            if (surface%has_steps) call log%say('note: a map of two heights at most is taken as blocks, the cells '// &
+               'of its points, as a punch is')
+            if (.not. all(is_known(all_measures%peak_pressure_over_pstar))) call log%say('note: where contact ends '// &
+               'at a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
             if (surface%dimension == 1) call log%say('note: the approach of a profile with free edges is not '// &
                'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
          end if
@@ -344,13 +348,14 @@ contains
       integer :: coarse(3), i, unknown
 
       values = [character(32) :: 'the mean gap', 'the contact area', 'the peak pressure']
+      if (results%solver%surface%has_free_edges) values(1) = 'the approach'
       coarse = 0
       unknown = 0
       do i = 1, size(results%loads)
          associate (solution => results%loads(i))
             if (solution%status /= unresolved) cycle
             if (any(is_known(solution%measures%errors()))) then
-               coarse = coarse + merge(0, 1, solution%measures%are_resolved())
+               coarse = coarse + merge(0, 1, solution%measures%are_resolved(results%solver%surface))
             else
                unknown = unknown + 1
             end if

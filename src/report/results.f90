@@ -146,7 +146,7 @@ contains
       integer, intent(in) :: load
 
       if (self%scene%p_star > 0.0_dp) then
-         peak_pressure = self%scene%p_star*self%loads(load)%measures%peak_pressure_over_pstar
+         peak_pressure = self%scene%p_star*or_nan(self%loads(load)%measures%peak_pressure_over_pstar)
       else
          peak_pressure = self%mean_pressure(load)
       end if

@@ -38,6 +38,9 @@ module wavycon_surface
       !> which also interpolates its heights. p* is only a unit then, that of `stiffness` = the square root of its area,
       !> in 1-D its length: there is no full contact.
       logical :: has_free_edges = .false.
+      !> With free edges, whether the map has two heights at most, as that of a punch: it then consists of blocks, the
+      !> cells of its points. The series of such heights would swing beside their steps.
+      logical :: has_steps = .false.
       !> With free edges: h/Delta contains the paraboloid form(1) (X - pi/2)^2 + form(2) (Y - pi/2)^2 about the map's
       !> centre, less its mean.
       real(dp) :: form(2) = 0.0_dp
@@ -135,11 +138,22 @@ contains
       if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
       if (present(radii)) surface%form = half_curvatures(surface, radii)
+      ! A flat map on a ball is the ball.
+      extremes = [maxval(height), -minval(height)]
+      call transform%slab%largest(extremes)
+      surface%has_steps = .not. transform%slab%any(any(height < extremes(1) .and. height > -extremes(2)))
+      surface%has_steps = surface%has_steps .and. surface%has_free_edges .and. &
+                          (sum(extremes) > 0.0_dp .or. all(surface%form <= 0.0_dp))
       allocate (values, source=height)
       call surface%subtract_form(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
                                  2*pi/surface%points)
       call transform%slab%find_largest(values, surface%amplitude, crest)
       surface%amplitude = surface%amplitude - mean(1)
+      if (surface%has_steps .and. surface%amplitude <= 0.0_dp) then
+         ! A flat map is a punch, h = 0. It has no depth: a length of the map is the unit.
+         surface%amplitude = surface%nominal_area()**(1.0_dp/surface%dimension)
+         surface%shape%c(0, 0) = surface%amplitude
+      end if
       surface%crest = point_angle(crest, transform%points, transform%even)
       if (surface%dimension == 1) surface%crest(2) = 0.0_dp
       if (surface%amplitude <= 0.0_dp) return
@@ -332,8 +346,12 @@ contains
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: x, y   !! X, Y [rad]
 
+      real(dp) :: point(2)
+
       call assert(.not. self%is_distributed(), 'the surface is whole')
-      shape_at = self%shape%at(x, y) - self%form_gap(x, y)
+      point = [x, y]
+      if (self%has_steps) point = (floor(point*self%points/(2*pi)) + 0.5_dp)*2*pi/self%points
+      shape_at = self%shape%at(point(1), point(2)) - self%form_gap(x, y)
    end function shape_at
 
    !> 1 - h/Delta at points of the part that tables refer to, as of `sample_series`.
@@ -344,6 +362,7 @@ contains
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
 
       call sample_series(self%shape, points, offset, values, self%parts())
+      if (self%has_steps) call sample_blocks(self, offset, values)
       call self%subtract_form(values, 2*pi*offset/(self%parts()*points), 2*pi/(self%parts()*points))
    end subroutine sample_shape
 
@@ -358,9 +377,30 @@ contains
 
       call transform%start(slab%points, self%shape%is_even())
       call transform%sample(self%shape, h)
+      if (self%has_steps) call sample_blocks(self, [0.5_dp, 0.5_dp], h)
       call self%subtract_form(h, [transform%x_angle(1), transform%y_angle(slab%first)], 2*pi/(self%parts()*slab%points))
       h = 1.0_dp - h
    end subroutine sample_gap
+
+   !> The shape of a map of two heights without the paraboloid: at each point that of the map's nearest one.
+   subroutine sample_blocks(surface, offset, values)
+      type(surface_type), intent(in) :: surface   !! with steps
+      real(dp), intent(in) :: offset(2)           !! of the first point, in steps
+      real(dp), intent(out) :: values(:, :)       !! at equal steps over the map
+
+      real(dp), allocatable :: blocks(:, :)
+      integer :: i, grid(2)
+      type(grid_transform) :: transform
+
+      grid = surface%points/surface%parts()
+      allocate (blocks(grid(1), grid(2)))
+      call transform%start(grid, even=.true., whole=.true.)
+      call transform%sample(surface%shape, blocks)
+      associate (n => shape(values))
+         values = blocks([(modulo(floor((i + offset(1))*grid(1)/n(1)), grid(1)) + 1, i=0, n(1) - 1)], &
+                         [(modulo(floor((i + offset(2))*grid(2)/n(2)), grid(2)) + 1, i=0, n(2) - 1)])
+      end associate
+   end subroutine sample_blocks
 
    !> Root mean squares of height, slope and curvature.
    type(roughness_type) function roughness(self)

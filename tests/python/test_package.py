@@ -231,6 +231,42 @@ class Digits(PackageTest):
                  for kind in (float, "f4", ">f8", "i2", int)}
         self.assertEqual(1, len(areas))
 
+    def test_a_column_is_a_profile(self):
+        h = numpy.random.default_rng(1).normal(size=40)
+        h[3] = numpy.nan
+        pressures = []
+        for shape in (40,), (1, 40), (40, 1):
+            one = wc.solve(wc.heights(h.reshape(shape), length_x=2, fill_missing="harmonic"), pbar_over_pstar=0.2)[0]
+            self.assertEqual((1, 40), one.pressure.shape)
+            pressures.append(one.pressure.tolist())
+        self.assertEqual(pressures[:1]*3, pressures)
+
+    def test_files_that_need_no_other_package(self):
+        h = numpy.random.default_rng(1).normal(size=(12, 16))
+        numpy.save("map.npy", h)
+        surface = wc.read("map.npy", length_x=4, length_unit="um")
+        self.assertTrue(numpy.array_equal(h, surface.heights))
+        self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0).length_unit)
+        files.write_gsf("map.gsf", h, {"length_x": 4e-6, "length_y": 3e-6}, "m")
+        gap = wc.solve(wc.heights(h, length_x=4, length_y=3), pbar_over_pstar=0)[0].gap
+        for surface in wc.read("map.gsf", channel=0), wc.read("map.gsf", length_unit="um"):
+            results = wc.solve(surface, pbar_over_pstar=0)
+            factor = {"m": 1, "um": 1e6}[results.length_unit]
+            self.assertAlmostEqual(4e-6*factor, results.length_x, delta=1e-12*factor)
+            numpy.testing.assert_allclose(results[0].gap, gap*factor, atol=4e-7*factor*numpy.abs(h).max())
+        self.refuse("no channel 'Height'", wc.read, "map.gsf", "Height")
+        self.refuse("leave out length_x", wc.solve, wc.read("map.gsf", length_x=1), pbar_over_pstar=0)
+
+    def test_gsf_keeps_heights_beside_a_large_mean(self):
+        h = numpy.random.default_rng(1).uniform(size=(12, 16))
+        h[2, 3] = numpy.nan
+        files.write_gsf("map.gsf", h + 1e5, {"length_x": 4, "length_y": 3}, None)
+        found, expected = (wc.solve(surface, pbar_over_pstar=0)[0].gap for surface in
+                           (wc.read("map.gsf", fill_missing="harmonic"),
+                            wc.heights(h, length_x=4, length_y=3, fill_missing="harmonic")))
+        # Of float32, and of 1e5 in double precision.
+        numpy.testing.assert_allclose(found, expected, atol=2e-7)
+
     def test_saved_results(self):
         results = self.solve_rough()
         results.table("spots")
@@ -420,6 +456,7 @@ class Files(PackageTest):
                 convert(["scan.txt", name])
             (self.folder/"converted.nml").write_text(printed.getvalue() + "&load pbar_over_pstar = 0.2 /")
             found = wc.run("converted.nml")[0].contact_area_fraction
+            self.assertEqual(found, wc.solve(wc.read(name), pbar_over_pstar=0.2)[0].contact_area_fraction)
             # gsf has single precision.
             self.assertAlmostEqual(wc.solve(wc.heights(h), pbar_over_pstar=0.2)[0].contact_area_fraction, found,
                                    delta=0 if name == "scan.npy" else 1e-6)
@@ -433,7 +470,7 @@ class Files(PackageTest):
 
     def test_misuse(self):
         (self.folder/"words.txt").write_text("no heights")
-        self.refuse("cannot read it", wc.read, "words.txt")
+        self.refuse("cannot read it: .*the formats that can be read are gsf, al3d, .*, x3p", wc.read, "words.txt")
         self.refuse("there is no such file", wc.read, "none.opd", error=OSError)
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")
@@ -455,5 +492,6 @@ if __name__ == "__main__":
     import matplotlib.pyplot
     import numpy
     import wavycon as wc
+    from wavycon import files
     from wavycon.files import convert
     main()

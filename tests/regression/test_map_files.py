@@ -5,6 +5,7 @@ usage: test_map_files.py --program WAVYCON --environment FOLDER
 
 The packages are installed into a virtual environment in FOLDER, once. Exit status: 77 if they cannot be.
 """
+import csv
 import os
 import pathlib
 import subprocess
@@ -59,6 +60,30 @@ class MapFiles(ProgramTest):
             self.assertEqual(expected, self.summary("version.npy"), version)
         os.rename("c.npy", "heights.data")
         self.assertEqual(expected, self.summary("heights.data"))
+
+    def test_tables_of_spreadsheets(self):
+        numpy.savetxt("map.dat", self.heights, "%.17g")
+        expected = self.summary("map.dat")
+        for name, encoding, ending, options in (
+                ("quoted", "utf-8-sig", "\r\n", {"quoting": csv.QUOTE_ALL}), ("cr", "ascii", "\r", {}),
+                ("tabs", "utf-8", "\n", {"delimiter": "\t"}), ("semicolons", "utf-8-sig", "\r", {"delimiter": ";"})):
+            rows = [[repr(height) for height in row] for row in self.heights.tolist()]
+            if name == "semicolons":
+                rows = [[height.replace(".", ",") for height in row] for row in rows]
+            with open(f"{name}.csv", "w", encoding=encoding, newline="") as file:
+                csv.writer(file, lineterminator=ending, **options).writerows(rows)
+            self.assertEqual(expected, self.summary(f"{name}.csv"), name)
+            rows[4][3], rows[8][0] = "#N/A", "1.#QNAN"
+            with open(f"{name}.csv", "w", encoding=encoding, newline="") as file:
+                csv.writer(file, lineterminator=ending, **options).writerows([["a head", "in words"], *rows])
+            self.assertIn(f"{name}.csv: 2 of {M*N} heights are missing (", self.refusal(f"{name}.csv"))
+
+    def test_a_grid_of_esri(self):
+        numpy.savetxt("map.dat", self.heights, "%.17g")
+        expected = self.summary("map.dat", self.sides())
+        head = f"ncols {M}\nnrows {N}\nxllcorner 0.0\nyllcorner 0.0\ncellsize {STEP!r}\nNODATA_value -9999"
+        numpy.savetxt("map.asc", self.heights[::-1], "%.17g", header=head, comments="")
+        self.assertEqual(expected, self.summary("map.asc"))
 
     def test_single_precision(self):
         numpy.savetxt("map.dat", self.single.astype(float), "%.17g")

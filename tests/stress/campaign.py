@@ -20,6 +20,7 @@ import extremes
 import faults
 import fuzz_decks
 import fuzz_maps
+import growing_loads
 import honest_estimates
 import long_tests
 import quadratic_programmes
@@ -34,8 +35,8 @@ PARTS = {
     "tests": [long_tests.campaign],
     "qp": [quadratic_programmes.campaign],
     "loads": [quadratic_programmes.loads, extremes.campaign],
-    "solvers": [contact_conditions.campaign, honest_estimates.campaign, same_contact.order_and_symmetry,
-                same_contact.alone_and_again, rough_surfaces.campaign],
+    "solvers": [contact_conditions.campaign, honest_estimates.campaign, growing_loads.campaign,
+                same_contact.order_and_symmetry, same_contact.alone_and_again, rough_surfaces.campaign],
     "stresses": [random_stresses.campaign],
     "decks": [fuzz_decks.fuzz_checks, fuzz_decks.fuzz_settings, fuzz_decks.fuzz_monsters, fuzz_decks.fuzz_runs,
               fuzz_maps.fuzz_checks, fuzz_maps.fuzz_binary, fuzz_maps.fuzz_runs, fuzz_maps.fuzz_monsters,

@@ -57,8 +57,8 @@ MAY_BE_MISSING = {
     "slip_map": "traction|pressure|slip_state",
     "adhesion": "(?!load$).*",
 }
-# On surfaces with free edges, which have no p*, and on profiles no approach.
-MISSING_WITH_FREE_EDGES = ".*_over_pstar|approach.*"
+# On surfaces with free edges, which have no p*, at the border no peak, and on profiles no approach.
+MISSING_WITH_FREE_EDGES = ".*_over_pstar|approach.*|peak_pressure"
 TABLE = re.compile(rf".*\.({'|'.join(MAY_BE_MISSING)})\.dat")
 
 

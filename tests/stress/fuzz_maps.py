@@ -32,8 +32,8 @@ NUMBERS = ["0", "-0", "1", "-1", "+1", "1e-12", "1e12", "1e90", "-1e90", "1.1e90
            "1e-300", "1e400", "-1e400", "1e-400", "4.9e-324", "2e-310", "nan", "NaN", "-nan", "nan(1)", "inf", "-Infinity",
            "1d0", "1.D-3", ".5", "5.", ".", "1e", "1e+", "1+3", "0x10", "0x1p3", "1_8", "1,5", "-1,25", "1.0.0", "--1",
            "3*1", "(1,2)", "1/2", "", "*", "1e99999", "0." + "9"*80, "9"*99, "9"*101, "1"*400, "½", "１", "NA", "null",
-           "'1'", "1\x0b", "1\x00", "\x1b[31m1", "x"]
-GAPS = [" ", "  ", "\t", ",", ", ", ";", " ; ", ",,", ";;", "\x0b", "\x0c", "\u00a0", "|", ":", "\x00", "#"]
+           "'1'", '"1"', '"1', "#N/A", "1.#QNAN", "-1.#IND", "1\x0b", "1\x00", "\x1b[31m1", "x"]
+GAPS = [" ", "  ", "\t", ",", ", ", '","', ";", " ; ", ",,", ";;", "\x0b", "\x0c", "\u00a0", "|", ":", "\x00", "#"]
 REMARKS = ["#", "\n#\n", "# 1 2 3\n", "\n\n\n", "x y z\n", "\n ,\n", "! 1\n", "// 1\n", '"', "%"]
 # Of heads of binary files.
 HEAD_WORDS = [b"0", b"-1", b"-4", b"1", b"3", b"8193", b"65536", b"4294967296", b"99999999999999999999", b"1e9",
@@ -194,7 +194,7 @@ def deck(stream, name="heights.dat"):
 def second_reading(content, form):
     """Points along x and y, lowest and highest height over their mean and rms of a map, None if it is no map to this
     reader, which is more lenient than the program."""
-    text = content.decode(errors="replace").removeprefix("\ufeff")
+    text = content.decode(errors="replace").removeprefix("\ufeff").replace('"', " ")
     lines = [line.split("#")[0].strip(" \t,;") for line in re.split("\r\n|\r|\n", text)]
     # Between semicolons or tabs a comma is decimal.
     lines = [re.split(r"[ \t;]+", line.replace(",", ".")) if re.search("[;\t]", line) else re.split(r"[ ,]+", line)

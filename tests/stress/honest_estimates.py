@@ -2,7 +2,7 @@
 import math
 
 from random_scenes import FITTED, KINDS, QUICK, random_loads, random_scene
-from rough_surfaces import deck
+from rough_surfaces import deck, map_text
 from summaries import ROUNDING, VALUES, solve
 
 # As README states: the fraction of errors below the estimates, and the largest error over its estimate.
@@ -17,7 +17,7 @@ COARSEST = 1e-1
 # Maps with a hardness, and what they have besides VALUES.
 LOAD_OVER_HARDNESS = (0.05, 0.95)
 OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
-# Values of balls and of rough maps on balls, with free edges.
+# Values of balls, of rough maps on balls, of patches and of punches, with free edges.
 OF_FREE_EDGES = ("approach", "contact_area", "peak_pressure")
 FITTED_ACCURACIES = (1e-10, 1e-3)
 FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # ratio of the accuracies of grids, of expansions; finest
@@ -59,9 +59,32 @@ def hard_case(stream, _kind):
             for grid in (points, 4*points)]
 
 
-def free_case(stream, _kind):
-    """The files of a ball to a random accuracy, or of a rough map on a ball on its own points, and those of a much finer
-    solution."""
+def patch(stream, points):
+    """The heights of a smooth patch, whose contact reaches the border at heavy loads, or of a punch."""
+    inner = [(k + 0.5)/points for k in range(points)]
+    if stream.random() < 0.5:
+        low, high = ([stream.randint(1, points//3), stream.randint(1, points//3)] for _ in range(2))
+        depth = 10.0**stream.uniform(-3.0, 2.0)
+        return [[0.0 if low[0] <= i < points - high[0] and low[1] <= j < points - high[1] else -depth
+                 for i in range(points)] for j in range(points)]
+    waves = [(stream.randint(0, 3), stream.randint(0, 3), stream.gauss(0.0, 1.0), stream.uniform(0.0, 6.0))
+             for _ in range(4)]
+    tilt, dome = (stream.gauss(0.0, 1.0), stream.gauss(0.0, 1.0)), stream.choice((0.0, 4.0, -3.0))
+    return [[sum(a*math.cos(3.0*(m*x + n*y) + phase) for m, n, a, phase in waves) + tilt[0]*x + tilt[1]*y
+             - dome*((x - 0.5)**2 + (y - 0.5)**2) for x in inner] for y in inner]
+
+
+def free_case(stream, kind):
+    """The files of a ball to a random accuracy, of a rough map on a ball or, of the kind `patch`, of a map that may
+    touch up to its border, on its own points, and those of a much finer solution."""
+    if kind == "patch":
+        points = stream.choice((32, 48, 64))
+        surface = "kind = 'file', file = 'map.dat', edges = 'free', height_scale = 0.01"
+        heights = map_text(patch(stream, points))
+        loads = [10.0**(power + stream.uniform(0.0, 0.8)) for power in (-6, -4, -3, -2, -1)]
+        return [{"map.dat": heights,
+                 "deck.nml": f"&surface {surface} /\n&load force = {', '.join(map(repr, loads))} /\n"
+                             f"&method solver = 'grid', grid_points = {grid} /\n"} for grid in (points, 4*points)]
     radius = 10.0**stream.uniform(-0.5, 1.5)
     if stream.random() < 0.5:
         accuracy = 10.0**stream.uniform(-3.5, -1.5)
@@ -98,7 +121,7 @@ def campaign(settings, work):
             ("grid", grid_case, kinds, scenes, VALUES),
             ("fitted", fitted_case, [kind for kind in kinds if kind in FITTED], scenes, VALUES),
             ("grid with a hardness", hard_case, ("self_affine",), rare, VALUES + OF_HARDNESS),
-            ("grid with free edges", free_case, ("free edges",), rare, OF_FREE_EDGES)):
+            ("grid with free edges", free_case, ("free edges", "patch"), rare, OF_FREE_EDGES)):
         ratios, unknown = [], 0
         for name, stream, kind in settings.cases(f"estimates-{solver}", kinds_of_it, number):
             files, finer = case(stream, kind)

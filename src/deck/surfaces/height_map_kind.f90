@@ -10,7 +10,7 @@ module wavycon_height_map_kind
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics
-   use wavycon_measured_map, only: check_map_size, check_room, measured_map
+   use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_plain_text, only: clauses, escaped, integer_text, short_number
    use wavycon_prepare_map, only: map_preparation
    use wavycon_surface, only: surface_type
@@ -64,17 +64,17 @@ contains
 
    !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input
    !> for another kind of surface, for keys that only a file can have, and as of `surface_of_file`; exit_file_trouble
-   !> without memory.
+   !> without memory. One row or column is a profile.
    subroutine surface_of_heights(values, heights, surface, map, error)
       type(group_values), intent(inout) :: values     !! of &surface, as for `surface_of_file`
-      real(dp), intent(in) :: heights(:, :)   !! upwards to the other body, NaN: missing; x first, one column: a profile
+      real(dp), intent(in) :: heights(:, :)   !! upwards to the other body, NaN: missing; x first
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
       character(*), parameter :: of_files(*) = [character(13) :: 'missing_value', 'file_format']
       character(:), allocatable :: source
-      integer :: i
+      integer :: i, points(2)
       type(measured_map) :: measured
 
       do i = 1, size(of_files)
@@ -85,12 +85,13 @@ contains
          "heights in memory are for kind = 'file', not '"//values%text('kind')//"'")
       if (allocated(error)) return
       source = values%text('file')
-      call check_map_size(source, shape(heights), error)
-      if (.not. allocated(error)) call check_room(source, shape(heights), error)
+      points = laid_along_x(shape(heights))
+      call check_map_size(source, points, error)
+      if (.not. allocated(error)) call check_room(source, points, error)
       if (allocated(error)) return
-      allocate (measured%height, source=heights)
-      if (any(ieee_is_nan(heights))) then
-         measured%missing = ieee_is_nan(heights)
+      measured%height = reshape(heights, points)
+      if (any(ieee_is_nan(measured%height))) then
+         measured%missing = ieee_is_nan(measured%height)
          where (measured%missing) measured%height = 0.0_dp
       end if
       call make_of(source, values, measured, surface, map, error)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from .deck import Surface, deck_text, heights
+from .library import reals
 
 
 def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
@@ -17,9 +18,13 @@ def read(file, channel: str | int | None = None, *, length_unit: str | None = No
     channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
     and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
-    profile of unequal steps is resampled to equal ones, with a warning. Formats that the program reads itself need no
-    SurfaceTopography: wavycon.file(file="map.gsf").
+    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf, which the program reads, and .npy
+    need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as those of wavycon.heights.
     """
+    if os.path.isfile(file) and first_bytes(file).startswith(b"Gwyddion Simple Field 1."):
+        if channel not in (None, 0):
+            raise ValueError(f"there is no channel {channel!r}: a file .gsf has one, which has no name")
+        return Surface({"kind": "file", "file": os.path.abspath(file), **keys_of_maps}, None, length_unit)
     x, z, sides, unit = open_file(file, channel, length_unit)
     for key, side in sides.items():
         if side is not None and keys_of_maps.get(key) is not None:
@@ -38,6 +43,9 @@ def open_file(file, channel, unit=None):
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
     heights (y, x) or (x,), NaN where they are missing, the sides as keys, None where the file lacks them, and the unit
     (None: unknown). Errors: ValueError for what SurfaceTopography cannot read."""
+    if os.path.isfile(file) and first_bytes(file).startswith(b"\x93NUMPY"):
+        # SurfaceTopography takes the first index of an array for x, the program for y.
+        return None, reals(np.load(file)), dict.fromkeys(("length_x", "length_y")), unit
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:
@@ -57,8 +65,21 @@ def open_file(file, channel, unit=None):
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {type(error).__name__}: "
-                         f"{''.join(str(error).strip().splitlines()[:1])}") from error
+                         f"{''.join(str(error).strip().splitlines()[:1])}{formats(error)}") from error
     return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
+
+
+def first_bytes(file):
+    with open(file, "rb") as opened:
+        return opened.read(32)
+
+
+def formats(error):
+    """The formats that can be read, in words behind the error that a file has none of them."""
+    if type(error).__name__ != "CannotDetectFileFormat":
+        return ""
+    from SurfaceTopography.IO import readers
+    return f"; the formats that can be read are gsf, {', '.join(sorted(one.format() for one in readers))}"
 
 
 def choose(channels, channel):
@@ -77,13 +98,14 @@ def write_profile(path, x, z):
 
 
 def write_gsf(path, z, sides, unit):
-    """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32."""
+    """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32. The
+    heights are written over their mean, which may be so large that float32 does not tell them apart."""
     head = "Gwyddion Simple Field 1.0\n"
     lines = {"XRes": z.shape[1], "YRes": z.shape[0], "XReal": sides.get("length_x"), "YReal": sides.get("length_y"),
              "XYUnits": unit, "ZUnits": unit}
     head += "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
     head = head.encode()
-    Path(path).write_bytes(head + bytes(4 - len(head) % 4) + z.astype("<f4").tobytes())
+    Path(path).write_bytes(head + bytes(4 - len(head) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
 
 
 def convert(arguments=None) -> None:
@@ -91,7 +113,8 @@ def convert(arguments=None) -> None:
     parser = argparse.ArgumentParser(prog="wavycon-convert", description="Converts a file of an instrument to one that "
                                      "decks of wavycon read.")
     parser.add_argument("file", help="of any format that SurfaceTopography opens")
-    parser.add_argument("map", help="to be written: .gsf with sides and units, .npy with all digits, .txt for profiles")
+    parser.add_argument("map", help="to be written: .gsf with sides and units, heights over their mean in "
+                        "single precision, .npy with all digits, .txt for profiles")
     parser.add_argument("--channel", help="name or number of one of several channels")
     parser.add_argument("--unit", help="of length, to which the file's lengths are converted, such as um")
     given = parser.parse_args(arguments)
