@@ -99,7 +99,7 @@ def explained_statuses(text):
 
 def statuses_of_sources():
     """{status: code} as the sources have them."""
-    text = read("src/contact/contact_status.f90")
+    text = read("src/core/contact/contact_status.f90")
     codes = {name: int(code) for line in re.findall(r"integer, parameter, public :: (.*)", text)
              for name, code in re.findall(r"(\w+) = (\d+)", line)}
     statuses = re.search(r"statuses\(\*\) = \[(.*?)\]\n", text, re.DOTALL)[1].replace("other_failure +", "")
@@ -176,7 +176,7 @@ class Pages(ProgramTest):
 
     def test_columns(self):
         page = read("outputs/README.md")
-        tables = {name for path in (ROOT/"src/report").glob("*_tables.f90")
+        tables = {name for path in (ROOT/"src/program/report").glob("*_tables.f90")
                   for name in re.findall(r"table_type\('(\w+)'", path.read_text(encoding="utf-8"))}
         # The heights have no columns but x, y and one more.
         self.assertEqual(tables - {"height"}, set(SECTIONS))
