@@ -22,7 +22,7 @@ OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
 OF_FREE_EDGES = ("approach", "contact_area", "peak_pressure")
 # Of the table of the interface, and their largest error over its estimate: next to merging derivatives have no bound.
 OF_INTERFACE = ("contact_stiffness_normalised", "contact_area_slope", "mean_gap_curvature")
-LARGEST_RATIO_OF_INTERFACE = 30.0
+LARGEST_RATIO_OF_INTERFACE = 10.0
 FITTED_ACCURACIES = (1e-10, 1e-3)
 FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # ratio of the accuracies of grids, of expansions; finest
 
