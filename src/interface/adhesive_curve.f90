@@ -3,7 +3,7 @@
 !>
 !> The curve is followed by P1, through its turning points. Equations (I..) are those of README.md in this directory.
 module wavycon_adhesive_curve
-   use wavycon_contact_measures, only: contact_measures, is_known, load_derivatives
+   use wavycon_contact_measures, only: contact_measures, is_known, load_derivatives, scaled_error
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
@@ -159,14 +159,14 @@ contains
          .and. min(slopes%area_slope, slopes%gap_curvature) > 0.0_dp
       if (.not. point%exists) return
       tension = sqrt(2*curve%work*slopes%area_slope/slopes%gap_curvature)
-      tension_error = 0.5_dp*tension*(slopes%area_slope_error/slopes%area_slope &
-                                      + slopes%gap_curvature_error/slopes%gap_curvature)
+      tension_error = scaled_error(slopes%area_slope_error, 0.5_dp*tension/slopes%area_slope) &
+                      + scaled_error(slopes%gap_curvature_error, 0.5_dp*tension/slopes%gap_curvature)
       point%load = p1 - tension
       point%load_error = tension_error
       associate (measures => solution%measures)
          point%approach = measures%approach_over_amplitude + slopes%gap_slope*tension
-         point%approach_error = measures%mean_gap_error + slopes%gap_slope_error*tension &
-                                - slopes%gap_slope*tension_error
+         point%approach_error = measures%mean_gap_error + scaled_error(slopes%gap_slope_error, tension) &
+                                + scaled_error(tension_error, -slopes%gap_slope)
          point%area = measures%contact_area_fraction
          point%area_error = measures%contact_area_error
       end associate

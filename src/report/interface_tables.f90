@@ -183,10 +183,10 @@ contains
                mean_pressure = results%scene%p_star*point%load
                numbers = not_a_number()
                if (point%exists) numbers = &
-                  [results%in_p_star([point%load, point%load_error]), mean_pressure, &
+                  [results%in_p_star([point%load, or_nan(point%load_error)]), mean_pressure, &
                    mean_pressure*surface%nominal_area(), &
-                   results%in_p_star([1.0_dp - point%approach, point%approach_error]), &
-                   surface%amplitude*point%approach, point%area, point%area_error, &
+                   results%in_p_star([1.0_dp - point%approach, or_nan(point%approach_error)]), &
+                   surface%amplitude*point%approach, point%area, or_nan(point%area_error), &
                    surface%nominal_area()*point%area, point%release_range]
                call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
                                  [merge(point_names(point%kind), 'none                ', point%exists)])
