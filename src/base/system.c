@@ -116,6 +116,18 @@ void wavycon_remove(const char *path)
         note(unfinished, sizeof unfinished, "");
 }
 
+/* Raises the limit on the stack to a number of bytes, as far as it may be. Returns the limit, or that number if it is
+   less. */
+int64_t wavycon_grow_stack(int64_t bytes)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= (rlim_t)bytes)
+        return bytes;
+    limit.rlim_cur = limit.rlim_max < (rlim_t)bytes ? limit.rlim_max : (rlim_t)bytes;
+    setrlimit(RLIMIT_STACK, &limit);
+    return limit.rlim_cur;
+}
+
 /* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
 void wavycon_outlive_file_size_limit(void)
 {

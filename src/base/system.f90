@@ -1,13 +1,13 @@
 !> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: available_memory, has_memory_for, keep_memory
-   public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
+   public :: available_memory, error_text, grow_stack, has_memory_for, keep_memory
+   public :: file_size, full_path, path_kind, make_directories, remove_file
    public :: note_command, note_kept, outlive_file_size_limit, process_id, terminal_columns
 
    !> Values of `path_kind`.
@@ -26,22 +26,17 @@ module wavycon_system
          character(kind=c_char), intent(in) :: path(*)
       end function c_make_directory
 
-      integer(c_int) function c_rename(from, to) bind(c, name='wavycon_rename')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: from(*), to(*)
-      end function c_rename
-
       subroutine c_remove(path) bind(c, name='wavycon_remove')
          import :: c_char
          character(kind=c_char), intent(in) :: path(*)
       end subroutine c_remove
 
-      !> Removes a file if the program is interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Only
-      !> the file of the last call is removed.
-      subroutine remove_when_interrupted(path) bind(c, name='wavycon_remove_when_interrupted')
-         import :: c_char
-         character(kind=c_char), intent(in) :: path(*)   !! ended by a null character; at most 4095 bytes, or ignored
-      end subroutine remove_when_interrupted
+      !> Raises the limit on the stack (ulimit -s) to a number of bytes, as far as it may be. Gives the limit, or that
+      !> number if it is less.
+      integer(c_int64_t) function grow_stack(bytes) bind(c, name='wavycon_grow_stack')
+         import :: c_int64_t
+         integer(c_int64_t), value :: bytes
+      end function grow_stack
 
       !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
       subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
@@ -82,11 +77,11 @@ module wavycon_system
       subroutine keep_memory() bind(c, name='wavycon_keep_memory')
       end subroutine keep_memory
 
-      type(c_ptr) function c_realpath(path, full) bind(c, name='realpath')
-         import :: c_char, c_ptr
+      integer(c_int) function c_full_path(path, full) bind(c, name='wavycon_full_path')
+         import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(out) :: full(*)
-      end function c_realpath
+      end function c_full_path
 
       subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
          import :: c_char, c_int, c_size_t
@@ -98,8 +93,8 @@ module wavycon_system
 
 contains
 
-   !> The absolute path of a file; the path as it is if the file does not exist or its absolute path is longer than 4095
-   !> bytes.
+   !> The absolute path of a file, which need not exist, without symbolic links, so that equal files have equal texts; the
+   !> path as it is if that is longer than 4095 bytes.
    function full_path(path) result(full)
       character(*), intent(in) :: path
       character(:), allocatable :: full
@@ -108,7 +103,7 @@ contains
       character(longest) :: buffer
 
       full = path
-      if (c_associated(c_realpath(path//c_null_char, buffer))) full = buffer(:index(buffer, c_null_char) - 1)
+      if (c_full_path(path//c_null_char, buffer) /= 0) full = buffer(:index(buffer, c_null_char) - 1)
    end function full_path
 
    !> Whether a path names nothing, a directory, a file or something else (a pipe, a device); unknown if the system
@@ -154,17 +149,6 @@ contains
          return
       end do
    end subroutine make_directories
-
-   !> Renames a file; a file of the new name is replaced, atomically.
-   subroutine rename_file(from, to, failure)
-      character(*), intent(in) :: from, to
-      character(:), allocatable, intent(out) :: failure  !! the system's message; not allocated on success
-
-      integer :: number
-
-      number = int(c_rename(from//c_null_char, to//c_null_char))
-      if (number /= 0) failure = error_text(number)
-   end subroutine rename_file
 
    !> Removes a file, if it exists.
    subroutine remove_file(path)

@@ -7,6 +7,7 @@ module wavycon_deck_text
    use wavycon_plain_text, only: character_count, escaped, integer_text, lower_case, newline
    use wavycon_problems, only: most_kept, problem_list_type
    use wavycon_ranks, only: is_first_rank, share_error, share_text
+   use wavycon_written_file, only: note_input
    implicit none (type, external)
    private
 
@@ -94,6 +95,7 @@ contains
       character(:), allocatable :: content
 
       if (is_first_rank()) call read_file(path, largest, content, error)
+      call note_input(path)
       call share_error(error)
       if (allocated(error)) return
       if (.not. allocated(content)) content = ''

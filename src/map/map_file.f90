@@ -16,6 +16,7 @@ module wavycon_map_file
    use wavycon_point_map, only: resample_profile, take_points, take_profile
    use wavycon_ranks, only: share_error
    use wavycon_system, only: path_device, path_kind
+   use wavycon_written_file, only: note_input
    implicit none (type, external)
    private
 
@@ -52,6 +53,7 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
       else
          call file%open(path, error)
+         call note_input(path)
       end if
       if (present(in_slabs)) file%in_slabs = in_slabs
       call share_error(error)

@@ -40,6 +40,8 @@ contains
 
       associate (scene => results%scene, surface => results%solver%surface)
          call log%say(head_lines(scene, surface, results%method, '', 'some'))
+         if (.not. scene%scene_values%has('case') .and. index('/'//scene%deck_path//'.nml', '/'//scene%case//'.nml') == 0) &
+            call log%say('case: '//scene%case//', the name of the results')
          loads = scene%target
          words = trim(target_words(scene%loads_by))
          if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
