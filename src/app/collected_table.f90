@@ -1,6 +1,7 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary. Its rows are read from the
 !> summaries that the runs have written.
 module wavycon_collected_table
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: read_file
    use wavycon_group_values, only: group_values
@@ -11,11 +12,10 @@ module wavycon_collected_table
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
    use wavycon_summary_tables, only: summary_columns
-   use wavycon_system, only: full_path, make_directories, path_directory, path_kind
+   use wavycon_system, only: error_text, full_path, make_directories, path_directory, path_kind, refusal_to_write
    use wavycon_table, only: table_type
    use wavycon_tables, only: all_tables
    use wavycon_version, only: revision, version
-   use wavycon_written_file, only: look_for_obstacle
    implicit none (type, external)
    private
 
@@ -59,7 +59,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: full, kind, trouble
-      integer :: d
+      integer :: d, number
       type(table_type), allocatable :: tables(:)
 
       call make_directories(directory_of(path), trouble)
@@ -67,7 +67,8 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(trouble))
          return
       end if
-      call look_for_obstacle(path, table_mark, trouble)
+      number = refusal_to_write(path//c_null_char, table_mark//c_null_char)
+      if (number /= 0) trouble = error_text(number)
       if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
          trouble = 'this is a directory'
       full = full_path(path)

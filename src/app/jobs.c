@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 /* Of written_file.c. */
-void wavycon_print(const char *text, size_t length);
+void wavycon_print(const char *text);
 
 /* More than most_waiting of run_program.f90: a job has a place until it is shown. */
 enum { places = 128, streams = 2 };
@@ -81,11 +81,13 @@ int wavycon_show_job(int number)
     for (int i = 0; i < streams; i++) {
         FILE *from = jobs[number % places].files[i];
         rewind(from);
-        while ((bytes = fread(buffer, 1, sizeof buffer, from)) > 0)
+        while ((bytes = fread(buffer, 1, sizeof buffer - 1, from)) > 0) {
+            buffer[bytes] = '\0';
             if (i == 0)
-                wavycon_print(buffer, bytes);
+                wavycon_print(buffer);
             else
-                fwrite(buffer, 1, bytes, stderr);
+                fputs(buffer, stderr);
+        }
         fclose(from);
     }
     return jobs[number % places].status;

@@ -14,10 +14,10 @@ module wavycon_run_program
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: full_path, grow_stack, keep_memory, note_command, outlive_file_size_limit
+   use wavycon_system, only: error_text, full_path, keep_memory, note_command, outlive_file_size_limit, print_text, &
+      print_trouble, remove_leftovers, stack_limit
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
-   use wavycon_written_file, only: look_for_print_trouble, print_text, remove_leftovers
    implicit none (type, external)
    private
 
@@ -66,7 +66,7 @@ contains
       integer :: i, worst
       logical :: quiet
 
-      if (grow_stack(least_stack) < least_stack) call fatal_error(error, exit_file_trouble, &
+      if (stack_limit() < least_stack) call fatal_error(error, exit_file_trouble, &
          'the limit on the stack is too low: allow '//integer_text(int(least_stack/1024))//' kB (ulimit -s)')
       call stop_on(error)
       call use_one_thread_for_matrices()
@@ -84,7 +84,7 @@ contains
       end if
       if (command_line%options%logical('--help')) text = help_text(allocated(comm))
       if (allocated(text)) then
-         if (is_first_rank()) call print_text(text//newline)
+         if (is_first_rank()) call print_text(text//newline//c_null_char)
          call finish(exit_fine)
       end if
       quiet = command_line%options%logical('--quiet') .or. .not. is_first_rank()
@@ -174,7 +174,7 @@ contains
       call stop_on(error)
       is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
       do i = 1, size(scenes)
-         if (is_good(i)) call remove_leftovers(scenes(i)%scene%directory)
+         if (is_good(i)) call remove_leftovers(scenes(i)%scene%directory//c_null_char)
       end do
       status = exit_bad_input
       begun = 0
@@ -201,7 +201,7 @@ contains
       call separate(size(scenes) + 1, quiet)
       call print_text(integer_text(size(scenes))//' decks: '// &
          integer_text(count(status == exit_fine))//' solved, '//integer_text(count(status == exit_not_converged))// &
-         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed'//newline)
+         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed'//newline//c_null_char)
 
    contains
 
@@ -264,7 +264,7 @@ contains
       integer, intent(in) :: deck   !! number of the one that follows
       logical, intent(in) :: quiet
 
-      if (deck > 1 .and. .not. quiet) call print_text(newline)
+      if (deck > 1 .and. .not. quiet) call print_text(newline//c_null_char)
    end subroutine separate
 
    !> Writes the message of an error, if there is one, and ends the program with its status.
@@ -288,13 +288,11 @@ contains
    subroutine finish(status)
       integer, intent(in) :: status
 
-      character(:), allocatable :: trouble
       integer :: last_status
 
       last_status = status
-      call look_for_print_trouble(trouble)
-      if (allocated(trouble)) then
-         write (error_unit, '(a)') 'wavycon: standard output: cannot be written: '//trouble
+      if (print_trouble() /= 0) then
+         write (error_unit, '(a)') 'wavycon: standard output: cannot be written: '//error_text(int(print_trouble()))
          last_status = exit_file_trouble
       end if
       call end_ranks(last_status)

@@ -116,16 +116,11 @@ void wavycon_remove(const char *path)
         note(unfinished, sizeof unfinished, "");
 }
 
-/* Raises the limit on the stack to a number of bytes, as far as it may be. Returns the limit, or that number if it is
-   less. */
-int64_t wavycon_grow_stack(int64_t bytes)
+/* The limit on the stack of this process [byte], at most the largest int64_t. */
+int64_t wavycon_stack_limit(void)
 {
     struct rlimit limit;
-    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= (rlim_t)bytes)
-        return bytes;
-    limit.rlim_cur = limit.rlim_max < (rlim_t)bytes ? limit.rlim_max : (rlim_t)bytes;
-    setrlimit(RLIMIT_STACK, &limit);
-    return limit.rlim_cur;
+    return getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur > INT64_MAX ? INT64_MAX : (int64_t)limit.rlim_cur;
 }
 
 /* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
@@ -144,10 +139,13 @@ int wavycon_terminal_columns(void)
     return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/* The message for an errno, cut to fit. */
+/* The message for an errno or a reason of written_file.c, cut to fit. */
 void wavycon_error_text(int number, char *text, size_t length)
 {
-    snprintf(text, length, "%s", strerror(number));
+    static const char *const reasons[] = {
+        "it is read by this run and is not replaced", "it is a disk, not a file", "it is a symbolic link to nothing",
+        "there is a file that is no such table; it is not replaced"};
+    snprintf(text, length, "%s", number < 0 ? reasons[-number - 1] : strerror(number));
 }
 
 /* The number behind a name such as "MemAvailable:" at the start of a line of a file; with an empty name the number at

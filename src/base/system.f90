@@ -1,12 +1,14 @@
-!> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
+!> Files, memory, signals and the terminal: interfaces of the C functions in system.c and written_file.c.
 module wavycon_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: available_memory, error_text, grow_stack, has_memory_for, keep_memory
+   public :: available_memory, has_memory_for, keep_memory, stack_limit
+   public :: end_written, error_text, note_input, open_written, print_text, print_trouble, put_bytes, put_text, &
+      refusal_to_write, remove_leftovers
    public :: file_size, full_path, path_kind, make_directories, remove_file
    public :: note_command, note_kept, outlive_file_size_limit, process_id, terminal_columns
 
@@ -31,12 +33,10 @@ module wavycon_system
          character(kind=c_char), intent(in) :: path(*)
       end subroutine c_remove
 
-      !> Raises the limit on the stack (ulimit -s) to a number of bytes, as far as it may be. Gives the limit, or that
-      !> number if it is less.
-      integer(c_int64_t) function grow_stack(bytes) bind(c, name='wavycon_grow_stack')
+      !> The limit on the stack [byte] (ulimit -s).
+      integer(c_int64_t) function stack_limit() bind(c, name='wavycon_stack_limit')
          import :: c_int64_t
-         integer(c_int64_t), value :: bytes
-      end function grow_stack
+      end function stack_limit
 
       !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
       subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
@@ -77,11 +77,70 @@ module wavycon_system
       subroutine keep_memory() bind(c, name='wavycon_keep_memory')
       end subroutine keep_memory
 
-      integer(c_int) function c_full_path(path, full) bind(c, name='wavycon_full_path')
-         import :: c_char, c_int
+      type(c_ptr) function c_realpath(path, full) bind(c, name='realpath')
+         import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(out) :: full(*)
-      end function c_full_path
+      end function c_realpath
+
+      !> Opens a file to be written, as written_file.c says; paths end in a null character. What is in the way of it is
+      !> told by the next call. The errors that the following return have words by `error_text`; 0: there is none.
+      type(c_ptr) function open_written(path) bind(c, name='wavycon_open_written')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+      end function open_written
+
+      integer(c_int) function put_text(file, text, length) bind(c, name='wavycon_put_bytes')
+         import :: c_char, c_int, c_ptr, c_size_t
+         type(c_ptr), value :: file
+         character(kind=c_char), intent(in) :: text(*)
+         integer(c_size_t), value :: length
+      end function put_text
+
+      integer(c_int) function put_bytes(file, numbers, bytes) bind(c, name='wavycon_put_bytes')
+         import :: c_int, c_ptr, c_size_t
+         type(c_ptr), value :: file
+         type(*), intent(in) :: numbers(*)           !! of any type
+         integer(c_size_t), value :: bytes
+      end function put_bytes
+
+      !> Writes what is in the buffer and gives a complete file its name; one that is not complete, or had an error, is
+      !> removed. Then closes it, unless it stays open for more.
+      integer(c_int) function end_written(file, is_complete, stays_open) bind(c, name='wavycon_end_written')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: file
+         integer(c_int), value :: is_complete, stays_open   !! 1 or 0
+      end function end_written
+
+      !> Why a file cannot be written, as far as what has its name says.
+      integer(c_int) function refusal_to_write(path, mark) bind(c, name='wavycon_refusal')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(in) :: mark(*)      !! how a file begins that may be replaced; empty: any
+      end function refusal_to_write
+
+      !> Notes a file that is read: it will not be replaced.
+      subroutine note_input(path) bind(c, name='wavycon_note_input')
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine note_input
+
+      !> Removes from a directory the unfinished files of processes of this machine that were killed.
+      subroutine remove_leftovers(directory) bind(c, name='wavycon_remove_leftovers')
+         import :: c_char
+         character(kind=c_char), intent(in) :: directory(*)
+      end subroutine remove_leftovers
+
+      !> Writes a text, which ends in a null character, to standard output, at once.
+      subroutine print_text(text) bind(c, name='wavycon_print')
+         import :: c_char
+         character(kind=c_char), intent(in) :: text(*)
+      end subroutine print_text
+
+      !> The first error in doing so.
+      integer(c_int) function print_trouble() bind(c, name='wavycon_print_trouble')
+         import :: c_int
+      end function print_trouble
 
       subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
          import :: c_char, c_int, c_size_t
@@ -93,17 +152,32 @@ module wavycon_system
 
 contains
 
-   !> The absolute path of a file, which need not exist, without symbolic links, so that equal files have equal texts; the
-   !> path as it is if that is longer than 4095 bytes.
-   function full_path(path) result(full)
+   !> The absolute path of a file, which need not exist, without symbolic links and dots, so that equal files have equal
+   !> texts.
+   recursive function full_path(path) result(full)
       character(*), intent(in) :: path
       character(:), allocatable :: full
 
       integer, parameter :: longest = 4096
       character(longest) :: buffer
+      integer :: slash
 
       full = path
-      if (c_full_path(path//c_null_char, buffer) /= 0) full = buffer(:index(buffer, c_null_char) - 1)
+      slash = index(path, '/', back=.true.)
+      if (c_associated(c_realpath(path//c_null_char, buffer))) then
+         full = buffer(:index(buffer, c_null_char) - 1)
+      else if (path /= '.') then
+         ! What does not exist is no link.
+         full = '.'
+         if (slash > 0) full = path(:max(slash - 1, 1))
+         full = full_path(full)
+         if (full == '/') full = ''
+         if (path(slash + 1:) == '..') then
+            full = full(:index(full, '/', back=.true.) - 1)
+         else if (path(slash + 1:) /= '' .and. path(slash + 1:) /= '.') then
+            full = full//'/'//path(slash + 1:)
+         end if
+      end if
    end function full_path
 
    !> Whether a path names nothing, a directory, a file or something else (a pipe, a device); unknown if the system

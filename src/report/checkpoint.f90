@@ -11,17 +11,17 @@
 !> columns of the grids. A run that resumes reads the checkpoints of all ranks of the interrupted run, and may have any
 !> number of them itself.
 module wavycon_checkpoint
-   use, intrinsic :: iso_c_binding, only: c_null_char
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_results, only: results_type
-   use wavycon_system, only: file_size, note_kept, path_absent, path_file, path_kind, remove_file
+   use wavycon_system, only: end_written, file_size, note_kept, open_written, path_absent, path_file, path_kind, &
+      put_bytes, put_text, remove_file
    use wavycon_version, only: revision, version
    use wavycon_work_sharing, only: distributed_grids
-   use wavycon_written_file, only: written_file
    implicit none (type, external)
    private
 
@@ -36,7 +36,7 @@ module wavycon_checkpoint
 
    type :: checkpoint_file
       logical :: is_complete = .false.                         !! whether all solutions added so far were written
-      type(written_file), private :: file
+      type(c_ptr), private :: file = c_null_ptr                !! of open_written
       logical, private :: has_name = .false.                   !! or a temporary one
       integer, private :: kept = -1                            !! solutions written; -1: not even the description
       integer, private :: loads = 0                            !! all loads of the run
@@ -90,24 +90,24 @@ contains
       type(results_type), intent(in) :: results   !! its directory exists
       logical, intent(in) :: known(:)             !! of each load: whether its solution is known
 
-      character(:), allocatable :: text, trouble
+      character(:), allocatable :: text
       integer :: load
 
       self%name = checkpoint_name(results)
       call remove_others(results)
-      call self%file%open(self%name, trouble)
-      self%is_complete = .not. allocated(trouble)
-      if (self%is_complete) call self%file%put_text(mark, trouble)
+      self%file = open_written(self%name//c_null_char)
+      self%is_complete = .true.
       self%bytes = len(mark)
       self%loads = size(results%loads)
       text = description(results)
+      if (put_text(self%file, mark, len(mark, c_size_t)) /= 0) call close_file(self)
       call put(self, transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64]))
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
-      if (self%is_complete) call self%file%finish(.true., .true., trouble)
       self%has_name = .true.
-      if (allocated(trouble)) call close_file(self)
+      if (.not. self%is_complete) return
+      if (end_written(self%file, 1_c_int, 1_c_int) /= 0) call close_file(self)
    end subroutine create
 
    !> Adds a solution, if it is worth keeping.
@@ -141,9 +141,9 @@ contains
    subroutine close_file(self)
       type(checkpoint_file), intent(inout) :: self
 
-      character(:), allocatable :: ignored
+      integer(c_int) :: ignored
 
-      if (self%is_complete) call self%file%finish(.false., .false., ignored)
+      if (self%is_complete) ignored = end_written(self%file, 0_c_int, 0_c_int)
       self%is_complete = .false.
    end subroutine close_file
 
@@ -153,22 +153,22 @@ contains
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
 
-      character(:), allocatable :: trouble
-      integer(int64) :: bytes
+      integer(c_int) :: status
+      integer(c_size_t) :: bytes
 
       if (.not. self%is_complete) return
-      bytes = bytes_of_word*size(words, kind=int64)
+      bytes = bytes_of_word*size(words, kind=c_size_t)
       self%bytes = self%bytes + bytes + 2*bytes_of_word
-      ! The last failure told is the first one.
-      call self%file%put_numbers([bytes/bytes_of_word], int(bytes_of_word, int64), trouble)
-      call self%file%put_numbers(words, bytes, trouble)
-      call self%file%put_numbers([checksum(words)], int(bytes_of_word, int64), trouble)
-      if (self%has_name .and. .not. allocated(trouble)) then
-         call self%file%finish(.true., .true., trouble)
-         if (file_size(self%name) /= self%bytes) trouble = 'another run has replaced the file'
+      ! The status is that of all so far.
+      status = put_bytes(self%file, [bytes/bytes_of_word], int(bytes_of_word, c_size_t))
+      status = put_bytes(self%file, words, bytes)
+      status = put_bytes(self%file, [checksum(words)], int(bytes_of_word, c_size_t))
+      if (self%has_name) then
+         status = end_written(self%file, 1_c_int, 1_c_int)
+         if (file_size(self%name) /= self%bytes) status = 1
       end if
-      if (allocated(trouble)) call close_file(self)
-      if (allocated(trouble)) return
+      if (status /= 0) call close_file(self)
+      if (status /= 0) return
       self%kept = self%kept + 1
       call note_kept(integer_text(self%kept)//' of '//integer_text(self%loads)//' loads are kept in '//self%name// &
                      c_null_char)

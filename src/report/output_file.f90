@@ -1,16 +1,15 @@
-!> Result files, as of `written_file`. A table may be written to memory in place of a file: it gets columns and rows, and
+!> Result files, written as written_file.c says. A table may be written to memory in place of a file: it gets columns and rows, and
 !> lines by `put` are left out.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
 module wavycon_output_file
-   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int
-   use, intrinsic :: iso_fortran_env, only: int64
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_plain_text, only: escaped, newline
-   use wavycon_written_file, only: written_file
+   use wavycon_system, only: end_written, error_text, open_written, put_bytes, put_text
    implicit none (type, external)
    private
 
@@ -33,8 +32,7 @@ module wavycon_output_file
    type :: output_file
       private
       type(memory_table), pointer, public :: memory => null()   !! in place of the file; exists until `finish`
-      type(written_file) :: file
-      logical :: opened = .false.
+      type(c_ptr) :: file = c_null_ptr            !! of open_written
       character(:), allocatable :: name
       character(:), allocatable :: trouble        !! first error; not allocated if there was none
       character(:), allocatable :: names(:)       !! of the columns; not allocated if the file is no table
@@ -64,9 +62,8 @@ contains
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
 
       self%name = directory//'/'//name
-      call self%file%open(self%name, self%trouble)
-      self%opened = self%is_open()
-      if (self%opened .and. present(head)) call self%file%put_text(head, self%trouble)
+      self%file = open_written(self%name//c_null_char)
+      if (present(head)) call check(self, put_text(self%file, head, len(head, c_size_t)))
    end subroutine open_file
 
    !> Whether the file is open and no error has occurred.
@@ -82,7 +79,7 @@ contains
       character(*), intent(in) :: line
 
       if (allocated(self%trouble) .or. associated(self%memory)) return
-      call self%file%put_text(line//newline, self%trouble)
+      call check(self, put_text(self%file, line//newline, len(line, c_size_t) + 1))
    end subroutine put
 
    !> Writes numbers to a binary file, in the order of the array.
@@ -91,7 +88,7 @@ contains
       real(dp), intent(in), contiguous :: numbers(:, :)
 
       if (allocated(self%trouble)) return
-      call self%file%put_numbers(numbers, size(numbers, kind=int64)*storage_size(numbers)/8, self%trouble)
+      call check(self, put_bytes(self%file, numbers, size(numbers, kind=c_size_t)*storage_size(numbers)/8))
    end subroutine put_numbers
 
    !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
@@ -185,6 +182,14 @@ contains
       call self%put(line)
    end subroutine put_row
 
+   !> Records the error of the file, if there is one.
+   subroutine check(self, number)
+      class(output_file), intent(inout) :: self
+      integer(c_int), intent(in) :: number   !! as of error_text
+
+      if (number /= 0) call self%note_trouble(error_text(number))
+   end subroutine check
+
    !> Records an error: `finish` will report it and remove the file.
    subroutine note_trouble(self, message)
       class(output_file), intent(inout) :: self
@@ -198,16 +203,13 @@ contains
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: failure
-
       if (associated(self%memory)) then
          if (self%memory%is_full) call self%note_trouble('there is not the memory for all rows')
          if (allocated(self%trouble)) call fatal_error(error, exit_file_trouble, 'table in memory: '//self%trouble)
          return
       end if
       if (allocated(self%names) .and. .not. self%has_names) call put_names(self)
-      if (self%opened) call self%file%finish(self%is_open(), .false., failure)
-      if (allocated(failure)) call self%note_trouble(failure)
+      call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
       if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
    end subroutine finish

@@ -1,11 +1,11 @@
 !> The log of a run on standard output.
 module wavycon_run_log
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, newline, short_number
    use wavycon_solver_progress, only: solver_progress
-   use wavycon_system, only: terminal_columns
-   use wavycon_written_file, only: print_text
+   use wavycon_system, only: print_text, terminal_columns
    implicit none (type, external)
    private
 
@@ -60,10 +60,10 @@ contains
 
       if (self%quiet) return
       ! Blanks over the progress line.
-      if (self%shown > 0) call print_text(achar(13)//repeat(' ', self%shown)//achar(13))
+      if (self%shown > 0) call print_text(achar(13)//repeat(' ', self%shown)//achar(13)//c_null_char)
       self%shown = 0
       ! A closed or full standard output does not stop the run: the results go to files. The program's end tells of it.
-      call print_text(line//newline)
+      call print_text(line//newline//c_null_char)
    end subroutine say
 
    !> Writes a line after the time since the start.
@@ -145,7 +145,7 @@ contains
       if (.not. self%is_due()) return
       call system_clock(self%last_progress)
       width = min(len(words), self%columns - 1)
-      call print_text(achar(13)//words(:width)//repeat(' ', max(0, self%shown - width)))
+      call print_text(achar(13)//words(:width)//repeat(' ', max(0, self%shown - width))//c_null_char)
       self%shown = width
    end subroutine say_progress
 
