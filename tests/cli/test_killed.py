@@ -19,6 +19,7 @@ LONG_DECK = """&surface kind = 'self_affine', rms_slope = 0.1, short_wavelength 
 """
 DECK = "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n"
 PATIENCE = 20   # [s]
+ENDING = 4      # [s]; some milliseconds, if nothing else runs
 HOST = platform.node()[:16]
 
 
@@ -36,9 +37,9 @@ def runs(process):
         return False
 
 
-def wait_for(condition):
+def wait_for(condition, patience=PATIENCE):
     begun = time.monotonic()
-    while not condition() and time.monotonic() < begun + PATIENCE:
+    while not condition() and time.monotonic() < begun + patience:
         time.sleep(0.01)
     return condition()
 
@@ -62,7 +63,7 @@ class Killed(ProgramTest):
             jobs = children(process.pid)
             process.send_signal(sent)
             self.assertEqual(-sent, process.wait(PATIENCE))
-            ended = wait_for(lambda: not any(map(runs, jobs)))
+            ended = wait_for(lambda: not any(map(runs, jobs)), ENDING)
             for job in filter(runs, jobs):
                 os.kill(int(job), signal.SIGKILL)
             self.assertTrue(ended, f"jobs are running after {sent.name} to their parent")

@@ -119,7 +119,8 @@ class Faults:
         for table in ("resolved.nml", *(f"{name}.dat" for name in TABLES), "checkpoint"):
             folder = self.folder()
             (folder/"results").mkdir()
-            outcome = self.in_shell(folder, 'ln -s /dev/full "results/deck.$1"; exec "$0" deck.nml --output results', table)
+            outcome = self.in_shell(folder, 'ln -s /dev/full "results/deck.$1"; "$0" deck.nml --output results; '
+                                            'status=$?; rm -f "results/deck.$1"; exit $status', table)
             self.count(f"/dev/full for {table}", outcome, (0,) if table == "checkpoint" else (3,), folder)
 
     def directories(self):
