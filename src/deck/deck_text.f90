@@ -2,11 +2,13 @@
 !> report of problems in it. Any bytes are tokens. Options of the command line that set keys of the deck stand behind
 !> it, each as a line, so that problems with them have a place too.
 module wavycon_deck_text
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_plain_text, only: character_count, escaped, integer_text, lower_case, newline
    use wavycon_problems, only: most_kept, problem_list_type
    use wavycon_ranks, only: is_first_rank, share_error, share_text
+   use wavycon_system, only: note_input
    implicit none (type, external)
    private
 
@@ -94,6 +96,7 @@ contains
       character(:), allocatable :: content
 
       if (is_first_rank()) call read_file(path, largest, content, error)
+      call note_input(path//c_null_char)
       call share_error(error)
       if (allocated(error)) return
       if (.not. allocated(content)) content = ''

@@ -40,6 +40,10 @@ contains
 
       associate (scene => results%scene, surface => results%solver%surface)
          call log%say(head_lines(scene, surface, results%method, '', 'some'))
+         words = scene%deck_path(index(scene%deck_path, '/', back=.true.) + 1:)
+         if (index(words//'.nml', '.nml') > 1) words = words(:index(words//'.nml', '.nml') - 1)
+         if (.not. scene%scene_values%has('case') .and. index(scene%case, words) /= 1) call log%say( &
+            'note: the results have the name '//scene%case//", with '_' for characters of the deck's name")
          loads = scene%target
          words = trim(target_words(scene%loads_by))
          if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then

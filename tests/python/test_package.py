@@ -22,6 +22,7 @@ import subprocess
 import sys
 import time
 import unittest
+import unittest.mock
 import warnings
 
 from program import ProgramTest, main, skip, take_options
@@ -279,6 +280,27 @@ class Digits(PackageTest):
         self.refuse("was not saved", again.table, "contours")
         self.refuse("was not saved", again[0].fields_at, 0, 0)
 
+    def test_saved_results_replace_results_alone(self):
+        results = wc.solve(wc.wave_1d(), pbar_over_pstar=0.5)
+        results.save("run", fields=False)
+        results.save("run.npz", fields=False)
+        os.symlink("run.npz", "link.npz")
+        results.save("link.npz", fields=False)
+        self.assertTrue(os.path.islink("link.npz"))
+        before = (self.folder/"run.npz").read_bytes()
+        (self.folder/"deck.npz").write_text("&surface kind = 'wave_1d' /")
+        self.refuse("is not replaced", results.save, "deck.npz", error=OSError)
+        self.assertEqual("&surface kind = 'wave_1d' /", (self.folder/"deck.npz").read_text())
+        # A file that cannot be finished leaves what was there.
+        with unittest.mock.patch("numpy.savez", side_effect=OSError("full")):
+            self.refuse("full", results.save, "run.npz", error=OSError)
+        self.assertEqual(before, (self.folder/"run.npz").read_bytes())
+        self.assertEqual([], list(self.folder.glob(".*.part")))
+        buffer = io.BytesIO()
+        results.save(buffer)
+        buffer.seek(0)
+        self.assertEqual(repr(results), repr(wc.load(buffer)))
+
     def test_frames_and_pictures(self):
         results = self.solve_rough()
         frame = results.to_dataframe()
@@ -474,8 +496,10 @@ class Files(PackageTest):
         self.refuse("there is no such file", wc.read, "none.opd", error=OSError)
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")
+        (self.folder/"deck.npy").write_text("&surface kind = 'wave_1d' /")
+        numpy.savetxt("profile.txt", numpy.c_[numpy.arange(9), numpy.cos(numpy.arange(9))])
         for words in (["none.opd", "map.gsf"], ["words.txt", "map.gsf"], ["scan.txt", "map.tif"],
-                      ["scan.txt", "no/map.gsf"]):
+                      ["scan.txt", "no/map.gsf"], ["scan.txt", "deck.npy"], ["profile.txt", "profile.txt"]):
             with self.assertRaisesRegex(SystemExit, "wavycon-convert: "):
                 convert(words)
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import library, pictures
 from .deck import Surface, deck_text, sort_keys, value_text
+from .files import written
 from .library import address, call, keys, reals
 
 FACTS = ("e_star", "p_star", "amplitude", "length_x", "length_y", "points_x", "points_y", "dimension")
@@ -160,12 +161,18 @@ class Results(Sequence):
     plot = pictures.plot
 
     def save(self, file, fields: bool = True) -> None:
-        """Saves the summary, all tables that were asked for and, unless told not to, the fields to an .npz file."""
+        """Saves the summary, all tables that were asked for and, unless told not to, the fields to an .npz file. It appears
+        whole or not at all, and replaces no other kind of file."""
         self.table("summary")
         arrays = {f"{load._load}/{name}": rows for load in self for name, rows in load._tables.items()}
         if fields:
             arrays |= {f"{load._load}/fields/{name}": values for load in self for name, values in load._fields.items()}
-        np.savez(file, facts=json.dumps(self._facts), **arrays)
+        if hasattr(file, "write"):
+            place = contextlib.nullcontext(file)
+        else:
+            place = written(os.fspath(file) + ("" if os.fspath(file).endswith(".npz") else ".npz"), b"PK")
+        with place as opened:
+            np.savez(opened, facts=json.dumps(self._facts), **arrays)
 
 
 def load(file) -> Results:
