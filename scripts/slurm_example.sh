@@ -4,8 +4,8 @@
 #
 # Deck: inputs/challenge.nml, the kind of surface of the contact-mechanics challenge, on 32768 x 32768 points.
 #
-# Memory: all ranks together took 63 to 66 bytes a point on two ranks from 4096 x 4096 points on (tests/evidence.md, "Past
-# one machine"). For 1.07e9 points 66 are 71 GB, 4.4 GB for each of 16 ranks of 8 processors, and 0.4 GB are left for MPI.
+# Memory: two ranks together took 63 to 66 bytes a point from 4096 x 4096 points on (tests/evidence.md, "Past one
+# machine"). For 1.07e9 points 66 are 71 GB, 4.4 GB for each of 16 ranks of 8 processors, and 0.4 GB are left for MPI.
 # Ranks: they have whole strips of 32 columns, so at most points/32 of them have any, here 1024. Few ranks with some
 # threads each send fewer and larger messages than a rank for each processor.
 # Time: there 8192 x 8192 points took 89 s on two ranks, for 230 iterations on all grids. A load takes as many here, or

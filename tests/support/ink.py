@@ -41,7 +41,8 @@ def inked_borders(picture):
         script += f"plot file binary filetype=png every {strip} using ($1 + $2 + $3) with image\n" \
                   f"unset table\nstats $pixels using 3 name '{name}' nooutput\nset table $pixels\n" \
                   f"print '{name} ', {name}_min\n"
-    done = subprocess.run(["gnuplot", "-d"], cwd=picture.parent, input=script, capture_output=True, text=True, check=True)
+    done = subprocess.run(["gnuplot", "-d"], cwd=picture.parent, input=script, capture_output=True, text=True,
+                          check=True)
     found = dict(line.split() for line in done.stderr.splitlines())
     assert found.keys() == strips.keys(), done.stderr
     return [name for name, least in found.items() if float(least) < 3*255]
