@@ -2,8 +2,8 @@
 !>
 !>    bench_programmes HARMONICS POINTS SYMMETRY WAY
 !>
-!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full' or 'diagonal',  min 1/2 x'Dx - c'x
-!> subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m of C', and reads
+!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none',
+!> min 1/2 x'Dx - c'x subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m of C', and reads
 !> lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of the
 !> solves [ms], each from nothing; x. With 0 solves there is one, which starts from the last answer. With -1 the answer
 !> is the programme: D (n numbers a line), c, and the columns of C' (n numbers a line).
@@ -11,7 +11,7 @@ program bench_programmes
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use wavycon_beale_contact, only: beale_contact, qp_options
    use wavycon_contact_status, only: status_name, status_of_programme
-   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full
+   use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_solution
    use wavycon_wave_surfaces, only: wave_2d
@@ -23,7 +23,7 @@ program bench_programmes
    character(12) :: words(4)
    real(dp), allocatable :: times(:)
    real(dp) :: load, before, after
-   integer :: harmonics, i, j, count, ios, points
+   integer :: harmonics, i, j, count, ios, points, symmetry
 
    do i = 1, size(words)
       call get_command_argument(i, words(i))
@@ -33,8 +33,16 @@ program bench_programmes
       write (error_unit, '(a)') 'usage: bench_programmes HARMONICS POINTS SYMMETRY WAY'
       stop 1
    end if
+   select case (words(3))
+   case ('diagonal')
+      symmetry = symmetry_diagonal
+   case ('none')
+      symmetry = symmetry_none
+   case default
+      symmetry = symmetry_full
+   end select
    call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(harmonics, points, &
-      merge(symmetry_diagonal, symmetry_full, words(3) == 'diagonal'), by_beale=words(4) == 'beale'))
+      symmetry, by_beale=words(4) == 'beale'))
    contact = fresh
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    flush (output_unit)
