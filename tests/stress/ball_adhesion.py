@@ -6,6 +6,8 @@ from common import Table, complaints_about, run, write
 FORCES = 100
 # Relative to the larger of force and pull-off force, to the area and to the two parts of the approach.
 ROUNDING = 1e-11
+# Complaints of a case.
+SHOWN = 3
 
 
 def force_of(a, radius, e_star, work):
@@ -44,5 +46,5 @@ def campaign(settings, work_folder):
             # On the stable branch the force rises with the radius.
             if (a**3 >= 9*math.pi*work*radius**2/(8*e_star)) != (row["point"] == "stable"):
                 complaints.append(f"a radius {a!r} under {given!r} is {row['point']}")
-        part.count(name, complaints, files)
+        part.count(name, complaints[:SHOWN], files)
     return part
