@@ -136,15 +136,17 @@ contains
 
       type(adhesive_point), allocatable :: found(:)
       type(adhesive_point) :: last
+      logical :: has_stable
 
       if (solver%surface%is_ball()) then
          call find_on_ball(curve%pull, solver%surface, load, found)
+         has_stable = size(found) > 0
       else
-         call find_on_wave(curve, solver, load, found)
+         call find_on_wave(curve, solver, load, found, has_stable)
       end if
       found%number = number
       curve%at_loads = [curve%at_loads, found]
-      if (any(found%kind == stable_point .or. found%kind == not_reliable)) return
+      if (has_stable) return
       last = adhesive_point(exists=.true., kind=closed, number=number, p1=load, load=load, approach=1.0_dp, area=1.0_dp)
       associate (of_critical => curve%critical%kind == pull_off_point)
          if (any(of_critical)) then
@@ -170,19 +172,22 @@ contains
       found = [found, point_of_ball(pull, surface, root**2)]
    end subroutine find_on_ball
 
-   subroutine find_on_wave(curve, solver, load, found)
+   subroutine find_on_wave(curve, solver, load, found, has_stable)
       type(adhesive_curve), intent(in) :: curve
       class(contact_solver), intent(inout) :: solver
       real(dp), intent(in) :: load
       type(adhesive_point), allocatable, intent(out) :: found(:)
+      logical, intent(out) :: has_stable   !! whether P rises through the load, if only where that is not reliable
 
       type(adhesive_point) :: point
       integer :: i
 
       allocate (found(0))
+      has_stable = .false.
       do i = 1, size(curve%knots) - 1
          associate (here => curve%knots(i), after => curve%knots(i + 1))
             if ((here%load < load) .eqv. (after%load < load)) cycle
+            has_stable = has_stable .or. after%load > here%load
             point = adhesive_point()
             if (max(here%release_range(2), after%release_range(2)) <= most_release) &
                call find_crossing(curve, solver, load, here, after, point)
