@@ -65,43 +65,16 @@ contains
       real(dp), intent(in) :: largest_load   !! P of the loads that will be asked for [p*]
       type(adhesive_curve), intent(out) :: curve
 
-      curve%work = work
-      allocate (curve%points(curve_points), curve%critical(0), curve%at_loads(0))
-      if (solver%surface%is_ball()) then
-         call follow_ball(curve, solver%surface, largest_load)
-      else
-         call follow_wave(curve, solver)
-      end if
-   end subroutine follow_curve
-
-   !> By equal steps of ln P1.
-   subroutine follow_ball(curve, surface, largest_load)
-      type(adhesive_curve), intent(inout) :: curve
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: largest_load
-
-      real(dp), parameter :: least_over_pull = 1e-3_dp
-      real(dp) :: ratio   ! the largest P1 over the least
-      integer :: i
-
-      curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(surface%radii())/surface%nominal_area()
-      ratio = (1.0_dp + sqrt(1.0_dp + max(largest_load/curve%pull, 4.0_dp)))**2/least_over_pull
-      do i = 1, curve_points
-         curve%points(i) = point_of_ball(curve%pull, surface, &
-            least_over_pull*curve%pull*ratio**(real(i - 1, dp)/(curve_points - 1)))
-      end do
-      curve%critical = [point_of_ball(curve%pull, surface, curve%pull)]
-      curve%critical%kind = pull_off_point
-   end subroutine follow_ball
-
-   subroutine follow_wave(curve, solver)
-      type(adhesive_curve), intent(inout) :: curve
-      class(contact_solver), intent(inout) :: solver
-
       type(adhesive_point) :: point
       integer :: i
       integer(c_size_t), allocatable :: places(:)
 
+      curve%work = work
+      allocate (curve%points(curve_points), curve%critical(0), curve%at_loads(0), curve%knots(0))
+      if (solver%surface%is_ball()) then
+         call follow_ball(curve, solver%surface, largest_load)
+         return
+      end if
       ! Pull-off lies at P1 = (3/(4 pi)) w' or above (I18).
       curve%least = min(2e-3_dp*curve%work, 1e-4_dp)
       do i = 1, curve_points
@@ -124,7 +97,27 @@ contains
       allocate (places(size(curve%knots)))
       call gsl_sort_index(places, curve%knots%p1, 1_c_size_t, size(places, kind=c_size_t))
       curve%knots = curve%knots(places + 1)
-   end subroutine follow_wave
+   end subroutine follow_curve
+
+   !> By equal steps of ln P1.
+   subroutine follow_ball(curve, surface, largest_load)
+      type(adhesive_curve), intent(inout) :: curve
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: largest_load
+
+      real(dp), parameter :: least_over_pull = 1e-3_dp
+      real(dp) :: ratio   ! the largest P1 over the least
+      integer :: i
+
+      curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(surface%radii())/surface%nominal_area()
+      ratio = (1.0_dp + sqrt(1.0_dp + max(largest_load/curve%pull, 4.0_dp)))**2/least_over_pull
+      do i = 1, curve_points
+         curve%points(i) = point_of_ball(curve%pull, surface, &
+            least_over_pull*curve%pull*ratio**(real(i - 1, dp)/(curve_points - 1)))
+      end do
+      curve%critical = [point_of_ball(curve%pull, surface, curve%pull)]
+      curve%critical%kind = pull_off_point
+   end subroutine follow_ball
 
    !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off
    !> and jump none of them is stable: the bodies are separated, or in full contact.
@@ -134,55 +127,12 @@ contains
       real(dp), intent(in) :: load    !! P [p*]
       integer, intent(in) :: number   !! of the load
 
-      type(adhesive_point), allocatable :: found(:)
-      type(adhesive_point) :: last
-      logical :: has_stable
-
-      if (solver%surface%is_ball()) then
-         call find_on_ball(curve%pull, solver%surface, load, found)
-         has_stable = size(found) > 0
-      else
-         call find_on_wave(curve, solver, load, found, has_stable)
-      end if
-      found%number = number
-      curve%at_loads = [curve%at_loads, found]
-      if (has_stable) return
-      last = adhesive_point(exists=.true., kind=closed, number=number, p1=load, load=load, approach=1.0_dp, area=1.0_dp)
-      associate (of_critical => curve%critical%kind == pull_off_point)
-         if (any(of_critical)) then
-            if (load <= minval(curve%critical%load, of_critical)) &
-               last = adhesive_point(exists=.true., kind=separated, number=number, p1=load, load=load)
-         end if
-      end associate
-      curve%at_loads = [curve%at_loads, last]
-   end subroutine add_load
-
-   !> The points of a load: sqrt(P1) = sqrt(F_c) +- sqrt(F_c + P) by (I20).
-   subroutine find_on_ball(pull, surface, load, found)
-      real(dp), intent(in) :: pull, load
-      type(surface_type), intent(in) :: surface
-      type(adhesive_point), allocatable, intent(out) :: found(:)
-
+      type(adhesive_point) :: point
+      integer :: i, known
+      logical :: has_stable   ! whether P rises through the load, if only where that is not reliable
       real(dp) :: root
 
-      allocate (found(0))
-      if (load < -pull) return
-      root = sqrt(pull) + sqrt(pull + load)
-      if (load < 0.0_dp .and. load > -pull) found = [point_of_ball(pull, surface, (load/root)**2)]
-      found = [found, point_of_ball(pull, surface, root**2)]
-   end subroutine find_on_ball
-
-   subroutine find_on_wave(curve, solver, load, found, has_stable)
-      type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: load
-      type(adhesive_point), allocatable, intent(out) :: found(:)
-      logical, intent(out) :: has_stable   !! whether P rises through the load, if only where that is not reliable
-
-      type(adhesive_point) :: point
-      integer :: i
-
-      allocate (found(0))
+      known = size(curve%at_loads)
       has_stable = .false.
       do i = 1, size(curve%knots) - 1
          associate (here => curve%knots(i), after => curve%knots(i + 1))
@@ -191,16 +141,34 @@ contains
             point = adhesive_point()
             if (max(here%release_range(2), after%release_range(2)) <= most_release) &
                call find_crossing(curve, solver, load, here, after, point)
-            if (point%exists) then
-               point%kind = merge(stable_point, unstable_point, after%load > here%load)
-            else
+            point%kind = merge(stable_point, unstable_point, after%load > here%load)
+            if (.not. point%exists) then
                point = here
                point%kind = not_reliable
             end if
          end associate
-         found = [found, point]
+         curve%at_loads = [curve%at_loads, point]
       end do
-   end subroutine find_on_wave
+      associate (pull => curve%pull, surface => solver%surface, critical => curve%critical)
+         if (surface%is_ball() .and. load >= -pull) then
+            ! sqrt(P1) = sqrt(F_c) +- sqrt(F_c + P), by (I20).
+            has_stable = .true.
+            root = sqrt(pull) + sqrt(pull + load)
+            if (load < 0.0_dp .and. load > -pull) &
+               curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, (load/root)**2)]
+            curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, root**2)]
+         end if
+         if (.not. has_stable) then
+            point = adhesive_point(exists=.true., kind=closed, p1=load, load=load, approach=1.0_dp, area=1.0_dp)
+            if (any(critical%kind == pull_off_point)) then
+               if (load <= minval(critical%load, critical%kind == pull_off_point)) &
+                  point = adhesive_point(exists=.true., kind=separated, p1=load, load=load)
+            end if
+            curve%at_loads = [curve%at_loads, point]
+         end if
+      end associate
+      curve%at_loads(known + 1:)%number = number
+   end subroutine add_load
 
    !> The point of a round ball at P1 = T^2/(4 F_c), to rounding: (I20), and (I17) with Hertz's contact (I19).
    type(adhesive_point) function point_of_ball(pull, surface, p1) result(point)

@@ -79,16 +79,10 @@ contains
       real(dp) :: answer(2)
 
       answer(1) = solution%measures%approach_over_amplitude - stick%measures%approach_over_amplitude
-      answer(2) = solution%measures%mean_gap_error + stick%measures%mean_gap_error + rounding_of(solution, stick)
+      ! With rounding: each approach is 1 - G unless there are free edges.
+      answer(2) = solution%measures%mean_gap_error + stick%measures%mean_gap_error + epsilon(1.0_dp)* &
+                  (2.0_dp + solution%measures%approach_over_amplitude + stick%measures%approach_over_amplitude)
    end function relative_displacement
-
-   !> That of the difference of two approaches, each of which is 1 - G unless there are free edges.
-   pure real(dp) function rounding_of(solution, stick)
-      type(contact_solution), intent(in) :: solution, stick
-
-      rounding_of = epsilon(1.0_dp)*(2.0_dp + solution%measures%approach_over_amplitude &
-                                     + stick%measures%approach_over_amplitude)
-   end function rounding_of
 
    !> The energy that a cycle between Q and -Q takes per nominal area, over kappa f^2 [p* Delta], and its error
    !> estimate: by (I14a) or, where that is more accurate because little slips, (I14b). The approach stands for -G,
