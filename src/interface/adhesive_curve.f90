@@ -27,8 +27,8 @@ module wavycon_adhesive_curve
       separated = 4, closed = 5, not_reliable = 6
    character(20), parameter, public :: point_names(0:6) = [character(20) :: 'unstable', 'stable', 'pull_off', &
       'jump_to_full_contact', 'separated', 'full_contact', 'not_reliable']
-   !> Extremes of a wave this number of points from one whose energy release rate exceeds this part of w are artefacts: there
-   !> spots are about to merge, and the superposition fails.
+   !> Extremes of a wave this number of points from one whose energy release rate exceeds this part of w are artefacts:
+   !> there spots are about to merge, and the superposition fails.
    integer, parameter :: near = 3
    real(dp), parameter :: most_release = 1.5_dp
 
