@@ -81,6 +81,8 @@ contains
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%complain(problems, key, &
          key//' = '//short_number(minval(loads))// &
          ' is a tension: without work_of_adhesion of &interface loads are >= 0')
+      if (with_adhesion .and. loads_by /= by_pressure) call values%complain(problems, key, key// &
+         ' is found without adhesion: with work_of_adhesion of &interface give force, mean_pressure or pbar_over_pstar')
       if (values%integer('sweep_steps') == 1 .and. abs(values%real('sweep_to') - values%real('sweep_from')) > 0) &
          call values%complain(problems, 'sweep_steps', &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')

@@ -7,6 +7,7 @@ module wavycon_solve_loads
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: is_good_status
    use wavycon_find_load, only: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
    use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
@@ -199,7 +200,7 @@ contains
       type(results_type), intent(inout) :: results
       type(run_log), intent(inout) :: log
 
-      integer :: i, load
+      integer :: bad, i, load
 
       associate (setting => results%scene%interface_setting)
          if (abs(setting%beta) > 0.0_dp) call log%say('note: partial slip neglects the coupling of normal and '// &
@@ -213,12 +214,15 @@ contains
                   call solve_partial_slip(results%solver, setting%friction, solution, setting%tangential(i)* &
                                           merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
                                           results%scene%interface%logical('slip_loop'), results%slip(i, load))
-                  if (results%slip(i, load)%stick%pbar_over_pstar < 0.0_dp) call log%say( &
+                  if (results%slip(i, load)%slides) call log%say( &
                      'note: under load '//integer_text(load)//' tangential load '//integer_text(i)// &
                      ' is more than friction times the mean pressure: the bodies slide')
                end do
             end associate
          end do
+         bad = count(.not. (results%slip%slides .or. is_good_status(results%slip%status)))
+         if (bad > 0) call log%say('note: partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
+            integer_text(size(results%slip))//' tangential loads, see the status column')
       end associate
    end subroutine find_slip
 
@@ -232,10 +236,13 @@ contains
       allocate (results%adhesion)
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
                  loads => results%loads%pbar_over_pstar)
+         ! Derivatives on grids take long, and their errors look like extremes.
+         results%solver%without_grids = .true.
          call follow_curve(results%solver, work, maxval(loads), curve)
          do i = 1, size(loads)
             call add_load(curve, results%solver, loads(i), i)
          end do
+         results%solver%without_grids = .false.
          if (.not. all(curve%points%exists)) call log%say('note: '// &
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
             ' points of the curve have no solution')
