@@ -78,7 +78,8 @@ contains
       real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: certain, doubt, enough, error, gain, highest, parts(6, 2), values(size(widths))
+      real(dp) :: certain, doubt, enough, error, gain, highest, least, parts(6, 2), values(size(widths))
+      logical :: is_doubtful, is_larger
       type(largest_stress) :: other
       integer :: best, i
 
@@ -91,10 +92,11 @@ contains
       if (.not. ieee_is_nan(error)) enough = min(gain_part*error, enough)
       answer%value = -1.0_dp
       certain = -huge(certain)
+      least = 0.0_dp
       highest = 0.0_dp
       do i = 1, refined_places
          best = maxloc(values, dim=1)
-         if (values(best) < max(close_to_largest*certain, 0.0_dp)) exit
+         if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
          call refine(fields, body, quantity, widths(best), enough, answer%value, other, gain)
@@ -102,18 +104,23 @@ contains
          call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
          other%value = size_of(quantity, body%stress(parts, fields%pbar_over_pstar))
          other%error = error_of_invariant*error + gain
-         doubt = merge(0.0_dp, other%error, ieee_is_nan(other%error))
+         doubt = merge(0.0_dp, error_of_invariant*error, ieee_is_nan(error))
          highest = max(highest, other%value + doubt)
-         if (other%value - doubt > certain) then
+         is_doubtful = doubt > (1.0_dp - close_to_largest)*other%value
+         is_larger = other%value - merge(doubt, 0.0_dp, is_doubtful) > certain
+         if (is_doubtful .and. certain < answer%value) is_larger = other%value > answer%value
+         if (is_larger) then
             answer = other
-            certain = other%value - doubt
+            certain = other%value - merge(doubt, 0.0_dp, is_doubtful)
          end if
-         where (norm2(places - spread(places(:, best), 2, size(widths)), dim=1) <= 2*widths(best)) values = -1.0_dp
          ! Where a stress is this doubtful it is so at all places no deeper: they leave the others their turn.
-         if (doubt > (1.0_dp - close_to_largest)*other%value) then
+         if (is_doubtful) then
             highest = max(highest, maxval(values, mask=places(3, :) <= places(3, best)) + doubt)
             where (places(3, :) <= places(3, best)) values = -1.0_dp
+         else
+            least = max(least, close_to_largest*values(best))
          end if
+         where (norm2(places - spread(places(:, best), 2, size(widths)), dim=1) <= 2*widths(best)) values = -1.0_dp
       end do
       if (.not. ieee_is_nan(answer%error)) answer%error = max(answer%error, highest - answer%value)
    end subroutine search
