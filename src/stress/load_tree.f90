@@ -1,40 +1,36 @@
-!> The smooth part of the stresses below a pressure that nothing repeats: a surface with free edges. Equations (S11),
-!> (S12) of README.md in this directory.
+!> The smooth part of the stresses below a pressure that nothing repeats, that of a surface with free edges: (S11), (S12)
+!> of README.md in this directory.
 !>
-!> The load is a lattice of point forces. Square blocks of them are replaced, from afar, by fewer forces with the same
-!> field: a tree of blocks, each with the same number of forces.
+!> The load is a lattice of point forces. From afar, blocks of them are replaced by fewer forces with the same field: a
+!> tree of blocks, all with the same number of forces, each with two blocks of half its length in it.
 module wavycon_load_tree
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
+   use wavycon_stress_tuning, only: nodes, smooth_places, whole_from
    implicit none (type, external)
    private
 
    public :: load_tree, plant_load_tree
 
-   !> Forces of a block each way.
-   integer, parameter :: nodes = 8
-   !> A block is seen as a whole from this distance, over its longer side.
-   real(dp), parameter :: whole_from = 1.5_dp
-   !> Steps of the lattice in a shift of the depth: the field at that depth does not show the lattice.
-   real(dp), parameter, public :: steps_in_shift = 3.0_dp
-   !> Of (S11): the number of shifted depths, and their factors.
+   !> The number of shifted depths of (S11), and their factors.
    integer, parameter :: order = 4
    real(dp), parameter :: factors(order) = [4.0_dp, -6.0_dp, 4.0_dp, -1.0_dp]
 
    type :: tree_level
-      real(dp), allocatable :: force(:, :, :, :)   !! shape (nodes, nodes, blocks_x, blocks_y) [p* rad^2]
-      real(dp) :: step(2) = 0.0_dp                 !! of the forces of a block [rad of x]
-      integer :: merged(2) = 1                     !! blocks of the level below in a block, each way
+      real(dp), allocatable :: force(:, :)   !! [p* rad^2]; blocks are `nodes` forces wide, each way
+      real(dp) :: step(2) = 0.0_dp           !! of the forces [rad of x]
+      integer :: way = 1                     !! along which a block has two blocks of the level below, 1: x, 2: y
    end type tree_level
 
    type :: load_tree
       private
-      real(dp), public :: shift = 0.0_dp           !! d of (S11) [rad of x]
-      real(dp) :: corner(2) = 0.0_dp               !! of the first block [rad of x]
+      real(dp) :: shift = 0.0_dp             !! d of (S11) [rad of x]
+      real(dp) :: corner(2) = 0.0_dp         !! of the first block [rad of x]
       type(tree_level), allocatable :: levels(:)
    contains
       procedure :: left_out
       procedure :: sums
+      procedure :: sums_on_plane
    end type load_tree
 
 contains
@@ -44,72 +40,58 @@ contains
       type(load_tree), intent(out) :: tree
       real(dp), intent(in) :: pressure(:, :)   !! [p*]
       real(dp), intent(in) :: first(2)         !! place of the first of them, x and y [rad of x]
-      real(dp), intent(in) :: step(2)          !! of the lattice, at most shift/steps_in_shift
-      real(dp), intent(in) :: shift            !! d
+      real(dp), intent(in) :: step(2)          !! of the lattice, at most a third of the shift
+      real(dp), intent(in) :: shift            !! d of (S11)
 
-      type(tree_level) :: below, level
-      real(dp) :: weight(2*nodes, nodes), x(2*nodes)
-      integer :: a, b, blocks(2), i, j, k, l
+      real(dp), allocatable :: below(:, :)
+      real(dp) :: weight(nodes, 2*nodes)
+      integer :: blocks(2), i, k
 
       tree%shift = shift
       tree%corner = first - 0.5_dp*step
-      level%step = step
+      weight = reshape([(lagrange(0.5_dp*i + 0.25_dp, nodes), i=1, 2*nodes)], shape(weight))
       blocks = (shape(pressure) + nodes - 1)/nodes
-      allocate (level%force(nodes, nodes, blocks(1), blocks(2)), source=0.0_dp)
-      do j = 1, size(pressure, 2)
-         do i = 1, size(pressure, 1)
-            level%force(modulo(i - 1, nodes) + 1, modulo(j - 1, nodes) + 1, (i - 1)/nodes + 1, (j - 1)/nodes + 1) = &
-               pressure(i, j)*product(step)
-         end do
-      end do
-      ! Lagrange's polynomials of the nodes of a block, at the nodes of the two blocks in it.
-      x = [(0.5_dp*i + 0.25_dp, i=1, 2*nodes)]
-      do a = 1, nodes
-         weight(:, a) = 1.0_dp
-         do b = 1, nodes
-            if (b /= a) weight(:, a) = weight(:, a)*(x - b)/(a - b)
-         end do
-      end do
-      allocate (tree%levels(0))
-      do
-         tree%levels = [tree%levels, level]
-         if (all(blocks == 1)) exit
-         below = level
-         ! Blocks become square.
-         level%merged = merge(2, 1, below%step < 1.5_dp*minval(below%step, mask=blocks > 1) .and. blocks > 1)
-         level%step = below%step*level%merged
-         blocks = (blocks + level%merged - 1)/level%merged
-         deallocate (level%force)
-         allocate (level%force(nodes, nodes, blocks(1), blocks(2)), source=0.0_dp)
-         do l = 1, size(below%force, 4)
-            do k = 1, size(below%force, 3)
-               associate (i => (k - 1)/level%merged(1), j => (l - 1)/level%merged(2))
-                  level%force(:, :, i + 1, j + 1) = level%force(:, :, i + 1, j + 1) + matmul(transpose( &
-                     weights_of(k - 1 - i*level%merged(1), level%merged(1))), matmul(below%force(:, :, k, l), &
-                     weights_of(l - 1 - j*level%merged(2), level%merged(2))))
+      allocate (tree%levels(1 + sum(bit_size(blocks) - leadz(blocks - 1))))
+      allocate (tree%levels(1)%force(nodes*blocks(1), nodes*blocks(2)), source=0.0_dp)
+      tree%levels(1)%force(:size(pressure, 1), :size(pressure, 2)) = pressure*product(step)
+      tree%levels(1)%step = step
+      do k = 2, size(tree%levels)
+         associate (level => tree%levels(k), way => tree%levels(k)%way)
+            level%step = tree%levels(k - 1)%step
+            way = minloc(level%step, dim=1, mask=blocks > 1)
+            level%step(way) = 2*level%step(way)
+            below = tree%levels(k - 1)%force
+            if (way == 2) below = transpose(below)
+            blocks(way) = (blocks(way) + 1)/2
+            allocate (level%force(nodes*blocks(way), size(below, 2)))
+            do i = 1, blocks(way)
+               associate (last => min(2*nodes, size(below, 1) - 2*nodes*(i - 1)))
+                  level%force(nodes*(i - 1) + 1:nodes*i, :) = &
+                     matmul(weight(:, :last), below(2*nodes*(i - 1) + 1:2*nodes*(i - 1) + last, :))
                end associate
             end do
-         end do
+            if (way == 2) level%force = transpose(level%force)
+         end associate
       end do
-
-   contains
-
-      !> What a block of the level below gives to the nodes of the block that it is in.
-      pure function weights_of(place, merged) result(weights)
-         integer, intent(in) :: place    !! in that block, from 0
-         integer, intent(in) :: merged   !! 1, or 2 of them
-         real(dp) :: weights(nodes, nodes)
-
-         if (merged == 2) then
-            weights = weight(place*nodes + 1:(place + 1)*nodes, :)
-         else
-            weights = reshape([((merge(1.0_dp, 0.0_dp, a == b), a=1, nodes), b=1, nodes)], [nodes, nodes])
-         end if
-      end function weights_of
-
    end subroutine plant_load_tree
 
-   !> The factor of a wave in what the tree leaves out, (S11).
+   !> Lagrange's polynomials of the nodes 1, 2 .. n at a place.
+   pure function lagrange(place, n) result(weight)
+      real(dp), intent(in) :: place
+      integer, intent(in) :: n
+      real(dp) :: weight(n)
+
+      integer :: a, b
+
+      weight = 1.0_dp
+      do a = 1, n
+         do b = 1, n
+            if (b /= a) weight(a) = weight(a)*(place - b)/(a - b)
+         end do
+      end do
+   end function lagrange
+
+   !> The factor of a wave in what the smooth part leaves out, (S11).
    elemental real(dp) function left_out(self, q)
       class(load_tree), intent(in) :: self
       real(dp), intent(in) :: q   !! [1/rad of x]
@@ -124,39 +106,94 @@ contains
       real(dp) :: sums(8)
 
       sums = 0.0_dp
-      call add_block(self, size(self%levels), [1, 1], place, sums)
+      call add_block(self, size(self%levels), [0, 0], place, sums)
       sums = sums/(2*pi)
    end function sums
 
-   !> Adds what a block, or those in it, cause.
+   !> The same on a plane: at fewer places if the smooth part varies less than the plane's points show, and from those by
+   !> Lagrange's polynomials.
+   pure subroutine sums_on_plane(self, first, step, points, depth, sums)
+      class(load_tree), intent(in) :: self
+      real(dp), intent(in) :: first(2), step(2)   !! first point, and distance of points along x and y [rad of x]
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: depth               !! Z [rad of x]
+      real(dp), allocatable, intent(out) :: sums(:, :, :)   !! shape (8, N_x, N_y)
+
+      real(dp), allocatable :: at_few(:, :, :), rows(:, :, :)
+      real(dp) :: few_step(2)
+      integer :: before(2), few(2), k, l
+
+      few_step = (depth + self%shift)/smooth_places
+      few = ceiling(step*(points - 1)/few_step) + nodes
+      before = merge(nodes/2 - 1, 0, few < points)
+      few_step = merge(few_step, step, few < points)
+      few = min(few, points)
+      allocate (at_few(8, few(1), few(2)), rows(8, points(1), few(2)), sums(8, points(1), points(2)))
+      do l = 1, few(2)
+         do k = 1, few(1)
+            at_few(:, k, l) = self%sums([first + ([k, l] - 1 - before)*few_step, depth])
+         end do
+         do k = 1, points(1)
+            rows(:, k, l) = between(at_few(:, :, l), 1 + before(1) + (k - 1)*step(1)/few_step(1))
+         end do
+      end do
+      do l = 1, points(2)
+         do k = 1, points(1)
+            sums(:, k, l) = between(rows(:, k, :), 1 + before(2) + (l - 1)*step(2)/few_step(2))
+         end do
+      end do
+
+   contains
+
+      !> Values between those given, at a place that counts from 1.
+      pure function between(values, place)
+         real(dp), intent(in) :: values(:, :), place
+         real(dp) :: between(8)
+
+         real(dp) :: weight(nodes)
+         integer :: from, n
+
+         n = min(nodes, size(values, 2))
+         from = max(0, min(floor(place) - n/2, size(values, 2) - n))
+         weight(:n) = lagrange(place - from, n)
+         between = matmul(values(:, from + 1:from + n), weight(:n))
+      end function between
+
+   end subroutine sums_on_plane
+
+   !> Adds what a block, as a whole or by the blocks in it, causes.
    pure recursive subroutine add_block(tree, number, block, place, sums)
       type(load_tree), intent(in) :: tree
       integer, intent(in) :: number     !! of the level
-      integer, intent(in) :: block(2)
+      integer, intent(in) :: block(2)   !! from 0
       real(dp), intent(in) :: place(3)
       real(dp), intent(inout) :: sums(8)
 
-      real(dp) :: from_corner(2), side(2)
-      integer :: a, b, i, j
+      real(dp) :: from_corner(2)
+      integer :: a, b, i, lower(2)
 
-      associate (level => tree%levels(number), force => tree%levels(number)%force(:, :, block(1), block(2)))
-         if (all(abs(force) <= 0.0_dp)) return
-         side = nodes*level%step
-         from_corner = place(:2) - tree%corner - (block - 1)*side
-         if (number > 1 .and. norm2([from_corner - 0.5_dp*side, place(3) + tree%shift]) < whole_from*maxval(side)) then
-            do j = level%merged(2)*(block(2) - 1) + 1, min(level%merged(2)*block(2), size(tree%levels(number - 1)%force, 4))
-               do i = level%merged(1)*(block(1) - 1) + 1, &
-                  min(level%merged(1)*block(1), size(tree%levels(number - 1)%force, 3))
-                  call add_block(tree, number - 1, [i, j], place, sums)
-               end do
-            end do
-         else
+      associate (level => tree%levels(number), first => nodes*block)
+         if (any(first >= shape(level%force))) return
+         associate (force => level%force(first(1) + 1:first(1) + nodes, first(2) + 1:first(2) + nodes))
+            if (all(abs(force) <= 0.0_dp)) return
+            from_corner = place(:2) - tree%corner - first*level%step
+            associate (side => nodes*level%step)
+               if (number > 1 .and. norm2([from_corner - 0.5_dp*side, place(3) + tree%shift]) < whole_from*maxval(side)) &
+                  then
+                  do i = 0, 1
+                     lower = block
+                     lower(level%way) = 2*block(level%way) + i
+                     call add_block(tree, number - 1, lower, place, sums)
+                  end do
+                  return
+               end if
+            end associate
             do b = 1, nodes
                do a = 1, nodes
                   sums = sums + force(a, b)*of_force(from_corner - ([a, b] - 0.5_dp)*level%step, place(3), tree%shift)
                end do
             end do
-         end if
+         end associate
       end associate
    end subroutine add_block
 

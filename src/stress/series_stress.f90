@@ -8,11 +8,12 @@ module wavycon_series_stress
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_load_tree, only: load_tree, plant_load_tree, steps_in_shift
+   use wavycon_load_tree, only: load_tree, plant_load_tree
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
-      plane_points, plane_ratio, pressure_part, waves_in_depth, window_depth, window_points
+      plane_points, plane_ratio, pressure_part, shift_of_smooth, steps_in_shift, waves_in_depth, window_depth, &
+      window_points
    use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -25,8 +26,8 @@ module wavycon_series_stress
 
    integer, parameter :: number_of_sums = 11
 
-   !> With free edges d of (S11) over the shorter side of the map, and what of a pressure is rounding.
-   real(dp), parameter :: shift_of_smooth = 0.05_dp, rounding = 1e-13_dp
+   !> What of a pressure is rounding.
+   real(dp), parameter :: rounding = 1e-13_dp
 
    !> The Taylor series (S9) of the moments about a place.
    type :: taylor_series
@@ -328,7 +329,7 @@ contains
 
       real(dp), parameter :: no_waves(6, 2) = 0.0_dp
       complex(dp), allocatable :: waves(:, :, :)
-      real(dp), allocatable :: fields(:, :, :)
+      real(dp), allocatable :: fields(:, :, :), smooth(:, :, :)
       real(dp) :: mean(6), step(2)
       type(grid_transform) :: plane
       integer :: i, k, l, number
@@ -351,11 +352,14 @@ contains
       end do
       deallocate (waves)
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      associate (scale => [1.0_dp, self%side_ratio])
+         if (allocated(self%load)) call self%load%sums_on_plane(offset*step*scale, step*scale, points, depth, smooth)
+      end associate
       do l = 1, points(2)
          do k = 1, points(1)
             stress(k, l, :) = fields(k, l, :6) + mean
             if (allocated(self%load)) stress(k, l, :) = stress(k, l, :) &
-               + matmul(parts_of(smooth_sums(self, [([k, l] - 1 + offset)*step, depth])), [1.0_dp, body%nu])
+               + matmul(parts_of(smooth(:, k, l)), [1.0_dp, body%nu])
             error(k, l) = error_of(self, stress(k, l, zz), fields(k, l, 7:))
          end do
       end do
