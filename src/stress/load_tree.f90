@@ -1,5 +1,5 @@
-!> The smooth part of the stresses below a pressure that nothing repeats, that of a surface with free edges: (S11), (S12)
-!> of README.md in this directory.
+!> The smooth part of the stresses below a pressure that nothing repeats, that of a surface with free edges: equations
+!> (S11), (S12) of README.md in this directory.
 !>
 !> The load is a lattice of point forces. From afar, blocks of them are replaced by fewer forces with the same field: a
 !> tree of blocks, all with the same number of forces, each with two blocks of half its length in it.
@@ -81,13 +81,11 @@ contains
       integer, intent(in) :: n
       real(dp) :: weight(n)
 
-      integer :: a, b
+      integer :: a, b, others(n - 1)
 
-      weight = 1.0_dp
       do a = 1, n
-         do b = 1, n
-            if (b /= a) weight(a) = weight(a)*(place - b)/(a - b)
-         end do
+         others = [(b, b=1, a - 1), (b, b=a + 1, n)]
+         weight(a) = product((place - others)/(a - others))
       end do
    end function lagrange
 
@@ -110,8 +108,8 @@ contains
       sums = sums/(2*pi)
    end function sums
 
-   !> The same on a plane: at fewer places if the smooth part varies less than the plane's points show, and from those by
-   !> Lagrange's polynomials.
+   !> The same on a plane: at fewer places if the smooth part varies less than the plane's points show, and from those
+   !> by Lagrange's polynomials.
    pure subroutine sums_on_plane(self, first, step, points, depth, sums)
       class(load_tree), intent(in) :: self
       real(dp), intent(in) :: first(2), step(2)   !! first point, and distance of points along x and y [rad of x]
@@ -119,45 +117,41 @@ contains
       real(dp), intent(in) :: depth               !! Z [rad of x]
       real(dp), allocatable, intent(out) :: sums(:, :, :)   !! shape (8, N_x, N_y)
 
-      real(dp), allocatable :: at_few(:, :, :), rows(:, :, :)
+      real(dp), allocatable :: at_few(:, :, :)
       real(dp) :: few_step(2)
-      integer :: before(2), few(2), k, l
+      integer :: before(2), few(2), i, k, l
 
       few_step = (depth + self%shift)/smooth_places
       few = ceiling(step*(points - 1)/few_step) + nodes
       before = merge(nodes/2 - 1, 0, few < points)
       few_step = merge(few_step, step, few < points)
       few = min(few, points)
-      allocate (at_few(8, few(1), few(2)), rows(8, points(1), few(2)), sums(8, points(1), points(2)))
+      allocate (at_few(8, few(1), few(2)), sums(8, points(1), points(2)))
       do l = 1, few(2)
          do k = 1, few(1)
             at_few(:, k, l) = self%sums([first + ([k, l] - 1 - before)*few_step, depth])
          end do
-         do k = 1, points(1)
-            rows(:, k, l) = between(at_few(:, :, l), 1 + before(1) + (k - 1)*step(1)/few_step(1))
-         end do
       end do
-      do l = 1, points(2)
-         do k = 1, points(1)
-            sums(:, k, l) = between(rows(:, k, :), 1 + before(2) + (l - 1)*step(2)/few_step(2))
-         end do
+      do i = 1, 8
+         sums(i, :, :) = matmul(transpose(weights(1)), matmul(at_few(i, :, :), weights(2)))
       end do
 
    contains
 
-      !> Values between those given, at a place that counts from 1.
-      pure function between(values, place)
-         real(dp), intent(in) :: values(:, :), place
-         real(dp) :: between(8)
+      !> Of the fewer places along a way at the points.
+      pure function weights(way) result(weight)
+         integer, intent(in) :: way
+         real(dp) :: weight(few(way), points(way)), place
+         integer :: from, k, n
 
-         real(dp) :: weight(nodes)
-         integer :: from, n
-
-         n = min(nodes, size(values, 2))
-         from = max(0, min(floor(place) - n/2, size(values, 2) - n))
-         weight(:n) = lagrange(place - from, n)
-         between = matmul(values(:, from + 1:from + n), weight(:n))
-      end function between
+         weight = 0.0_dp
+         n = min(nodes, few(way))
+         do k = 1, points(way)
+            place = 1 + before(way) + (k - 1)*step(way)/few_step(way)
+            from = max(0, min(floor(place) - n/2, few(way) - n))
+            weight(from + 1:from + n, k) = lagrange(place - from, n)
+         end do
+      end function weights
 
    end subroutine sums_on_plane
 
@@ -169,7 +163,7 @@ contains
       real(dp), intent(in) :: place(3)
       real(dp), intent(inout) :: sums(8)
 
-      real(dp) :: from_corner(2)
+      real(dp) :: distance, from_corner(2)
       integer :: a, b, i, lower(2)
 
       associate (level => tree%levels(number), first => nodes*block)
@@ -177,17 +171,15 @@ contains
          associate (force => level%force(first(1) + 1:first(1) + nodes, first(2) + 1:first(2) + nodes))
             if (all(abs(force) <= 0.0_dp)) return
             from_corner = place(:2) - tree%corner - first*level%step
-            associate (side => nodes*level%step)
-               if (number > 1 .and. norm2([from_corner - 0.5_dp*side, place(3) + tree%shift]) < whole_from*maxval(side)) &
-                  then
-                  do i = 0, 1
-                     lower = block
-                     lower(level%way) = 2*block(level%way) + i
-                     call add_block(tree, number - 1, lower, place, sums)
-                  end do
-                  return
-               end if
-            end associate
+            distance = norm2([from_corner - 0.5_dp*nodes*level%step, place(3) + tree%shift])
+            if (number > 1 .and. distance < whole_from*nodes*maxval(level%step)) then
+               do i = 0, 1
+                  lower = block
+                  lower(level%way) = 2*block(level%way) + i
+                  call add_block(tree, number - 1, lower, place, sums)
+               end do
+               return
+            end if
             do b = 1, nodes
                do a = 1, nodes
                   sums = sums + force(a, b)*of_force(from_corner - ([a, b] - 0.5_dp)*level%step, place(3), tree%shift)

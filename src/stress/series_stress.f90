@@ -131,7 +131,8 @@ contains
       sets = 1
       if (present(error) .and. .not. ieee_is_nan(self%pressure_error) .and. self%waves%octave_reaches(depth)) sets = 2
       call self%waves%find_moments([x, y, depth] - self%first, 0, sets, moment)
-      parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth) + smooth_sums(self, [x, y, depth]))
+      parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth) &
+                       + smooth_sums(self, [x, y, depth]))
       octave = 0.0_dp
       if (sets == 2) octave = [real(moment(0, 0, 0, 2) + depth*moment(0, 0, 1, 2)), &
                                -aimag(moment(1, 0, -1, 2) + depth*moment(1, 0, 0, 2)), &
