@@ -58,7 +58,7 @@ module wavycon_stress_tuning
       !! Forces of a block each way. Smaller: blocks have other fields than their load. Larger: more forces.
    real(dp), parameter, public :: whole_from = 1.75_dp
       !! Distance from which a block is seen as a whole, over its longer side. As nodes.
-   real(dp), parameter, public :: smooth_places = 5.0_dp
+   real(dp), parameter, public :: smooth_places = 6.0_dp
       !! Places on a plane in d and its depth. Smaller: the stresses between them are wrong. Larger: more places.
 
    ! Refinement of the largest stress.
