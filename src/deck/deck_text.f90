@@ -11,7 +11,7 @@ module wavycon_deck_text
    private
 
    public :: deck_text_type, problem_report, read_deck_text
-   public :: token_type, next_token, starts_entry
+   public :: token_type, curly_quote, next_token, starts_entry
 
    !> A place is the number of a byte of the text, counted from 1.
    type :: deck_text_type
@@ -27,7 +27,8 @@ module wavycon_deck_text
       module procedure new_deck_text
    end interface deck_text_type
 
-   !> Kinds of tokens. A group token is '&' and the name; a broken word has a quote that is not closed.
+   !> Kinds of tokens. A group token is '&' and the name; a broken word has a quote that is not closed, or begins with a
+   !> curly quote.
    integer, parameter, public :: at_end = 0, is_word = 1, is_broken_word = 2, is_equals = 3, is_comma = 4, &
       is_slash = 5, is_group = 6
 
@@ -39,6 +40,7 @@ module wavycon_deck_text
    character(*), parameter :: carriage_return = achar(13), line_ends = newline//carriage_return
    character(*), parameter :: blanks = ' '//achar(9)//line_ends
    character(*), parameter, public :: quotes = '"'''
+   integer, parameter :: curly_bytes = 3   !! of a curly quote in UTF-8
    !> In the order of their kinds, which follow that of the broken word.
    character(*), parameter :: separators = '=,/&'
    character(*), parameter :: word_ends = blanks//separators//'!'
@@ -140,13 +142,25 @@ contains
    end function end_before
 
    !> Finds the end of a word: the closing quote, or the byte before the next separator. If a quote is not closed on its
-   !> line, the word is broken.
+   !> line, the word is broken. So is one that begins with a curly quote; it ends with the next curly or, if there is
+   !> none, straight quote, or with its line.
    pure subroutine find_word_end(content, token)
       character(*), intent(in) :: content
       type(token_type), intent(inout) :: token
 
       character(1) :: quote
+      integer :: behind
 
+      if (curly_quote(content(token%first:min(token%first + curly_bytes - 1, len(content)))) == 1) then
+         token%last = end_before(content, token%first, line_ends)
+         behind = token%first + curly_bytes
+         if (curly_quote(content(behind:token%last)) > 0) then
+            token%last = behind + curly_quote(content(behind:token%last)) + curly_bytes - 2
+         else if (scan(content(behind:token%last), quotes) > 0) then
+            token%last = behind + scan(content(behind:token%last), quotes) - 1
+         end if
+         return
+      end if
       token%kind = is_word
       token%last = end_before(content, token%first, word_ends//quotes)
       if (token%last == len(content)) return
@@ -162,6 +176,17 @@ contains
       end do
       token%kind = is_broken_word
    end subroutine find_word_end
+
+   !> The place of the first curly quote, one of U+2018 to U+201F, in a text; 0: there is none.
+   pure integer function curly_quote(text) result(first)
+      character(*), intent(in) :: text   !! UTF-8
+
+      do first = 1, len(text) - curly_bytes + 1
+         if (text(first:first + 1) == char(226)//char(128) .and. &
+             iachar(text(first + 2:first + 2)) >= 152 .and. iachar(text(first + 2:first + 2)) <= 159) return
+      end do
+      first = 0
+   end function curly_quote
 
    !> Whether a token begins an entry `key = values`: a word followed by '='.
    pure logical function starts_entry(content, token)

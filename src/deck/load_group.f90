@@ -18,6 +18,9 @@ module wavycon_load_group
 
    integer, parameter :: most_loads = 100000
 
+   !> Numbers of six digits, as those of the log, may be rounded up by this part of themselves.
+   real(dp), parameter :: rounding = 5e-6_dp
+
    !> What the lists of loads give, which are the first keys of the table.
    integer, parameter :: list_is(*) = [by_pressure, by_pressure, by_mean_gap, by_mean_gap, by_contact_area, by_yield, &
                                        by_pressure, by_approach, by_contact_area]
@@ -88,7 +91,7 @@ contains
 
    !> Reports loads that the surface cannot have: a mean gap above that before load, an area above the nominal one, a
    !> pressure of more than largest_pbar_over_pstar p*, a gap or an area on a flat surface, with free edges what needs
-   !> p*.
+   !> p*. The largest gap, approach or area may be rounded up.
    subroutine check_loads_of_surface(values, surface, p_star, problems)
       type(group_values), intent(in) :: values               !! of a &load group without problems
       type(surface_type), intent(in) :: surface
@@ -129,7 +132,7 @@ contains
          most = surface%amplitude
          limit = 'the mean gap before load, '//short_number(most)
       case ('approach')
-         if (surface%has_hardness() .or. surface%has_free_edges) return
+         if (.not. has_limit(by_approach, surface)) return
          most = surface%amplitude
          limit = 'that of full contact, the mean gap before load, '//short_number(most)
       case ('contact_area')
@@ -138,9 +141,18 @@ contains
       case default
          return
       end select
-      if (maxval(loads) > most) call values%complain(problems, key, &
+      if (maxval(loads) > (1 + rounding)*most) call values%complain(problems, key, &
          key//' = '//short_number(maxval(loads))//' is more than '//limit//'. Do the units agree?')
    end subroutine check_loads_of_surface
+
+   !> Whether full contact or the mean gap before load is a limit of such loads: 1 in the program's normalisation.
+   pure logical function has_limit(loads_by, surface)
+      integer, intent(in) :: loads_by   !! a name of wavycon_scene
+      type(surface_type), intent(in) :: surface
+
+      has_limit = any(loads_by == [by_mean_gap, by_contact_area]) .or. &
+                  (loads_by == by_approach .and. .not. (surface%has_hardness() .or. surface%has_free_edges))
+   end function has_limit
 
    !> Converts loads to the program's normalisation.
    subroutine take_loads(values, surface, p_star, loads_by, target, mean_pressure)
@@ -166,6 +178,7 @@ contains
       case ('contact_area')
          target = target/surface%nominal_area()
       end select
+      if (has_limit(loads_by, surface)) target = min(target, 1.0_dp)
       if (loads_by /= by_pressure) return
       if (p_star <= 0.0_dp) then
          ! On a flat surface contact is full at every load.

@@ -2,7 +2,7 @@
 module wavycon_run_log
    use, intrinsic :: iso_fortran_env, only: int64, output_unit
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_plain_text, only: integer_text, newline, short_number
    use wavycon_solver_progress, only: solver_progress
    use wavycon_system, only: terminal_columns
    implicit none (type, external)
@@ -16,12 +16,14 @@ module wavycon_run_log
    type :: run_log
       private
       logical, public :: quiet = .false.   !! whether nothing is written
+      character(:), allocatable, public :: notes   !! those made since the start, each once: lines
       integer :: columns = 0          !! of the terminal; 0: there is none
       integer :: shown = 0            !! of them by the progress line
       integer(int64) :: started = 0, last_progress = 0, rate = 1
    contains
       procedure :: start
       procedure :: say
+      procedure :: note
       procedure :: say_timed
       procedure :: say_progress
       procedure :: is_due
@@ -47,6 +49,7 @@ contains
       logical, intent(in) :: quiet   !! whether to write nothing
 
       self%quiet = quiet
+      self%notes = ''
       self%columns = terminal_columns()
       call system_clock(self%started, self%rate)
       self%last_progress = self%started
@@ -66,6 +69,15 @@ contains
       ! A closed or full standard output must not stop the run: the results go to files.
       write (output_unit, '(a)', iostat=ignored) line
    end subroutine say
+
+   !> Writes a note, what a user should know, and keeps it.
+   subroutine note(self, words)
+      class(run_log), intent(inout) :: self   !! started
+      character(*), intent(in) :: words       !! one line
+
+      call self%say('note: '//words)
+      if (index(newline//self%notes, newline//words//newline) == 0) self%notes = self%notes//words//newline
+   end subroutine note
 
    !> Writes a line after the time since the start.
    subroutine say_timed(self, line)

@@ -6,6 +6,7 @@ import functools
 import json
 import sys
 import threading
+import warnings
 from ctypes import CDLL, CFUNCTYPE, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
 
@@ -39,6 +40,10 @@ lib.wavycon_get_message.restype = c_size_t
 functions = {name: getattr(lib, "wavycon_" + name) for name in FUNCTIONS}
 for _name, (_result, _arguments) in FUNCTIONS.items():
     functions[_name].restype, functions[_name].argtypes = _result, [POINTER, *_arguments]
+
+
+class Note(UserWarning):
+    """What the program notes of a surface, a load or a table."""
 
 
 class Handle:
@@ -84,8 +89,17 @@ def text(thing, name):
     return buffer.value.decode()
 
 
+def tell(notes):
+    """Warns of notes, at the line that called this package."""
+    frame, level = sys._getframe(), 1
+    while frame.f_globals.get("__package__") == __package__ and frame.f_back:
+        frame, level = frame.f_back, level + 1
+    for note in notes:
+        warnings.warn(note, Note, level)
+
+
 def table(solution, name, load):
-    """A table of a solution, the load of this number, as a structured array, and the units of its columns."""
+    """A table of a solution, the load of this number, as a structured array, the units of its columns, and its notes."""
     handle = call("new_table", solution, name.encode())
     words = np.array(text(handle, "words").splitlines() or [""])
     units = dict(column.rstrip("]").split("[") for column in text(handle, "columns").splitlines())
@@ -95,7 +109,7 @@ def table(solution, name, load):
     for column, unit in units.items():
         call("get_column", handle, column.encode(), len(rows), address(values))
         rows[column] = words[values.astype(int) - 1] if unit == "word" else load if column == "load" else values
-    return rows, units
+    return rows, units, text(handle, "notes").splitlines()
 
 
 def reals(array, *, shape=None):

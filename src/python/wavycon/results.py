@@ -44,8 +44,11 @@ class Result:
         'stress_section' or 'stress_planes', with interface={...} 'interface', 'partial_slip', 'slip_loop',
         'slip_map' or 'adhesion'. Made when it is first asked for."""
         if name not in self._tables:
-            self._tables[name], units = library.table(self._live(name), name, self._load)
+            self._tables[name], units, notes = library.table(self._live(name), name, self._load)
             self._facts["units"].update(units)
+            notes = [note for note in notes if note not in self._facts["notes"]]
+            self._facts["notes"] += notes
+            library.tell(notes)
         return self._tables[name]
 
     def _live(self, what):
@@ -121,8 +124,9 @@ class Result:
 class Results(Sequence):
     """The solved loads, in the order in which they were given. Columns of the summary table are arrays over the loads,
     such as results.contact_area_fraction. Facts of the scene: e_star, p_star [pressure], amplitude (Delta), length_x,
-    length_y [length], points_x, points_y, dimension, method, why_chosen, pressure_unit, length_unit, and deck, the text
-    of the deck that the program runs to the same numbers."""
+    length_y [length], points_x, points_y, dimension, method, why_chosen, pressure_unit, length_unit, deck, the text of
+    the deck that the program runs to the same numbers, and notes, a list of what the program's log notes of the surface,
+    the loads and the tables; each was also a warning, wavycon.Note."""
 
     def __init__(self, loads, facts):
         self._loads, self._facts = loads, facts
@@ -190,13 +194,17 @@ def solve(surface: Surface, *, keep_fields: bool = True, **options) -> Results:
     so on; groups as dictionaries, such as stress={"nu": 0.3}. wavycon.keys() has all. The solver is 'auto' unless one
     is given. keep_fields: False for results without fields, contours and stresses, which are smaller.
 
-    A load that cannot be solved as requested has a status. What is wrong in the options is a ValueError. Ctrl-C ends a
-    solve in the main thread.
+    A load that cannot be solved as requested has a status. What is wrong in the options is a ValueError. What a user
+    should know of the surface and the results is a warning, Note, and in the results' notes. Ctrl-C ends a solve in the
+    main thread.
     """
     if not isinstance(surface, Surface):
         raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}")
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
-    groups["scene"] = {"length_unit": surface.length_unit, **groups["scene"]}
+    unit = groups["scene"].setdefault("length_unit", surface.length_unit)
+    if surface.length_unit not in (None, unit):
+        raise ValueError(f"the lengths of this surface are in {surface.length_unit}, and length_unit={unit!r} would only "
+                         "rename them: leave it out, or give it to the function that made the surface")
     groups["method"] = {"solver": "auto", **groups["method"]}
     if not groups.get("load"):
         raise ValueError(f"there is no load: give one of {', '.join(keys()['load'])}")
@@ -224,6 +232,8 @@ def _solve_all(scene):
         for number in map(int, library.text(scene, "order").split()):
             if not stopped:
                 loads[number] = Result(number, facts, {}, call("solve_load", scene, number - 1))
+    facts["notes"] = library.text(scene, "notes").splitlines()
+    library.tell(facts["notes"])
     return Results([loads[number] for number in sorted(loads)], facts)
 
 
