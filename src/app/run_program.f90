@@ -150,7 +150,7 @@ contains
    !> Runs all scenes and writes the collected table.
    subroutine run_scenes(command_line, quiet, scenes, worst)
       type(command_line_type), intent(in) :: command_line
-      logical, intent(in) :: quiet      !! whether to write nothing but errors
+      logical, intent(in) :: quiet      !! whether to write nothing but problems
       type(scene_item), intent(inout) :: scenes(:)
       integer, intent(inout) :: worst   !! the worst exit status
 

@@ -1,7 +1,7 @@
 !> The groups of a deck: their tables of keys, and their values, which are read from its text.
 module wavycon_deck_groups
-   use wavycon_deck_text, only: at_end, curly_quote, deck_text_type, is_broken_word, is_comma, is_equals, is_group, &
-      is_slash, is_word, next_token, quotes, starts_entry, token_type
+   use wavycon_deck_text, only: at_end, deck_text_type, has_curly_quote, is_broken_word, is_comma, is_equals, &
+      is_group, is_slash, is_word, next_token, quotes, starts_entry, token_type
    use wavycon_group_values, only: group_values
    use wavycon_interface_group, only: interface_keys
    use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, key_type, name_length, &
@@ -187,7 +187,7 @@ contains
          integer, intent(in) :: last           !! of the text
 
          character(:), allocatable :: name, trouble
-         integer :: first, k, most, place, used
+         integer :: k, most, place, used
          logical :: is_bad, is_read, wants_value   ! is_read: whether words are read as values
          real(dp), allocatable :: numbers(:)
          type(token_type) :: before, equals
@@ -215,14 +215,15 @@ contains
             case (is_equals)
                call problems%add(token%first, "'=' in place of a value")
             case (is_broken_word)
-               associate (word => text%content(token%first:token%last))
-                  first = max(1, scan(word, quotes))
-                  trouble = 'this quote is not closed on its line; within a text a quote is doubled'
-                  if (curly_quote(word) == 1) first = 1
-                  if (curly_quote(word) > 0) trouble = 'curly quotes are no quotes here: write straight ones, '' or "'
-                  call problems%add(token%first - 1 + first, trouble)
-                  quote_is_open = curly_quote(word) /= 1 .or. (curly_quote(word(2:)) == 0 .and. scan(word, quotes) == 0)
-               end associate
+               if (has_curly_quote(text%content(token%first:token%last))) then
+                  call problems%add(token%first, 'curly quotes are no quotes here: write straight ones, '' or "')
+               else
+                  call problems%add(token%first - 1 + scan(text%content(token%first:token%last), quotes), &
+                                    'this quote is not closed on its line; within a text a quote is doubled')
+               end if
+               quote_is_open = .true.
+               ! Keys may stand behind it.
+               if (g > 0) groups(g)%has_unknown = .true.
                wants_value = .false.
                is_bad = .true.
             case (is_word)

@@ -11,7 +11,7 @@ module wavycon_deck_text
    private
 
    public :: deck_text_type, problem_report, read_deck_text
-   public :: token_type, curly_quote, next_token, starts_entry
+   public :: token_type, has_curly_quote, next_token, starts_entry
 
    !> A place is the number of a byte of the text, counted from 1.
    type :: deck_text_type
@@ -40,7 +40,6 @@ module wavycon_deck_text
    character(*), parameter :: carriage_return = achar(13), line_ends = newline//carriage_return
    character(*), parameter :: blanks = ' '//achar(9)//line_ends
    character(*), parameter, public :: quotes = '"'''
-   integer, parameter :: curly_bytes = 3   !! of a curly quote in UTF-8
    !> In the order of their kinds, which follow that of the broken word.
    character(*), parameter :: separators = '=,/&'
    character(*), parameter :: word_ends = blanks//separators//'!'
@@ -142,23 +141,15 @@ contains
    end function end_before
 
    !> Finds the end of a word: the closing quote, or the byte before the next separator. If a quote is not closed on its
-   !> line, the word is broken. So is one that begins with a curly quote; it ends with the next curly or, if there is
-   !> none, straight quote, or with its line.
+   !> line, the word is broken. So is one that begins with a curly quote: it ends with its line.
    pure subroutine find_word_end(content, token)
       character(*), intent(in) :: content
       type(token_type), intent(inout) :: token
 
       character(1) :: quote
-      integer :: behind
 
-      if (curly_quote(content(token%first:min(token%first + curly_bytes - 1, len(content)))) == 1) then
+      if (has_curly_quote(content(token%first:min(token%first + 2, len(content))))) then
          token%last = end_before(content, token%first, line_ends)
-         behind = token%first + curly_bytes
-         if (curly_quote(content(behind:token%last)) > 0) then
-            token%last = behind + curly_quote(content(behind:token%last)) + curly_bytes - 2
-         else if (scan(content(behind:token%last), quotes) > 0) then
-            token%last = behind + scan(content(behind:token%last), quotes) - 1
-         end if
          return
       end if
       token%kind = is_word
@@ -177,16 +168,15 @@ contains
       token%kind = is_broken_word
    end subroutine find_word_end
 
-   !> The place of the first curly quote, one of U+2018 to U+201F, in a text; 0: there is none.
-   pure integer function curly_quote(text) result(first)
-      character(*), intent(in) :: text   !! UTF-8
+   !> Whether a text has a curly quote, one of U+2018 to U+201F in UTF-8.
+   pure logical function has_curly_quote(text)
+      character(*), intent(in) :: text
 
-      do first = 1, len(text) - curly_bytes + 1
-         if (text(first:first + 1) == char(226)//char(128) .and. &
-             iachar(text(first + 2:first + 2)) >= 152 .and. iachar(text(first + 2:first + 2)) <= 159) return
-      end do
-      first = 0
-   end function curly_quote
+      integer :: i
+
+      has_curly_quote = any([(text(i:i + 1) == char(226)//char(128) .and. text(i + 2:i + 2) >= char(152) .and. &
+                              text(i + 2:i + 2) <= char(159), i=1, len(text) - 2)])
+   end function has_curly_quote
 
    !> Whether a token begins an entry `key = values`: a word followed by '='.
    pure logical function starts_entry(content, token)

@@ -132,7 +132,7 @@ contains
          most = surface%amplitude
          limit = 'the mean gap before load, '//short_number(most)
       case ('approach')
-         if (.not. has_limit(by_approach, surface)) return
+         if (surface%has_hardness() .or. surface%has_free_edges) return
          most = surface%amplitude
          limit = 'that of full contact, the mean gap before load, '//short_number(most)
       case ('contact_area')
@@ -144,15 +144,6 @@ contains
       if (maxval(loads) > (1 + rounding)*most) call values%complain(problems, key, &
          key//' = '//short_number(maxval(loads))//' is more than '//limit//'. Do the units agree?')
    end subroutine check_loads_of_surface
-
-   !> Whether full contact or the mean gap before load is a limit of such loads: 1 in the program's normalisation.
-   pure logical function has_limit(loads_by, surface)
-      integer, intent(in) :: loads_by   !! a name of wavycon_scene
-      type(surface_type), intent(in) :: surface
-
-      has_limit = any(loads_by == [by_mean_gap, by_contact_area]) .or. &
-                  (loads_by == by_approach .and. .not. (surface%has_hardness() .or. surface%has_free_edges))
-   end function has_limit
 
    !> Converts loads to the program's normalisation.
    subroutine take_loads(values, surface, p_star, loads_by, target, mean_pressure)
@@ -178,7 +169,8 @@ contains
       case ('contact_area')
          target = target/surface%nominal_area()
       end select
-      if (has_limit(loads_by, surface)) target = min(target, 1.0_dp)
+      if (loads_by == by_mean_gap .or. loads_by == by_contact_area .or. (loads_by == by_approach .and. &
+          .not. (surface%has_hardness() .or. surface%has_free_edges))) target = min(target, 1.0_dp)
       if (loads_by /= by_pressure) return
       if (p_star <= 0.0_dp) then
          ! On a flat surface contact is full at every load.

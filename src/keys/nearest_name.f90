@@ -52,9 +52,7 @@ contains
       nearest = nearest_name(name, known, is_given)
       if (nearest == 0) return
       words = '; did you mean '//before//trim(known(nearest))//after
-      if (present(is_given)) then
-         if (is_given(nearest)) words = words//', which stands here already'
-      end if
+      if (present(is_given)) words = words//trim(merge(', which is there', '                ', is_given(nearest)))
       words = words//'?'
    end function did_you_mean
 

@@ -51,8 +51,8 @@ module wavycon_deck_session
       type(unit_scale) :: scale
       logical :: keeps_fields = .false.                   !! whether solutions have fields, edges and stresses
       real(dp), allocatable, private :: mean_pressure(:)  !! of the deck's loads [pressure], if it gives them so
-      type(solution_record), allocatable, private :: records(:)   !! of the deck's loads
-      logical, allocatable, private :: is_solved(:)               !! which of them are there
+      type(solution_record), allocatable, private :: records(:)   !! of the deck's loads; status < 0: not solved yet
+      type(run_log), private :: log                       !! quiet: it keeps the notes on the surface and on tables
       integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load
    contains
       procedure :: open => open_session
@@ -103,7 +103,9 @@ contains
          call scene%output%set('map_format', text='text')
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
          allocate (scene%mean_pressure(1), self%results%loads(1), self%records(size(scene%target)))
-         allocate (self%is_solved(size(scene%target)), source=.false.)
+         self%records%status = -1
+         call self%log%start(quiet=.true.)
+         call note_scene(scene, self%log)
          self%scale = scale_of(self%results%solver%surface, scene%e_star)
       end associate
       call order_loads(self%results)
@@ -182,7 +184,6 @@ contains
             call self%solve_one(scene%loads_by, load, scene%target, self%mean_pressure, answer, error)
             if (allocated(error)) return
             self%records(load) = answer%solution%solution_record
-            self%is_solved(load) = .true.
          else
             call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
                              integer_text(size(scene%target)))
@@ -235,28 +236,25 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(table_type), allocatable :: writer
-      type(run_log) :: log   ! that keeps the notes
 
       call find_writer(self, name, solved, writer, error)
       if (allocated(error)) return
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
          results%scene%mean_pressure = solved%mean_pressure
-         call log%start(quiet=.true.)
          if (name == 'stress_largest') then
             if (allocated(results%von_mises)) deallocate (results%von_mises, results%shear)
-            call find_stresses(results, log)
+            call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
             if (allocated(results%adhesion)) deallocate (results%adhesion)
             call begin_solve(self%is_solving)
-            call find_interface(results, log, name)
+            call find_interface(results, self%log, name)
             call end_solve(self%is_solving)
          end if
          results%memory => table
          call writer%write(results, error)
          nullify (results%memory)
-         table%notes = log%notes
          call results%loads(1)%move_to(solved%solution)
       end associate
    end subroutine make_table
@@ -339,7 +337,7 @@ contains
    end subroutine pick_number
 
    !> A text by its name: a column of words of the summary table, of a solved load, or what is known before; 'notes',
-   !> what the log notes of the solved load, or of the surface and the deck's loads that are solved so far. Errors:
+   !> what the log notes of the solved load, or of the surface, the deck's loads and the tables so far. Errors:
    !> exit_bad_input for a name that is none.
    subroutine text(self, name, words, error, solved)
       class(deck_session), intent(in) :: self
@@ -349,18 +347,18 @@ contains
       type(solved_load), intent(in), optional :: solved
 
       integer :: i
-      type(run_log) :: log   ! that keeps the notes
+      type(run_log) :: log
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
       associate (scene => self%results%scene)
          if (name == 'notes') then
-            call log%start(quiet=.true.)
+            log = self%log
             if (present(solved)) then
+               call log%start(quiet=.true.)
                call note_loads(self%results, solved%loads_by, [solved%solution%solution_record], log)
             else
-               call note_scene(scene, log)
-               call note_loads(self%results, scene%loads_by, pack(self%records, self%is_solved), log)
+               call note_loads(self%results, scene%loads_by, pack(self%records, self%records%status >= 0), log)
             end if
             words = log%notes
          else if (present(solved)) then

@@ -25,7 +25,6 @@ module wavycon_memory_table
       real(dp), allocatable :: values(:, :)                 !! shape (columns, rows or more)
       !> A column of words has their numbers in this list, from 1.
       character(longest_word), allocatable :: words(:)
-      character(:), allocatable :: notes   !! what the log notes of its making: lines
       logical :: is_full = .false.                          !! whether there was not the memory for all rows
    contains
       procedure :: start
@@ -102,7 +101,7 @@ contains
    end function find_column
 
    !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being
-   !> 'word'; 'words', the list of words. 'notes', also with one behind the last. Not allocated for another name.
+   !> 'word'; 'words', the list of words. Not allocated for another name.
    pure subroutine text(self, name, lines)
       class(memory_table), intent(in) :: self
       character(*), intent(in) :: name
@@ -110,7 +109,6 @@ contains
 
       integer :: i
 
-      if (name == 'notes') lines = self%notes
       if (name /= 'columns' .and. name /= 'words') return
       lines = ''
       do i = 1, merge(size(self%names), size(self%words), name == 'columns')

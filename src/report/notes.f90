@@ -116,7 +116,8 @@ contains
       borders = ''
       cause = 'Are amplitudes and wavelengths in one unit?'
       if (allocated(scene%map)) then
-         if (scene%map%path /= '') cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
+         if (scene%surface_values%text('kind') == 'file') &
+            cause = 'Do height_scale, and the sides of the cell, suit the units of the heights?'
          if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
       end if
       call log%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
@@ -294,7 +295,6 @@ contains
       type(run_log), intent(inout) :: log
 
       integer :: without_area
-      logical :: is_measured
 
       associate (scene => results%scene, surface => results%solver%surface)
          call note_unresolved(loads, log)
@@ -314,10 +314,8 @@ contains
          else
             call note_unreached(loads_by, loads, log)
          end if
-         ! A map from a file that is continued periodically.
-         is_measured = allocated(scene%map) .and. surface%dimension == 2 .and. .not. surface%mirrored
-         if (is_measured) is_measured = scene%map%path /= ''
-         if (is_measured) call note_some(count(loads%measures%load_concentration >= least_concentration), &
+         if (scene%surface_values%text('kind') == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
+            call note_some(count(loads%measures%load_concentration >= least_concentration), &
             "the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
          if (surface%has_free_edges) then
             if (any(loads%measures%load_at_border > 0.0_dp)) call log%note( &
@@ -328,7 +326,7 @@ contains
                'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
          end if
          without_area = count(loads%status == converged .and. loads%measures%contact_area_fraction <= 0.0_dp)
-         if (without_area > 0) call note_some(without_area, 'no pressure reaches edge_level = '// &
+         call note_some(without_area, 'no pressure reaches edge_level = '// &
             short_number(scene%method%real('edge_level'))//' p*, so that the contact area shows as 0')
       end associate
 

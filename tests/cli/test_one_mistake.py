@@ -16,6 +16,7 @@ from program import ProgramTest, main
 
 INPUTS = pathlib.Path(__file__).resolve().parents[2]/"inputs"
 ENTRY = re.compile(r"\b(\w+)\s*=\s*((?:'[^']*'|[^\s,/!&='\"]+)(?:\s*,\s*(?:'[^']*'|[^\s,/!&='\"]+\b)(?!\s*=))*),?")
+LARGE = "challenge.nml"   # its surface would take most of the time
 # Left out these are two mistakes: other keys and groups do not go with the default solver.
 TWO = {("pull_off", "solver"), ("reference_wave_2d", "solver")}
 
@@ -39,7 +40,7 @@ class OneMistake(ProgramTest):
         for data in INPUTS.iterdir():
             if data.suffix != ".nml" and data.is_file():
                 shutil.copy(data, self.folder)
-        for path in INPUTS.glob("*.nml"):
+        for path in sorted(set(INPUTS.glob("*.nml")) - {INPUTS/LARGE}):
             lines = path.read_text(encoding="utf-8").splitlines()
             text = "\n".join(line if "'" in line else re.sub("!.*", "", line) for line in lines) + "\n"
             kind = re.search("kind *= *'(.*?)'", text)[1]

@@ -90,16 +90,17 @@ def text(thing, name):
 
 
 def tell(notes):
-    """Warns of notes, at the line that called this package."""
+    """Warns of notes, at the line that called this package; returns them."""
     frame, level = sys._getframe(), 1
     while frame.f_globals.get("__package__") == __package__ and frame.f_back:
         frame, level = frame.f_back, level + 1
     for note in notes:
         warnings.warn(note, Note, level)
+    return notes
 
 
 def table(solution, name, load):
-    """A table of a solution, the load of this number, as a structured array, the units of its columns, and its notes."""
+    """A table of a solution, the load of this number, as a structured array, and the units of its columns."""
     handle = call("new_table", solution, name.encode())
     words = np.array(text(handle, "words").splitlines() or [""])
     units = dict(column.rstrip("]").split("[") for column in text(handle, "columns").splitlines())
@@ -109,7 +110,7 @@ def table(solution, name, load):
     for column, unit in units.items():
         call("get_column", handle, column.encode(), len(rows), address(values))
         rows[column] = words[values.astype(int) - 1] if unit == "word" else load if column == "load" else values
-    return rows, units, text(handle, "notes").splitlines()
+    return rows, units
 
 
 def reals(array, *, shape=None):

@@ -23,8 +23,8 @@ class Result:
     """One solved load. The columns of the summary table are its attributes, such as mean_pressure, mean_gap,
     contact_area_fraction, contact_area_fraction_error, status; outputs/README.md describes them."""
 
-    def __init__(self, load, facts, tables, solution=None):
-        self._load, self._facts, self._tables, self._solution = load, facts, tables, solution
+    def __init__(self, load, facts, tables, solution=None, scene=None):
+        self._load, self._facts, self._tables, self._solution, self._scene = load, facts, tables, solution, scene
 
     def __getattr__(self, name):
         if name.startswith("_") or name not in (summary := self.table("summary")).dtype.names:
@@ -44,11 +44,10 @@ class Result:
         'stress_section' or 'stress_planes', with interface={...} 'interface', 'partial_slip', 'slip_loop',
         'slip_map' or 'adhesion'. Made when it is first asked for."""
         if name not in self._tables:
-            self._tables[name], units, notes = library.table(self._live(name), name, self._load)
+            self._tables[name], units = library.table(self._live(name), name, self._load)
             self._facts["units"].update(units)
-            notes = [note for note in notes if note not in self._facts["notes"]]
-            self._facts["notes"] += notes
-            library.tell(notes)
+            if name != "summary":
+                note_news(self._scene, self._facts)
         return self._tables[name]
 
     def _live(self, what):
@@ -225,16 +224,21 @@ def run(deck, set: Mapping = MappingProxyType({}), *, keep_fields: bool = True) 
 
 def _solve_all(scene):
     """Solves the loads of a scene in the order of the program, whose digits they have."""
-    facts = {"units": {}, **{name: library.number(scene, name) for name in FACTS},
+    facts = {"units": {}, "notes": [], **{name: library.number(scene, name) for name in FACTS},
              **{name: library.text(scene, text) for name, text in WORDS.items()}}
     loads = {}
     with _stopped_by_ctrl_c(scene) as stopped:
         for number in map(int, library.text(scene, "order").split()):
             if not stopped:
-                loads[number] = Result(number, facts, {}, call("solve_load", scene, number - 1))
-    facts["notes"] = library.text(scene, "notes").splitlines()
-    library.tell(facts["notes"])
+                loads[number] = Result(number, facts, {}, call("solve_load", scene, number - 1), scene)
+    note_news(scene, facts)
     return Results([loads[number] for number in sorted(loads)], facts)
+
+
+def note_news(scene, facts):
+    """Warns of what the library notes of a scene, and adds it to the notes, unless it is there."""
+    news = [note for note in library.text(scene, "notes").splitlines() if note not in facts["notes"]]
+    facts["notes"] += library.tell(news)
 
 
 @contextlib.contextmanager
