@@ -153,7 +153,7 @@ static void heights(void)
     scene = wavycon_new_scene(error, deck, "d", 0, 8, 8, height);
     solution = wavycon_solve(error, scene, "pbar_over_pstar", 0.1);
     check(number(scene, "points_x") == 8 && number(scene, "length_y") == 1, "the map", __LINE__);
-    check(has_notes(scene, 1, "along y the last"), "notes of the surface alone", __LINE__);
+    check(has_notes(scene, 1, "by differences of neighbours only"), "notes of the surface alone", __LINE__);
     check(has_notes(solution, 1, "the errors of 1 of 1 loads are unknown"), "notes of the load", __LINE__);
     double counted = 64*number(solution, "contact_area_counted_fraction");
     check(number(solution, "status_code") == WAVYCON_UNRESOLVED &&
