@@ -8,6 +8,7 @@ module wavycon_run_program
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
+   use wavycon_notes, only: outcome
    use wavycon_plain_text, only: escaped, integer_text, newline
    use wavycon_ranks, only: comm, end_ranks, is_first_rank, rank_count, share_error
    use wavycon_read_deck, only: read_deck
@@ -155,7 +156,7 @@ contains
    !> Runs all scenes and writes the collected table.
    subroutine run_scenes(command_line, quiet, scenes, worst)
       type(command_line_type), intent(in) :: command_line
-      logical, intent(in) :: quiet      !! whether to write nothing but errors
+      logical, intent(in) :: quiet      !! whether to write nothing but problems
       type(scene_item), intent(inout) :: scenes(:)
       integer, intent(inout) :: worst   !! the worst exit status
 
@@ -216,6 +217,9 @@ contains
          call separate(i, quiet)
          call run_scene(scenes(i)%scene, quiet, command_line%options%logical('--resume'), results, status, error)
          if (allocated(error)) status = error%status
+         ! What the log says otherwise.
+         if (status == exit_not_converged .and. quiet .and. is_first_rank()) &
+            write (error_unit, '(a)') 'wavycon: '//outcome(results)
       end subroutine run_one
 
       !> Takes the outcome of a scene that runs in a process of its own; meanwhile those of the scenes behind it are

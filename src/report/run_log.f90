@@ -17,12 +17,14 @@ module wavycon_run_log
    type :: run_log
       private
       logical, public :: quiet = .false.   !! whether nothing is written
+      character(:), allocatable, public :: notes   !! those made since the start, each once: lines
       integer :: columns = 0          !! of the terminal; 0: there is none
       integer :: shown = 0            !! of them by the progress line
       integer(int64) :: started = 0, last_progress = 0, rate = 1
    contains
       procedure :: start
       procedure :: say
+      procedure :: note
       procedure :: say_timed
       procedure :: say_progress
       procedure :: is_due
@@ -48,6 +50,7 @@ contains
       logical, intent(in) :: quiet   !! whether to write nothing
 
       self%quiet = quiet
+      self%notes = ''
       self%columns = terminal_columns()
       call system_clock(self%started, self%rate)
       self%last_progress = self%started
@@ -65,6 +68,15 @@ contains
       ! A closed or full standard output does not stop the run: the results go to files. The program's end tells of it.
       call print_text(line//newline//c_null_char)
    end subroutine say
+
+   !> Writes a note, what a user should know, and keeps it.
+   subroutine note(self, words)
+      class(run_log), intent(inout) :: self   !! started
+      character(*), intent(in) :: words       !! one line
+
+      call self%say('note: '//words)
+      if (index(newline//self%notes, newline//words//newline) == 0) self%notes = self%notes//words//newline
+   end subroutine note
 
    !> Writes a line after the time since the start.
    subroutine say_timed(self, line)

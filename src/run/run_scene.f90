@@ -111,7 +111,7 @@ contains
       call checkpoint%create(results, known)
       call solve_loads(results, known, checkpoint, log)
       if (results%sharing%any(.not. checkpoint%is_complete)) &
-         call log%say('note: not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
+         call log%note('not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call show_loads(results, log)
       call write_results(results, tables, log, error)
@@ -232,7 +232,7 @@ contains
          call log%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
                       ' loads are in '//escaped(name))
       else
-         call log%say('note: there is no '//escaped(checkpoint_name(results))// &
+         call log%note('there is no '//escaped(checkpoint_name(results))// &
                       ' to resume from: all loads are solved')
       end if
       ! The digits of these loads depend on the load solved before.

@@ -152,8 +152,8 @@ contains
          do load = 1, size(results%loads)
             if (.not. results%sharing%is_own_load(load)) cycle
             call results%loads(load)%stresses(results%solver%surface, fields)
-            if (results%loads(load)%is_good() .and. .not. fields%exist) call log%say( &
-               'note: there is not enough memory for the stresses of load '//integer_text(load))
+            if (results%loads(load)%is_good() .and. .not. fields%exist) call log%note( &
+               'there is not enough memory for the stresses of load '//integer_text(load))
             do body = 1, size(setting%body)
                call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &
                                           results%shear(body, load))
@@ -174,7 +174,7 @@ contains
          number = number + 1
          results%loads(load)%status = merge(unresolved, not_accurate, all(results%traits%given_grid > 0))
       end do
-      if (number > 0) call log%say('note: the error of the largest stress is more than half of it at '// &
+      if (number > 0) call log%note('the error of the largest stress is more than half of it at '// &
          integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
          'grid_points')
    end subroutine find_stresses
@@ -225,7 +225,7 @@ contains
       integer :: bad, i, load
 
       associate (setting => results%scene%interface_setting)
-         if (abs(setting%beta) > 0.0_dp) call log%say('note: partial slip neglects the coupling of normal and '// &
+         if (abs(setting%beta) > 0.0_dp) call log%note('partial slip neglects the coupling of normal and '// &
             "tangential displacements of unlike bodies, Dundurs' beta = "//short_number(setting%beta))
          allocate (results%slip(size(setting%tangential), size(results%loads)))
          do load = 1, size(results%loads)
@@ -236,14 +236,14 @@ contains
                   call solve_partial_slip(results%solver, setting%friction, solution, setting%tangential(i)* &
                                           merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
                                           results%scene%interface%logical('slip_loop'), results%slip(i, load))
-                  if (results%slip(i, load)%slides) call log%say( &
-                     'note: under load '//integer_text(load)//' tangential load '//integer_text(i)// &
+                  if (results%slip(i, load)%slides) call log%note( &
+                     'under load '//integer_text(load)//' tangential load '//integer_text(i)// &
                      ' is more than friction times the mean pressure: the bodies slide')
                end do
             end associate
          end do
          bad = count(.not. (results%slip%slides .or. is_good_status(results%slip%status)))
-         if (bad > 0) call log%say('note: partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
+         if (bad > 0) call log%note('partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
             integer_text(size(results%slip))//' tangential loads, see the status column')
       end associate
    end subroutine find_slip
@@ -265,7 +265,7 @@ contains
             call add_load(curve, results%solver, loads(i), i)
          end do
          results%solver%without_grids = .false.
-         if (.not. all(curve%points%exists)) call log%say('note: '// &
+         if (.not. all(curve%points%exists)) call log%note( &
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
             ' points of the curve have no solution')
          do i = 1, size(curve%critical)

@@ -94,9 +94,10 @@ contains
 
       character(:), allocatable :: solver, words
 
-      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are.
-      if (allocated(surface)) call values%set_default('solver', text=merge('beale', 'auto ', &
-         any(paper_kinds == kind) .and. surface%is_paper_wave()))
+      ! A sum of waves that equals a wave of the paper is solved to an accuracy by default, as all other sums are. Beside
+      ! the default keys of the solver that was meant would be reported.
+      if (allocated(surface) .and. .not. values%is_bad('solver')) call values%set_default('solver', &
+         text=merge('beale', 'auto ', any(paper_kinds == kind) .and. surface%is_paper_wave()))
       call values%check_relations(problems)
       ! Without a surface the remaining checks would report problems that are not there.
       if (.not. allocated(surface) .or. values%is_bad('solver')) return

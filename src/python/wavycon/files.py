@@ -4,13 +4,12 @@ import contextlib
 import os
 import sys
 import tempfile
-import warnings
 from pathlib import Path
 
 import numpy as np
 
 from .deck import Surface, deck_text, heights
-from .library import reals
+from .library import reals, tell
 
 
 def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
@@ -33,7 +32,7 @@ def read(file, channel: str | int | None = None, *, length_unit: str | None = No
     if x is None:
         given = {key: side for key, side in sides.items() if side is not None}
         return heights(z, length_unit=unit, **given, **keys_of_maps)
-    warnings.warn(f"{file}: this profile has unequal steps and is resampled to equal ones", stacklevel=2)
+    tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
     folder = tempfile.TemporaryDirectory(prefix="wavycon-")
     profile = Path(folder.name, "profile.txt")
     write_profile(profile, x, z)
@@ -50,7 +49,9 @@ def open_file(file, channel, unit=None):
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:
-        raise ImportError("files of instruments need SurfaceTopography: pip install 'wavycon[files]'") from error
+        is_absent = isinstance(error, ModuleNotFoundError) and error.name == "SurfaceTopography"
+        raise ImportError("files of instruments need SurfaceTopography: pip install 'wavycon[files]'" if is_absent else
+                          f"SurfaceTopography is installed, but cannot be imported: {error}") from error
     if not os.path.isfile(file):
         raise FileNotFoundError(f"{file}: there is no such file")
     try:
