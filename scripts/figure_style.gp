@@ -3,22 +3,32 @@
 
 set encoding utf8
 set minussign
-# "Times" is whatever serif face of that measure the machine has.
+# "Times" is whatever serif face the machine has. The pictures have room for texts as wide as those of Times: letters of
+# a wider face, such as DejaVu Serif, are drawn smaller by `letters`. Digits of Times are half as wide as the face is
+# high: 50 units at 75 points. A machine that draws svg without cairo does not know its face.
 # N.B. The png terminal takes a point as 4/3 of its unit of length, hence the 0.75.
 face = 'Times,14'
+letters = 1.0
+if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {
+   set terminal pngcairo size 1000, 1000 font 'Times,75'
+   set output '/dev/null'
+   plot x
+   if (exists('GPVAL_TERM_HCHAR')) { letters = 50.0/(999.0*GPVAL_TERM_HCHAR/GPVAL_TERM_XSIZE) }
+   if (letters > 1) { letters = 1.0 }
+}
 pixels_a_point = 10.0/3
 mark = 1.0   # size of a point
 if (format eq 'png') {
    set terminal pngcairo size width*pixels_a_point, height*pixels_a_point font face \
-      fontscale 0.75*pixels_a_point linewidth pixels_a_point pointscale 0.75*pixels_a_point \
+      fontscale 0.75*pixels_a_point*letters linewidth pixels_a_point pointscale 0.75*pixels_a_point \
       dashlength 0.35*pixels_a_point background '#ffffff' butt
 }
 if (format eq 'svg') {
-   set terminal svg size width, height font face fontscale 0.9 linewidth 1 background '#ffffff' butt
+   set terminal svg size width, height font face fontscale 0.9*letters linewidth 1 background '#ffffff' butt
    mark = 0.65
 }
 if (format eq 'pdf') {
-   set terminal pdfcairo size width/72.0, height/72.0 font face fontscale 0.8 linewidth 2.4 pointscale 1.1 \
+   set terminal pdfcairo size width/72.0, height/72.0 font face fontscale 0.8*letters linewidth 2.4 pointscale 1.1 \
       background '#ffffff' butt
 }
 set output picture

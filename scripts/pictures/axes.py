@@ -10,7 +10,7 @@ CONVERTED = re.compile(r"([nµumkMG]?)(Pa|m)")
 SMALL, LARGE = 1e-2, 1e4
 # An axis is logarithmic if its numbers span more than this and half of them would lie in its first tenth.
 WIDE, CROWDED = 100, 0.1
-ALIKE = 1e-3   # numbers that differ by no more of the largest count as one
+LONGEST = 6    # Letters of a number beside a tic. Margins have no room for more: nearly equal numbers count as one.
 
 
 def quoted(text):
@@ -92,18 +92,16 @@ def axis(numbers, may_be_wide=True, up_to=None):
     """
     numbers = [number for number in numbers if math.isfinite(number)] or [0.0, 1.0]
     low, high = min(numbers), max(numbers)
-    if high - low < ALIKE*high:
-        low = high   # numbers that differ by less would have tics that read alike
     positive = sorted(number for number in numbers if number > 0)
     if may_be_wide and low >= 0 and positive and high > WIDE*positive[0] and \
             positive[(len(positive) - 1)//2] < CROWDED*high:
         low, high = positive[0]/1.6, high*1.6
         return low, high, 10.0**math.ceil(math.log10(high/low)/5), True
-    if low > 0.6*high and low < high:
-        margin = 0.1*(high - low)
+    margin = 0.1*(high - low)
+    if low > 0.6*high and low < high and longest_tic(low - margin, high + margin) <= LONGEST:
         low, high = low - margin, high + margin
     elif low < high or high > 0:
-        margin = 0.06*(max(high, 0) - min(low, 0)) if low < high else 0.3*high
+        margin = 0.06*(max(high, 0) - min(low, 0)) if low < 0.6*high else 0.3*high
         low, high = min(0.0, low - margin if low < 0 else 0.0), max(high + margin, 0.0)
     else:
         low, high = min(low, 0.0), 1.0
@@ -117,6 +115,12 @@ def step_of(span):
     rough = span/6
     power = 10.0**math.floor(math.log10(rough))
     return next(step for step in (power, 2*power, 5*power, 10*power) if step >= 0.999*rough)
+
+
+def longest_tic(low, high):
+    """Letters of the longest number beside the tics of a range, as gnuplot's %g writes it."""
+    step = step_of(high - low)
+    return max(len(f"{number*step:g}") for number in range(math.ceil(low/step), math.floor(high/step) + 1))
 
 
 def chosen(count, most):

@@ -116,6 +116,13 @@ void wavycon_remove(const char *path)
         note(unfinished, sizeof unfinished, "");
 }
 
+/* The limit on the stack of this process [byte], at most the largest int64_t. */
+int64_t wavycon_stack_limit(void)
+{
+    struct rlimit limit;
+    return getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur > INT64_MAX ? INT64_MAX : (int64_t)limit.rlim_cur;
+}
+
 /* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
 void wavycon_outlive_file_size_limit(void)
 {
@@ -132,10 +139,13 @@ int wavycon_terminal_columns(void)
     return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/* The message for an errno, cut to fit. */
+/* The message for an errno or a reason of written_file.c, cut to fit. */
 void wavycon_error_text(int number, char *text, size_t length)
 {
-    snprintf(text, length, "%s", strerror(number));
+    static const char *const reasons[] = {
+        "it is read by this run and is not replaced", "it is a disk, not a file", "it is a symbolic link to nothing",
+        "there is a file that is no such table; it is not replaced"};
+    snprintf(text, length, "%s", number < 0 ? reasons[-number - 1] : strerror(number));
 }
 
 /* The number behind a name such as "MemAvailable:" at the start of a line of a file; with an empty name the number at

@@ -1,4 +1,4 @@
-!> Files, memory, signals and the terminal: interfaces of the C functions in system.c.
+!> Files, memory, signals and the terminal: interfaces of the C functions in system.c and written_file.c.
 module wavycon_system
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
@@ -6,8 +6,10 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: available_memory, has_memory_for, keep_memory
-   public :: file_size, full_path, path_kind, make_directories, rename_file, remove_file, remove_when_interrupted
+   public :: available_memory, has_memory_for, keep_memory, stack_limit
+   public :: end_written, error_text, note_input, open_written, print_text, print_trouble, put_bytes, put_text, &
+      refusal_to_write, remove_leftovers
+   public :: file_size, full_path, path_kind, make_directories, remove_file
    public :: note_command, note_kept, outlive_file_size_limit, process_id, terminal_columns
 
    !> Values of `path_kind`.
@@ -26,22 +28,15 @@ module wavycon_system
          character(kind=c_char), intent(in) :: path(*)
       end function c_make_directory
 
-      integer(c_int) function c_rename(from, to) bind(c, name='wavycon_rename')
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: from(*), to(*)
-      end function c_rename
-
       subroutine c_remove(path) bind(c, name='wavycon_remove')
          import :: c_char
          character(kind=c_char), intent(in) :: path(*)
       end subroutine c_remove
 
-      !> Removes a file if the program is interrupted (SIGINT, SIGTERM, SIGHUP) before it is renamed or removed. Only
-      !> the file of the last call is removed.
-      subroutine remove_when_interrupted(path) bind(c, name='wavycon_remove_when_interrupted')
-         import :: c_char
-         character(kind=c_char), intent(in) :: path(*)   !! ended by a null character; at most 4095 bytes, or ignored
-      end subroutine remove_when_interrupted
+      !> The limit on the stack [byte] (ulimit -s).
+      integer(c_int64_t) function stack_limit() bind(c, name='wavycon_stack_limit')
+         import :: c_int64_t
+      end function stack_limit
 
       !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
       subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
@@ -88,6 +83,65 @@ module wavycon_system
          character(kind=c_char), intent(out) :: full(*)
       end function c_realpath
 
+      !> Opens a file to be written, as written_file.c says; paths end in a null character. What is in the way of it is
+      !> told by the next call. The errors that the following return have words by `error_text`; 0: there is none.
+      type(c_ptr) function open_written(path) bind(c, name='wavycon_open_written')
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+      end function open_written
+
+      integer(c_int) function put_text(file, text, length) bind(c, name='wavycon_put_bytes')
+         import :: c_char, c_int, c_ptr, c_size_t
+         type(c_ptr), value :: file
+         character(kind=c_char), intent(in) :: text(*)
+         integer(c_size_t), value :: length
+      end function put_text
+
+      integer(c_int) function put_bytes(file, numbers, bytes) bind(c, name='wavycon_put_bytes')
+         import :: c_int, c_ptr, c_size_t
+         type(c_ptr), value :: file
+         type(*), intent(in) :: numbers(*)           !! of any type
+         integer(c_size_t), value :: bytes
+      end function put_bytes
+
+      !> Writes what is in the buffer and gives a complete file its name; one that is not complete, or had an error, is
+      !> removed. Then closes it, unless it stays open for more.
+      integer(c_int) function end_written(file, is_complete, stays_open) bind(c, name='wavycon_end_written')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: file
+         integer(c_int), value :: is_complete, stays_open   !! 1 or 0
+      end function end_written
+
+      !> Why a file cannot be written, as far as what has its name says.
+      integer(c_int) function refusal_to_write(path, mark) bind(c, name='wavycon_refusal')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(in) :: mark(*)      !! how a file begins that may be replaced; empty: any
+      end function refusal_to_write
+
+      !> Notes a file that is read: it will not be replaced.
+      subroutine note_input(path) bind(c, name='wavycon_note_input')
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine note_input
+
+      !> Removes from a directory the unfinished files of processes of this machine that were killed.
+      subroutine remove_leftovers(directory) bind(c, name='wavycon_remove_leftovers')
+         import :: c_char
+         character(kind=c_char), intent(in) :: directory(*)
+      end subroutine remove_leftovers
+
+      !> Writes a text, which ends in a null character, to standard output, at once.
+      subroutine print_text(text) bind(c, name='wavycon_print')
+         import :: c_char
+         character(kind=c_char), intent(in) :: text(*)
+      end subroutine print_text
+
+      !> The first error in doing so.
+      integer(c_int) function print_trouble() bind(c, name='wavycon_print_trouble')
+         import :: c_int
+      end function print_trouble
+
       subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
          import :: c_char, c_int, c_size_t
          integer(c_int), value :: number
@@ -98,17 +152,32 @@ module wavycon_system
 
 contains
 
-   !> The absolute path of a file; the path as it is if the file does not exist or its absolute path is longer than 4095
-   !> bytes.
-   function full_path(path) result(full)
+   !> The absolute path of a file, which need not exist, without symbolic links and dots, so that equal files have equal
+   !> texts.
+   recursive function full_path(path) result(full)
       character(*), intent(in) :: path
       character(:), allocatable :: full
 
       integer, parameter :: longest = 4096
       character(longest) :: buffer
+      integer :: slash
 
       full = path
-      if (c_associated(c_realpath(path//c_null_char, buffer))) full = buffer(:index(buffer, c_null_char) - 1)
+      slash = index(path, '/', back=.true.)
+      if (c_associated(c_realpath(path//c_null_char, buffer))) then
+         full = buffer(:index(buffer, c_null_char) - 1)
+      else if (path /= '.') then
+         ! What does not exist is no link.
+         full = '.'
+         if (slash > 0) full = path(:max(slash - 1, 1))
+         full = full_path(full)
+         if (full == '/') full = ''
+         if (path(slash + 1:) == '..') then
+            full = full(:index(full, '/', back=.true.) - 1)
+         else if (path(slash + 1:) /= '' .and. path(slash + 1:) /= '.') then
+            full = full//'/'//path(slash + 1:)
+         end if
+      end if
    end function full_path
 
    !> Whether a path names nothing, a directory, a file or something else (a pipe, a device); unknown if the system
@@ -154,17 +223,6 @@ contains
          return
       end do
    end subroutine make_directories
-
-   !> Renames a file; a file of the new name is replaced, atomically.
-   subroutine rename_file(from, to, failure)
-      character(*), intent(in) :: from, to
-      character(:), allocatable, intent(out) :: failure  !! the system's message; not allocated on success
-
-      integer :: number
-
-      number = int(c_rename(from//c_null_char, to//c_null_char))
-      if (number /= 0) failure = error_text(number)
-   end subroutine rename_file
 
    !> Removes a file, if it exists.
    subroutine remove_file(path)

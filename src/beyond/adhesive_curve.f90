@@ -3,17 +3,21 @@
 !>
 !> The curve is followed by P1, through its turning points. Equations (I..) are those of README.md in this directory.
 module wavycon_adhesive_curve
-   use wavycon_contact_measures, only: contact_measures, is_known, load_derivatives
+   use, intrinsic :: iso_c_binding, only: c_size_t
+   use wavycon_constants, only: pi
+   use wavycon_contact_measures, only: is_known, load_derivatives, scaled_error
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_gsl, only: gsl_sort_index
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
    public :: adhesive_point, adhesive_curve, follow_curve, add_load
 
-   !> Points of the curve, but its ends.
+   !> Points of the curve; of a wave without its ends.
    integer, parameter :: curve_points = 95
    !> Of the parameter t, 0 < t < 1, from one point to the next.
    real(dp), parameter :: t_step = 1.0_dp/(curve_points + 1)
@@ -23,8 +27,8 @@ module wavycon_adhesive_curve
       separated = 4, closed = 5, not_reliable = 6
    character(20), parameter, public :: point_names(0:6) = [character(20) :: 'unstable', 'stable', 'pull_off', &
       'jump_to_full_contact', 'separated', 'full_contact', 'not_reliable']
-   !> Extremes this number of points from one whose energy release rate exceeds this part of w are artefacts: there
-   !> spots are about to merge, and the superposition fails.
+   !> Extremes of a wave this number of points from one whose energy release rate exceeds this part of w are artefacts:
+   !> there spots are about to merge, and the superposition fails.
    integer, parameter :: near = 3
    real(dp), parameter :: most_release = 1.5_dp
 
@@ -38,47 +42,44 @@ module wavycon_adhesive_curve
       real(dp) :: area = 0.0_dp, area_error = 0.0_dp           !! the contact area fraction
       !> Least and largest energy release rate along the edge over w: 1 where the superposition is exact.
       real(dp) :: release_range(2) = 1.0_dp
+      real(dp) :: t = 0.0_dp                  !! the parameter of a wave's curve
    end type adhesive_point
 
    type :: adhesive_curve
       type(adhesive_point), allocatable :: points(:)     !! by rising P1
       type(adhesive_point), allocatable :: critical(:)   !! extremes of P: pull-off and jumps into full contact
       type(adhesive_point), allocatable :: at_loads(:)   !! the stable and the unstable points of loads asked for
-      !> P1 at its ends: of a wave `least` from 0 and from 1, of a ball from `least` to `most` [p*].
-      real(dp), private :: least = 0.0_dp, most = 1.0_dp
-      real(dp), private :: work = 0.0_dp                 !! w' > 0 [p* Delta]
+      !> Of a wave, points that exist and extremes that are reliable, by rising P1: P is monotonic between them.
+      type(adhesive_point), allocatable, private :: knots(:)
+      real(dp), private :: least = 0.0_dp     !! P1 at the ends of a wave's curve, from 0 and from 1
+      real(dp), private :: pull = 0.0_dp      !! F_c of a ball (I20) over p* A_0
+      real(dp), private :: work = 0.0_dp      !! w' > 0 [p* Delta]
    end type adhesive_curve
 
 contains
 
-   !> Follows the curve of a wave to P1 = 1, that of a ball as far as the largest load needs it.
+   !> Follows the curve of a wave to P1 = 1, that of a ball to the largest load or, if that is light, beyond zero load.
    subroutine follow_curve(solver, work, largest_load, curve)
       class(contact_solver), intent(inout) :: solver
       real(dp), intent(in) :: work           !! w' > 0 [p* Delta]
       real(dp), intent(in) :: largest_load   !! P of the loads that will be asked for [p*]
       type(adhesive_curve), intent(out) :: curve
 
-      real(dp) :: pull
       type(adhesive_point) :: point
       integer :: i
+      integer(c_size_t), allocatable :: places(:)
 
       curve%work = work
-      ! Pull-off lies at P1 = (3/(4 pi)) w' or above (I18).
-      curve%least = min(2e-3_dp*work, 1e-4_dp)
+      allocate (curve%points(curve_points), curve%critical(0), curve%at_loads(0), curve%knots(0))
       if (solver%surface%is_ball()) then
-         ! P = P1 - 2 sqrt(pull P1) by (I20), which is least at P1 = pull.
-         curve%least = 1.0_dp
-         call solve_point(curve, solver, 0.0_dp, point)
-         pull = (0.5_dp*(1.0_dp - point%load))**2
-         curve%least = 1e-3_dp*pull
-         curve%most = (sqrt(pull) + sqrt(pull + max(1.01_dp*largest_load, 4*pull)))**2
+         call follow_ball(curve, solver%surface, largest_load)
+         return
       end if
-      allocate (curve%points(curve_points))
+      ! Pull-off lies at P1 = (3/(4 pi)) w' or above (I18).
+      curve%least = min(2e-3_dp*curve%work, 1e-4_dp)
       do i = 1, curve_points
-         call solve_point(curve, solver, i*t_step, point)
-         curve%points(i) = point
+         call solve_point(curve, solver, i*t_step, curve%points(i))
       end do
-      allocate (curve%critical(0), curve%at_loads(0))
       do i = 2, curve_points
          associate (before => curve%points(i - 1), here => curve%points(i), &
                     after => curve%points(min(i + 1, curve_points)))
@@ -88,11 +89,35 @@ contains
             point = here
             point%kind = not_reliable
             if (all(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) <= most_release)) &
-               call find_extreme(curve, solver, i*t_step, point)
+               call find_extreme(curve, solver, before, after, point)
             curve%critical = [curve%critical, point]
          end associate
       end do
+      curve%knots = [pack(curve%points, curve%points%exists), pack(curve%critical, curve%critical%kind /= not_reliable)]
+      allocate (places(size(curve%knots)))
+      call gsl_sort_index(places, curve%knots%p1, 1_c_size_t, size(places, kind=c_size_t))
+      curve%knots = curve%knots(places + 1)
    end subroutine follow_curve
+
+   !> By equal steps of ln P1.
+   subroutine follow_ball(curve, surface, largest_load)
+      type(adhesive_curve), intent(inout) :: curve
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: largest_load
+
+      real(dp), parameter :: least_over_pull = 1e-3_dp
+      real(dp) :: ratio   ! the largest P1 over the least
+      integer :: i
+
+      curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(surface%radii())/surface%nominal_area()
+      ratio = (1.0_dp + sqrt(1.0_dp + max(largest_load/curve%pull, 4.0_dp)))**2/least_over_pull
+      do i = 1, curve_points
+         curve%points(i) = point_of_ball(curve%pull, surface, &
+            least_over_pull*curve%pull*ratio**(real(i - 1, dp)/(curve_points - 1)))
+      end do
+      curve%critical = [point_of_ball(curve%pull, surface, curve%pull)]
+      curve%critical%kind = pull_off_point
+   end subroutine follow_ball
 
    !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off
    !> and jump none of them is stable: the bodies are separated, or in full contact.
@@ -103,39 +128,67 @@ contains
       integer, intent(in) :: number   !! of the load
 
       type(adhesive_point) :: point
-      integer :: i
-      logical :: has_stable
+      integer :: i, known
+      logical :: has_stable   ! whether P rises through the load, if only where that is not reliable
+      real(dp) :: root
 
+      known = size(curve%at_loads)
       has_stable = .false.
-      do i = 1, curve_points - 1
-         associate (here => curve%points(i), after => curve%points(i + 1))
-            if (.not. (here%exists .and. after%exists)) cycle
-            if ((here%load - load)*(after%load - load) > 0.0_dp) cycle
+      do i = 1, size(curve%knots) - 1
+         associate (here => curve%knots(i), after => curve%knots(i + 1))
+            if ((here%load < load) .eqv. (after%load < load)) cycle
             has_stable = has_stable .or. after%load > here%load
-            if (max(here%release_range(2), after%release_range(2)) > most_release) then
+            point = adhesive_point()
+            if (max(here%release_range(2), after%release_range(2)) <= most_release) &
+               call find_crossing(curve, solver, load, here, after, point)
+            point%kind = merge(stable_point, unstable_point, after%load > here%load)
+            if (.not. point%exists) then
                point = here
                point%kind = not_reliable
-            else
-               call find_crossing(curve, solver, load, i, point)
-               point%kind = merge(stable_point, unstable_point, after%load > here%load)
             end if
          end associate
-         point%number = number
          curve%at_loads = [curve%at_loads, point]
       end do
-      if (has_stable) return
-      point = adhesive_point(exists=.true., kind=closed, number=number, p1=load, load=load, approach=1.0_dp, &
-                             area=1.0_dp)
-      associate (of_critical => curve%critical%kind == pull_off_point)
-         if (any(of_critical)) then
-            if (load < minval(curve%critical%load, of_critical)) &
-               point = adhesive_point(exists=.true., kind=separated, number=number, p1=load, load=load)
+      associate (pull => curve%pull, surface => solver%surface, critical => curve%critical)
+         if (surface%is_ball() .and. load >= -pull) then
+            ! sqrt(P1) = sqrt(F_c) +- sqrt(F_c + P), by (I20).
+            has_stable = .true.
+            root = sqrt(pull) + sqrt(pull + load)
+            if (load < 0.0_dp .and. load > -pull) &
+               curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, (load/root)**2)]
+            curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, root**2)]
+         end if
+         if (.not. has_stable) then
+            point = adhesive_point(exists=.true., kind=closed, p1=load, load=load, approach=1.0_dp, area=1.0_dp)
+            if (any(critical%kind == pull_off_point)) then
+               if (load <= minval(critical%load, critical%kind == pull_off_point)) &
+                  point = adhesive_point(exists=.true., kind=separated, p1=load, load=load)
+            end if
+            curve%at_loads = [curve%at_loads, point]
          end if
       end associate
-      curve%at_loads = [curve%at_loads, point]
+      curve%at_loads(known + 1:)%number = number
    end subroutine add_load
 
-   !> The point of a parameter t: (I15) to (I17). Its P1 goes in equal steps of ln(P1/(1 - P1)), of a ball of ln P1.
+   !> The point of a round ball at P1 = T^2/(4 F_c), to rounding: (I20), and (I17) with Hertz's contact (I19).
+   type(adhesive_point) function point_of_ball(pull, surface, p1) result(point)
+      real(dp), intent(in) :: pull                !! F_c [p* A_0]
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: p1
+
+      type(hertz_ball) :: contact
+
+      ! Over p* and Delta the modulus does not matter.
+      contact = hertz_contact(surface%radii(), 1.0_dp, &
+                              force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+      point = adhesive_point(exists=.true., kind=merge(stable_point, unstable_point, p1 >= pull), p1=p1, &
+                             load=p1 - 2*sqrt(pull*p1), area=contact%contact_area()/surface%nominal_area(), &
+                             approach=contact%approach/surface%amplitude)
+      if (p1 > 0.0_dp) point%approach = point%approach*(1.0_dp - 4*sqrt(pull/p1)/3)
+   end function point_of_ball
+
+   !> The point of a parameter t of a wave's curve, 0 < t < 1, which goes in equal steps of ln(P1/(1 - P1)): (I15) to
+   !> (I17).
    subroutine solve_point(curve, solver, t, point)
       type(adhesive_curve), intent(in) :: curve
       class(contact_solver), intent(inout) :: solver
@@ -146,92 +199,70 @@ contains
       type(load_derivatives) :: slopes
       real(dp) :: p1, tension, tension_error
 
-      if (solver%surface%is_ball()) then
-         p1 = curve%least*(curve%most/curve%least)**t
-         call solve_ball(solver, p1, solution%measures, slopes)
-      else
-         p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
-         call solver%solve(p1, solution)
-         if (solution%is_good()) call solution%derivatives(solver%surface, slopes)
-      end if
+      p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
+      call solver%solve(p1, solution)
+      if (solution%is_good()) call solution%derivatives(solver%surface, slopes)
+      point%t = t
       point%p1 = p1
       point%exists = is_known(slopes%area_slope) .and. is_known(slopes%gap_curvature) &
          .and. min(slopes%area_slope, slopes%gap_curvature) > 0.0_dp
       if (.not. point%exists) return
       tension = sqrt(2*curve%work*slopes%area_slope/slopes%gap_curvature)
-      tension_error = 0.5_dp*tension*(slopes%area_slope_error/slopes%area_slope &
-                                      + slopes%gap_curvature_error/slopes%gap_curvature)
+      tension_error = scaled_error(slopes%area_slope_error, 0.5_dp*tension/slopes%area_slope) &
+                      + scaled_error(slopes%gap_curvature_error, 0.5_dp*tension/slopes%gap_curvature)
       point%load = p1 - tension
       point%load_error = tension_error
       associate (measures => solution%measures)
          point%approach = measures%approach_over_amplitude + slopes%gap_slope*tension
-         point%approach_error = measures%mean_gap_error + slopes%gap_slope_error*tension &
-                                - slopes%gap_slope*tension_error
+         point%approach_error = measures%mean_gap_error + scaled_error(slopes%gap_slope_error, tension) &
+                                + scaled_error(tension_error, -slopes%gap_slope)
          point%area = measures%contact_area_fraction
          point%area_error = measures%contact_area_error
       end associate
       point%release_range = slopes%intensity_range
    end subroutine solve_point
 
-   !> Hertz's contact of a round ball and its derivatives (I19), to rounding.
-   subroutine solve_ball(solver, p1, measures, slopes)
-      class(contact_solver), intent(in) :: solver
-      real(dp), intent(in) :: p1
-      type(contact_measures), intent(out) :: measures
-      type(load_derivatives), intent(out) :: slopes
-
-      type(hertz_ball) :: contact
-
-      associate (surface => solver%surface)
-         ! Over p* and Delta the modulus does not matter.
-         contact = hertz_contact(surface%radii(), 1.0_dp, &
-                                 force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
-         measures%approach_over_amplitude = contact%approach/surface%amplitude
-         measures%contact_area_fraction = contact%contact_area()/surface%nominal_area()
-      end associate
-      associate (slope => -2*measures%approach_over_amplitude/(3*p1))
-         slopes = load_derivatives(gap_slope=slope, gap_slope_error=0.0_dp, &
-                                   area_slope=2*measures%contact_area_fraction/(3*p1), area_slope_error=0.0_dp, &
-                                   gap_curvature=-slope/(3*p1), gap_curvature_error=0.0_dp, intensity_range=1.0_dp)
-      end associate
-   end subroutine solve_ball
-
-   !> An extreme of P next to a point, by parabolas through three points that come closer.
-   subroutine find_extreme(curve, solver, t, point)
+   !> An extreme of P between two points, by parabolas through three points that come closer. It is not reliable
+   !> unless it lies between them and its P beyond theirs.
+   subroutine find_extreme(curve, solver, first, last, point)
       type(adhesive_curve), intent(in) :: curve
       class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: t
-      type(adhesive_point), intent(inout) :: point   !! at t, then at the extreme
+      type(adhesive_point), intent(in) :: first, last
+      type(adhesive_point), intent(inout) :: point   !! between them, its P beyond theirs; then the extreme
 
       integer, parameter :: steps = 5
       real(dp), parameter :: narrowing = 0.2_dp
-      type(adhesive_point) :: after, before
-      real(dp) :: bend, here, width
-      integer :: i, kind
+      type(adhesive_point) :: after, before, here
+      real(dp) :: bend, sense, width
+      integer :: i
 
-      here = t
+      sense = sign(1.0_dp, 2*point%load - first%load - last%load)
+      before = first
+      here = point
+      after = last
       width = t_step
-      kind = unstable_point
       do i = 1, steps
-         call solve_point(curve, solver, here - width, before)
-         call solve_point(curve, solver, here + width, after)
-         if (.not. (before%exists .and. after%exists)) exit
-         bend = before%load - 2*point%load + after%load
-         kind = merge(pull_off_point, jump_point, bend > 0.0_dp)
-         if (.not. abs(bend) > 0.0_dp) exit
-         here = here + width*min(max(0.5_dp*(before%load - after%load)/bend, -1.0_dp), 1.0_dp)
-         call solve_point(curve, solver, here, point)
+         bend = before%load - 2*here%load + after%load
+         if (.not. sense*bend < 0.0_dp) exit
+         call solve_point(curve, solver, &
+                          here%t + width*min(max(0.5_dp*(before%load - after%load)/bend, -1.0_dp), 1.0_dp), here)
          width = narrowing*width
+         call solve_point(curve, solver, here%t - width, before)
+         call solve_point(curve, solver, here%t + width, after)
+         if (.not. (before%exists .and. here%exists .and. after%exists)) return
       end do
-      point%kind = kind
+      if (here%t <= first%t .or. here%t >= last%t .or. sense*(here%load - point%load) < 0.0_dp &
+          .or. here%release_range(2) > most_release) return
+      point = here
+      point%kind = merge(jump_point, pull_off_point, sense > 0.0_dp)
    end subroutine find_extreme
 
-   !> The point of a load between two points of the curve, by the secant method in a bracket (Illinois).
-   subroutine find_crossing(curve, solver, load, i, point)
+   !> The point of a load between two knots of a wave's curve, by the secant method in a bracket (Illinois).
+   subroutine find_crossing(curve, solver, load, first, last, point)
       type(adhesive_curve), intent(in) :: curve
       class(contact_solver), intent(inout) :: solver
       real(dp), intent(in) :: load
-      integer, intent(in) :: i                      !! of the first point
+      type(adhesive_point), intent(in) :: first, last
       type(adhesive_point), intent(out) :: point
 
       integer, parameter :: most_steps = 30
@@ -239,8 +270,8 @@ contains
       real(dp) :: miss(2), t(2), t_new
       integer :: step
 
-      t = t_step*[i, i + 1]
-      miss = [curve%points(i)%load, curve%points(i + 1)%load] - load
+      t = [first%t, last%t]
+      miss = [first%load, last%load] - load
       do step = 1, most_steps
          t_new = t(2) - miss(2)*(t(2) - t(1))/(miss(2) - miss(1))
          call solve_point(curve, solver, t_new, point)

@@ -99,10 +99,8 @@ contains
          end if
          enough = min(max(fraction_of_error*error, least_fraction), largest_fraction)
          if (solver%level > 0) enough = max(enough, min(error, coarse_fraction))
-         if (abs(miss) <= enough) then
-            if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
-            return
-         end if
+         if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
+         if (abs(miss) <= enough) return
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
          ! Where a hardness bounds the stress r hardly grows: the secant would lead to loads far too light, or up.
          if (low <= -huge(low) .and. miss > max(0.0_dp, longest_rise*slope)) &
@@ -122,7 +120,7 @@ contains
             slope = light_slope(solver)
             ! The stress of a solution on a grid jumps by rounding and the tolerance of the solver: the target may lie
             ! within a jump. This is good enough if the distance is within the error estimate.
-            if (solution%is_good() .and. abs(miss) > min(error, largest_stress_error)) solution%status = not_accurate
+            if (solution%is_good() .and. abs(miss) > error) solution%status = not_accurate
             return
          end if
          log_p = next

@@ -11,14 +11,16 @@ module wavycon_deck_session
    use wavycon_load_group, only: check_load_group, check_loads_of_surface, take_loads
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen
+   use wavycon_notes, only: note_loads, note_scene
    use wavycon_plain_text, only: exact_number, integer_text, listed, newline
    use wavycon_problems, only: problem_list_type
    use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: start_results
-   use wavycon_scene, only: by_yield, scene_type
+   use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_settings, only: read_setting, setting_type
+   use wavycon_solution_record, only: solution_record
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
@@ -49,6 +51,8 @@ module wavycon_deck_session
       type(unit_scale) :: scale
       logical :: keeps_fields = .false.                   !! whether solutions have fields, edges and stresses
       real(dp), allocatable, private :: mean_pressure(:)  !! of the deck's loads [pressure], if it gives them so
+      type(solution_record), allocatable, private :: records(:)   !! of the deck's loads; status < 0: not solved yet
+      type(run_log), private :: log                       !! quiet: it keeps the notes on the surface and on tables
       integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load
    contains
       procedure :: open => open_session
@@ -65,6 +69,7 @@ module wavycon_deck_session
    type :: solved_load
       type(contact_solution), allocatable :: solution
       real(dp) :: mean_pressure = 0.0_dp              !! [pressure]
+      integer :: loads_by = by_pressure               !! how it was given: a name of wavycon_scene
       type(memory_table) :: summary                   !! of one row
       class(contact_fields), allocatable :: fields    !! made at their first use
       class(stress_fields), allocatable :: stresses   !! made at their first use
@@ -97,7 +102,10 @@ contains
       associate (scene => self%results%scene)
          call scene%output%set('map_format', text='text')
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
-         allocate (scene%mean_pressure(1), self%results%loads(1))
+         allocate (scene%mean_pressure(1), self%results%loads(1), self%records(size(scene%target)))
+         self%records%status = -1
+         call self%log%start(quiet=.true.)
+         call note_scene(scene, self%log)
          self%scale = scale_of(self%results%solver%surface, scene%e_star)
       end associate
       call order_loads(self%results)
@@ -174,6 +182,8 @@ contains
       associate (scene => self%results%scene)
          if (load >= 1 .and. load <= size(scene%target)) then
             call self%solve_one(scene%loads_by, load, scene%target, self%mean_pressure, answer, error)
+            if (allocated(error)) return
+            self%records(load) = answer%solution%solution_record
          else
             call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
                              integer_text(size(scene%target)))
@@ -202,6 +212,7 @@ contains
          if (allocated(error)) return
       end if
       allocate (answer%solution)
+      answer%loads_by = loads_by
       call begin_solve(self%is_solving)
       call solve_target(self%results%solver, loads_by, target(load), answer%solution, self%results%scene%stress_setting)
       call end_solve(self%is_solving)
@@ -225,22 +236,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(table_type), allocatable :: writer
-      type(run_log) :: no_log
 
       call find_writer(self, name, solved, writer, error)
       if (allocated(error)) return
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
          results%scene%mean_pressure = solved%mean_pressure
-         call no_log%start(quiet=.true.)
          if (name == 'stress_largest') then
             if (allocated(results%von_mises)) deallocate (results%von_mises, results%shear)
-            call find_stresses(results, no_log)
+            call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
             if (allocated(results%adhesion)) deallocate (results%adhesion)
             call begin_solve(self%is_solving)
-            call find_interface(results, no_log, name)
+            call find_interface(results, self%log, name)
             call end_solve(self%is_solving)
          end if
          results%memory => table
@@ -327,7 +336,8 @@ contains
       if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
    end subroutine pick_number
 
-   !> A text by its name: a column of words of the summary table, of a solved load, or what is known before. Errors:
+   !> A text by its name: a column of words of the summary table, of a solved load, or what is known before; 'notes',
+   !> what the log notes of the solved load, or of the surface, the deck's loads and the tables so far. Errors:
    !> exit_bad_input for a name that is none.
    subroutine text(self, name, words, error, solved)
       class(deck_session), intent(in) :: self
@@ -337,11 +347,21 @@ contains
       type(solved_load), intent(in), optional :: solved
 
       integer :: i
+      type(run_log) :: log
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
       associate (scene => self%results%scene)
-         if (present(solved)) then
+         if (name == 'notes') then
+            log = self%log
+            if (present(solved)) then
+               call log%start(quiet=.true.)
+               call note_loads(self%results, solved%loads_by, [solved%solution%solution_record], log)
+            else
+               call note_loads(self%results, scene%loads_by, pack(self%records, self%records%status >= 0), log)
+            end if
+            words = log%notes
+         else if (present(solved)) then
             i = findloc(solved%summary%names == name .and. solved%summary%kinds == of_words, .true., dim=1)
             if (i > 0) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
          else if (name == 'solver') then

@@ -102,6 +102,8 @@ int wavycon_get(wavycon_error error, const void *object, const char *name, doubl
    "length_unit", "resolved_deck", "order", the numbers, from 1, of the deck's loads in the order in which the program
    solves them. Of a solution: "status", "solver" (of this load, "none" if none was needed).
    Of a table: "columns", a line name[unit] for each, the unit of a column of words being "word"; "words", a line for each.
+   Also "notes", as the program's log has them, a line for each: of a scene those on its surface, on the loads that
+   wavycon_solve_load has solved so far and on tables; of a solution those on this load. Empty if there are none.
    Of NULL: "version"; "keys", all groups and keys of decks with type, unit, default, bounds and meaning as JSON. */
 size_t wavycon_get_text(wavycon_error error, const void *object, const char *name, char *buffer, size_t bytes);
 

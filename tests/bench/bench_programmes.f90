@@ -2,9 +2,9 @@
 !>
 !>    bench_programmes HARMONICS POINTS SYMMETRY WAY
 !>
-!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none',  min 1/2 x'Dx - c'x
-!> subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m of C', and reads
-!> lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of the
+!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none',
+!> min 1/2 x'Dx - c'x subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m
+!> of C', and reads lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of the
 !> solves [ms], each from nothing; x. With 0 solves there is one, which starts from the last answer. With -1 the answer
 !> is the programme: D (n numbers a line), c, and the columns of C' (n numbers a line).
 program bench_programmes
@@ -23,7 +23,7 @@ program bench_programmes
    character(12) :: words(4)
    real(dp), allocatable :: times(:)
    real(dp) :: load, before, after
-   integer :: harmonics, i, j, count, ios, points
+   integer :: harmonics, i, j, count, ios, points, symmetry
 
    do i = 1, size(words)
       call get_command_argument(i, words(i))
@@ -33,8 +33,16 @@ program bench_programmes
       write (error_unit, '(a)') 'usage: bench_programmes HARMONICS POINTS SYMMETRY WAY'
       stop 1
    end if
+   select case (words(3))
+   case ('diagonal')
+      symmetry = symmetry_diagonal
+   case ('none')
+      symmetry = symmetry_none
+   case default
+      symmetry = symmetry_full
+   end select
    call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(harmonics, points, &
-      symmetry_of(words(3)), by_beale=words(4) == 'beale'))
+      symmetry, by_beale=words(4) == 'beale'))
    contact = fresh
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    flush (output_unit)
@@ -66,20 +74,5 @@ program bench_programmes
       end if
       flush (output_unit)
    end do
-
-contains
-
-   pure integer function symmetry_of(name)
-      character(*), intent(in) :: name
-
-      select case (name)
-      case ('none')
-         symmetry_of = symmetry_none
-      case ('diagonal')
-         symmetry_of = symmetry_diagonal
-      case default
-         symmetry_of = symmetry_full
-      end select
-   end function symmetry_of
 
 end program bench_programmes

@@ -3,11 +3,11 @@
 
 usage: programmes.py BUILD SECONDS [DAQP]
 
-Without DAQP: the paper's discretisations, by the dual method and by Beale's alone; quadprog, Goldfarb & Idnani's dual
-method in compiled C, if this Python has it; the sweep of all loads; and the largest series. With DAQP, a folder: DAQP,
-the fastest of the solvers tried, whose source is installed into the folder from the Python package index and compiled
-by cc with the flags of its package. It runs with its default tolerance of the constraints, 1e-6, and with 1e-11, at
-which its answers have as many digits as wavycon's.
+Without DAQP: the paper's discretisations, by the dual method and by Beale's alone; how the time of Beale's grows with
+their size; quadprog, Goldfarb & Idnani's dual method in compiled C, if this Python has it; the sweep of all loads; and
+the largest series. With DAQP, a folder: DAQP, the fastest of the solvers tried, whose source is installed into the
+folder from the Python package index and compiled by cc with the flags of its package. It runs with its default
+tolerance of the constraints, 1e-6, and with 1e-11, at which its answers have as many digits as wavycon's.
 
 SECONDS is the time for each load of a comparison. Blocks of solves alternate, so that what else the machine does falls
 on all alike. All solves of a comparison are cold: from the matrices, without a set of active constraints.
@@ -163,6 +163,8 @@ def paper(build, loads, seconds):
     usual = Wavycon(build, *SIZES[0])
     good = compare([usual, Wavycon(build, *SIZES[0], 'diagonal'), Wavycon(build, *SIZES[0], 'full', 'beale'),
                     Wavycon(build, *SIZES[0], 'diagonal', 'beale'), Wavycon(build, 9, 10)], loads, seconds)
+    good = compare([Wavycon(build, *SIZES[0], symmetry, 'beale') for symmetry in ('full', 'diagonal', 'none')], loads,
+                   seconds) and good
     try:
         good = compare([usual, Quadprog(usual)], loads, seconds) and good
     except ImportError:

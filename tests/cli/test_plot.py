@@ -16,6 +16,7 @@ import tempfile
 import unittest
 import xml.dom.minidom
 
+from ink import dejavu_alone, inked_borders
 from program import ProgramTest, main, skip
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -89,10 +90,13 @@ class Plot(ProgramTest):
         cls.at_once = cls.run_plot("--format", "svg", *cls.tables)
         cls.pictures = {(name,): cls.folder/pathlib.Path(name).with_suffix(".svg") for name in cls.tables}
 
+        # What is drawn for a machine without Times, None if this one does not have DejaVu.
+        cls.wide_faces = dejavu_alone(cls.folder)
+
     @classmethod
-    def run_plot(cls, *words):
+    def run_plot(cls, *words, variables=None):
         return subprocess.run([ROOT/"scripts"/"plot", *words], cwd=cls.folder, capture_output=True, text=True,
-                              check=False)
+                              check=False, env=variables)
 
     def plot(self, *words, status=0):
         """Runs scripts/plot. Returns what it writes on standard output and on standard error."""
@@ -121,11 +125,23 @@ class Plot(ProgramTest):
 
     def every_table_in_every_format(self):
         for form in SOUND_START:
-            self.check_pictures(form, self.run_plot("--format", form, *self.tables))
+            self.check_pictures(form, self.run_plot("--format", form, *self.tables, variables=self.wide_faces))
+        self.check_borders(self.tables)
 
-    def check_pictures(self, form, drawn):
+    def test_nothing_is_cut_off(self):
+        """With the wide letters of DejaVu, and with numbers that differ little."""
+        tables = "rough.summary.dat", "slip.interface.dat"
+        self.check_pictures("png", self.run_plot(*tables, variables=self.wide_faces), tables)
+        self.check_borders(tables)
+
+    def check_borders(self, tables):
+        for table in tables:
+            with self.subTest(table=table):
+                self.assertEqual([], inked_borders((self.folder/table).with_suffix(".png")))
+
+    def check_pictures(self, form, drawn, tables=()):
         """All tables are drawn in a format, without a message."""
-        pictures = [pathlib.Path(name).with_suffix(f".{form}") for name in self.tables]
+        pictures = [pathlib.Path(name).with_suffix(f".{form}") for name in tables or self.tables]
         self.assertEqual((0, ""), (drawn.returncode, drawn.stderr))
         self.assertEqual([f"picture: {picture}" for picture in pictures], drawn.stdout.splitlines())
         for picture in pictures:
@@ -429,6 +445,11 @@ class Numbers(unittest.TestCase):
         self.assertEqual(1.0, axis([0.01, 0.9], up_to=1.0)[1])
         # Tics of nearly equal numbers do not read alike, and a single one does not lie at an end.
         self.assertEqual(0.0, axis([0.99999*0.78, 0.78])[0])
+        # Nor are they longer than the margins have room for.
+        for low, high in ((0.2417, 0.24195), (0.0199, 0.0201), (0.96203, 0.96309), (4990.0, 5000.0)):
+            start, end, step, _ = axis([low, high])
+            self.assertLess(start, low)
+            self.assertLessEqual(max(len(f"{k*step:g}") for k in range(round(start/step), round(end/step) + 1)), 6)
         # Many light loads: logarithmic; loads distributed over the range are not.
         self.assertTrue(axis([1e-6, 1e-5, 1e-4, 1e-3])[-1])
         self.assertFalse(axis([1e-3, 0.2, 0.5, 0.9])[-1])

@@ -40,6 +40,20 @@ static double number(const void *object, const char *name)
     return value;
 }
 
+/* Whether an object has as many notes, and words in the last one. */
+static int has_notes(const void *object, int lines, const char *words)
+{
+    char notes[2000] = "none";
+    char *last = notes;
+    wavycon_get_text(error, object, "notes", notes, sizeof notes);
+    for (char *end = strchr(notes, '\n'); end != NULL; end = strchr(end + 1, '\n')) {
+        lines--;
+        if (end[1] != '\0')
+            last = end + 1;
+    }
+    return lines == 0 && strstr(last, words) != NULL;
+}
+
 static wavycon_scene scene_of(const char *deck)
 {
     return wavycon_new_scene(error, deck, "misuse", 1, 0, 0, NULL);
@@ -94,8 +108,10 @@ static void decks(void)
     const int bad_loads[] = {-2147483647 - 1, -1, 2, 2147483647};
     for (size_t i = 0; i < COUNT(bad_loads); i++)
         NOTHING(wavycon_solve_load(error, scene, bad_loads[i]));
+    check(has_notes(scene, 0, ""), "no notes before a load is solved", __LINE__);
     wavycon_solution solution = wavycon_solve_load(error, scene, 1);
     MADE(solution);
+    check(has_notes(scene, 1, "truncated series"), "the notes of the loads", __LINE__);
     wavycon_delete(&scene);
     check(number(solution, "pbar_over_pstar") == 0.3, "the second load, without its scene", __LINE__);
     wavycon_delete(&solution);
@@ -137,6 +153,8 @@ static void heights(void)
     scene = wavycon_new_scene(error, deck, "d", 0, 8, 8, height);
     solution = wavycon_solve(error, scene, "pbar_over_pstar", 0.1);
     check(number(scene, "points_x") == 8 && number(scene, "length_y") == 1, "the map", __LINE__);
+    check(has_notes(scene, 1, "by differences of neighbours only"), "notes of the surface alone", __LINE__);
+    check(has_notes(solution, 1, "the errors of 1 of 1 loads are unknown"), "notes of the load", __LINE__);
     double counted = 64*number(solution, "contact_area_counted_fraction");
     check(number(solution, "status_code") == WAVYCON_UNRESOLVED &&
           isnan(number(solution, "contact_area_fraction_error")), "unresolved", __LINE__);

@@ -22,6 +22,7 @@ import subprocess
 import sys
 import time
 import unittest
+import unittest.mock
 import warnings
 
 from program import ProgramTest, main, skip, take_options
@@ -100,6 +101,7 @@ class PackageTest(ProgramTest):
         os.chdir(cls.folder)
         os.environ["PATH"] = os.path.dirname(cls.program) + os.pathsep + os.environ["PATH"]
         (cls.folder/"rough.nml").write_text(ROUGH)
+        warnings.simplefilter("ignore", wc.Note)   # but in the tests of notes
 
     def assert_same_rows(self, path, rows):
         """The columns of a table of the program and of a structured array."""
@@ -279,6 +281,27 @@ class Digits(PackageTest):
         self.refuse("was not saved", again.table, "contours")
         self.refuse("was not saved", again[0].fields_at, 0, 0)
 
+    def test_saved_results_replace_results_alone(self):
+        results = wc.solve(wc.wave_1d(), pbar_over_pstar=0.5)
+        results.save("run", fields=False)
+        results.save("run.npz", fields=False)
+        os.symlink("run.npz", "link.npz")
+        results.save("link.npz", fields=False)
+        self.assertTrue(os.path.islink("link.npz"))
+        before = (self.folder/"run.npz").read_bytes()
+        (self.folder/"deck.npz").write_text("&surface kind = 'wave_1d' /")
+        self.refuse("is not replaced", results.save, "deck.npz", error=OSError)
+        self.assertEqual("&surface kind = 'wave_1d' /", (self.folder/"deck.npz").read_text())
+        # A file that cannot be finished leaves what was there.
+        with unittest.mock.patch("numpy.savez", side_effect=OSError("full")):
+            self.refuse("full", results.save, "run.npz", error=OSError)
+        self.assertEqual(before, (self.folder/"run.npz").read_bytes())
+        self.assertEqual([], list(self.folder.glob(".*.part")))
+        buffer = io.BytesIO()
+        results.save(buffer)
+        buffer.seek(0)
+        self.assertEqual(repr(results), repr(wc.load(buffer)))
+
     def test_frames_and_pictures(self):
         results = self.solve_rough()
         frame = results.to_dataframe()
@@ -310,7 +333,87 @@ class Sweeps(PackageTest):
         self.assertIn("there is no such file", wc.sweep("none.nml", {}).message[0])
 
 
+class Notes(PackageTest):
+    def warned(self, function, *arguments, **options):
+        """The result, and the texts of the notes, all of which point at the line of this call."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            result = function(*arguments, **options)
+        for one in caught:
+            self.assertIs(wc.Note, one.category)
+            self.assertEqual(__file__, one.filename)
+        return result, [str(one.message) for one in caught]
+
+    def notes_of_the_program(self, *options):
+        log = subprocess.run([self.program, "noted.nml", "--output", "noted", *options], cwd=self.folder, check=False,
+                             capture_output=True, text=True).stdout
+        return re.findall("^note: (.*)", log, re.MULTILINE)
+
+    def test_notes_are_those_of_the_program(self):
+        heights = numpy.random.default_rng(1).normal(size=(16, 16)) + numpy.arange(16)*3
+        numpy.savetxt("map.dat", heights*1e-9, fmt="%.17g")
+        deck = """&scene length_unit = 'um' / &surface kind = 'file', file = 'map.dat' /
+                  &load contact_area_fraction = 1e-6, 0.2, 2e-6 / """
+        (self.folder/"noted.nml").write_text(deck)
+        results, notes = self.warned(wc.run, "noted.nml")
+        self.assertEqual(self.notes_of_the_program(), notes)
+        self.assertEqual(notes, results.notes)
+        for words in "slopes of the surface are", "along x the last heights differ", "2 of 3 contact areas are below":
+            self.assertTrue(any(words in note for note in notes), words)
+        solved, notes = self.warned(wc.solve, wc.heights(heights*1e-9), contact_area_fraction=[1e-6, 0.2, 2e-6],
+                                    length_unit="um")
+        self.assertEqual(results.notes, notes)
+        solved.save("noted.npz")
+        self.assertEqual((notes, []), (solved.notes, self.warned(wc.load, "noted.npz")[1]))
+        self.assertEqual(notes, wc.load("noted.npz").notes)
+
+    def test_what_has_nothing_to_note(self):
+        results, notes = self.warned(wc.solve, wc.wave_2d(), pbar_over_pstar=[0.1, 0.5])
+        self.assertEqual(([], []), (results.notes, notes))
+
+    def test_the_series_and_the_tables(self):
+        results, notes = self.warned(wc.solve, wc.wave_2d(), pbar_over_pstar=[0.9, 0.5], solver="beale")
+        self.assertEqual(2, len(notes))
+        self.assertIn("at 1 of 2 loads the mean gap is below 0", notes[1])
+        slip = {"friction": 0.1, "tangential_over_normal": [0.05, 0.1]}
+        unlike = {"e1": 1, "nu1": 0.3, "e2": 20, "nu2": 0.2}
+        results, notes = self.warned(wc.solve, wc.wave_2d(amplitude=0.01), pbar_over_pstar=[0.3, 0.5], interface=slip,
+                                     **unlike)
+        self.assertEqual([], notes)
+        frame, notes = self.warned(results.to_dataframe, "partial_slip")
+        self.assertEqual(1, len(notes))
+        self.assertIn("partial slip neglects the coupling", notes[0])
+        self.assertEqual(notes, results.notes)
+
+    def test_a_sweep(self):
+        (self.folder/"noted.nml").write_text("&surface kind = 'wave_2d' / &load pbar_over_pstar = 0.5 /")
+        frame = wc.sweep("noted.nml", {"method.solver": ["auto", "beale"]})
+        self.assertEqual(["", *self.notes_of_the_program()], frame.message.tolist())
+
+
 class Misuse(PackageTest):
+    def test_units(self):
+        h = numpy.random.default_rng(1).normal(size=(16, 16))
+        surface = wc.heights(h, length_x=4, length_unit="um")
+        self.refuse("lengths of this surface are in um", wc.solve, surface, pbar_over_pstar=0.1, length_unit="m")
+        self.refuse("are in um", wc.solve, surface, pbar_over_pstar=0.1, scene={"length_unit": "mm"})
+        for unit in None, "um":
+            self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0, length_unit=unit).length_unit)
+        self.assertEqual("m", wc.solve(wc.heights(h), pbar_over_pstar=0, length_unit="m").length_unit)
+
+    def test_a_broken_reader(self):
+        reader = self.folder/"broken"/"SurfaceTopography.py"
+        reader.parent.mkdir()
+        code = f"""import sys; sys.path[:0] = [{os.path.dirname(wc.__path__[0])!r}, {str(reader.parent)!r}]
+import wavycon
+try: wavycon.read('none.opd')
+except ImportError as error: print(error)"""
+        for text, words in ("import a_package_that_is_not_there", "is installed, but cannot be imported: No module named"
+                            " 'a_package"), ("from os import none", "is installed, but cannot be imported: cannot import"):
+            reader.write_text(text)
+            printed = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+            self.assertIn(words, printed)
+
     def test_surfaces(self):
         for bad in [["a", "b"]], [[1j]], object(), [None], numpy.array(["2020"], dtype="M8"):
             self.refuse("real numbers", wc.heights, bad)
@@ -450,6 +553,7 @@ class Files(PackageTest):
         surface = wc.read("scan.txt", length_x=4, length_unit="um")
         self.assertTrue(numpy.array_equal(h, surface.heights))
         self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0.2).length_unit)
+        self.refuse("are in um", wc.solve, surface, pbar_over_pstar=0.2, length_unit="m")
         numpy.savetxt("scan.txt", h, header="Width: 4 m\nHeight: 3 m\nValue units: m")
         for name in "scan.npy", "scan.gsf":
             with contextlib.redirect_stdout(io.StringIO()) as printed:
@@ -464,7 +568,7 @@ class Files(PackageTest):
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))
         numpy.savetxt("profile.txt", numpy.c_[x, numpy.cos(9*x)])
-        with self.assertWarnsRegex(UserWarning, "unequal steps"):
+        with self.assertWarnsRegex(wc.Note, "unequal steps"):
             surface = wc.read("profile.txt", edges="mirror")
         self.assertEqual(1, wc.solve(surface, pbar_over_pstar=0.2).dimension)
 
@@ -474,8 +578,10 @@ class Files(PackageTest):
         self.refuse("there is no such file", wc.read, "none.opd", error=OSError)
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")
+        (self.folder/"deck.npy").write_text("&surface kind = 'wave_1d' /")
+        numpy.savetxt("profile.txt", numpy.c_[numpy.arange(9), numpy.cos(numpy.arange(9))])
         for words in (["none.opd", "map.gsf"], ["words.txt", "map.gsf"], ["scan.txt", "map.tif"],
-                      ["scan.txt", "no/map.gsf"]):
+                      ["scan.txt", "no/map.gsf"], ["scan.txt", "deck.npy"], ["profile.txt", "profile.txt"]):
             with self.assertRaisesRegex(SystemExit, "wavycon-convert: "):
                 convert(words)
 

@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 
+import ball_adhesion
 import builds
 import contact_conditions
 import extremes
@@ -36,7 +37,8 @@ PARTS = {
     "qp": [quadratic_programmes.campaign],
     "loads": [quadratic_programmes.loads, extremes.campaign],
     "solvers": [contact_conditions.campaign, honest_estimates.campaign, growing_loads.campaign,
-                same_contact.order_and_symmetry, same_contact.alone_and_again, rough_surfaces.campaign],
+                same_contact.order_and_symmetry, same_contact.alone_and_again, rough_surfaces.campaign,
+                ball_adhesion.campaign],
     "stresses": [random_stresses.campaign],
     "decks": [fuzz_decks.fuzz_checks, fuzz_decks.fuzz_settings, fuzz_decks.fuzz_monsters, fuzz_decks.fuzz_runs,
               fuzz_maps.fuzz_checks, fuzz_maps.fuzz_binary, fuzz_maps.fuzz_runs, fuzz_maps.fuzz_monsters,

@@ -53,7 +53,7 @@ MAY_BE_MISSING = {
     "stress_planes": "stress_error",
     "interface": "(contact_stiffness|contact_area_slope|mean_gap_curvature|contact_resistance).*",
     "partial_slip": "stick_.*|tangential_over_limit|.*displacement.*|tangential_stiffness|cycle_energy.*",
-    "slip_loop": "",
+    "slip_loop": "displacement",
     "slip_map": "traction|pressure|slip_state",
     "adhesion": "(?!load$).*",
 }

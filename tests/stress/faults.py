@@ -119,8 +119,8 @@ class Faults:
         for table in ("resolved.nml", *(f"{name}.dat" for name in TABLES), "checkpoint"):
             folder = self.folder()
             (folder/"results").mkdir()
-            outcome = self.in_shell(folder, 'ln -s /dev/full "results/.deck.$1.$$.part"; '
-                                            'exec "$0" deck.nml --output results', table)
+            outcome = self.in_shell(folder, 'ln -s /dev/full "results/deck.$1"; "$0" deck.nml --output results; '
+                                            'status=$?; rm -f "results/deck.$1"; exit $status', table)
             self.count(f"/dev/full for {table}", outcome, (0,) if table == "checkpoint" else (3,), folder)
 
     def directories(self):
@@ -278,7 +278,7 @@ class Faults:
                            ("all closed", "<&- >&- 2>&-"), ("stdout full", ">/dev/full"), ("stderr full", "2>/dev/full")):
             script = f'"$0" deck.nml --output results {tail}'
             folder = self.folder()
-            self.count(name, self.in_shell(folder, script), (0,), folder)
+            self.count(name, self.in_shell(folder, script), (3,) if name == "stdout full" else (0,), folder)
             outcome = self.in_shell(self.folder("&surface kind = 'no' /\n"), script)
             self.part.count(f"{name}, a bad deck", [] if outcome.status == 1 else [f"exit status {outcome.status}"])
         folder = self.folder(LONG_DECK)

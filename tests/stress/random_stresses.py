@@ -62,6 +62,11 @@ def bounds(tables, load, peak):
     """How far stresses exceed the largest ones, over the error of these; and complaints."""
     largest = of_load(tables["largest"], load)[0]
     complaints, worst = [], 0.0
+    mises, shear = largest["largest_von_mises"], largest["largest_shear"]
+    scale = largest["mean_pressure"]/largest["pbar_over_pstar"] if largest["pbar_over_pstar"] > 0.0 else 0.0
+    doubt = scale*(largest["largest_von_mises_over_pstar_error"] + 2.0*largest["largest_shear_over_pstar_error"])
+    if not math.sqrt(3.0)*shear - doubt - ROUNDING*peak <= mises <= 2.0*shear + doubt + ROUNDING*peak:
+        complaints.append(f"largest von Mises {mises!r}, but shear {shear!r} at load {load:.0f}")
     for name in ("line", "section", "planes"):
         for record in of_load(tables[name], load):
             mises, shear = record["von_mises"], record["largest_shear"]

@@ -1,11 +1,10 @@
 !> Runs the tests of a program and reports what their assertions find wrong.
 module funit_runner
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use early_exit, only: allow_exit, refuse_early_exit
    implicit none (type, external)
    private
 
-   public :: SourceLocation, anyExceptions, begin_tests, count_assertion, end_tests, run_test, throw
+   public :: SourceLocation, anyExceptions, count_assertion, end_tests, run_test, throw
 
    abstract interface
       subroutine test_procedure()
@@ -44,11 +43,6 @@ contains
       assertions = assertions + 1
    end subroutine count_assertion
 
-   !> To be called first.
-   subroutine begin_tests()
-      call refuse_early_exit()
-   end subroutine begin_tests
-
    !> If the set-up fails neither body nor tear-down runs; if the body fails the tear-down still runs.
    subroutine run_test(name, body, set_up, tear_down)
       character(*), intent(in) :: name
@@ -76,7 +70,6 @@ contains
 
    !> To be called last: ends the program with status 1 if a test failed.
    subroutine end_tests()
-      call allow_exit()
       if (tests_failed == 0) then
          write (output_unit, '(a, i0, a)') 'OK: ', tests_run, ' tests passed'
          return

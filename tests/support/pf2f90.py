@@ -4,7 +4,8 @@
 usage: pf2f90.py IN.pf OUT.F90
 
 Only directives are translated; the compiler sees the rest, and the operands of assertions, as they are, and names lines
-of IN.pf.
+of IN.pf. The driver has the macros of pFUnit's, PFUNIT_EXTRA_USE, .._INITIALIZE and .._FINALIZE, and like it points to
+the procedures that they name: what pFUnit's cannot point to does not compile here either.
 """
 import pathlib
 import re
@@ -54,11 +55,13 @@ def translate(path):
     fixtures = "".join(f", &\n      {argument}={name}" for kind, argument in
                        (("before", "set_up"), ("after", "tear_down")) for name in procedures[kind])
     return output + [
-        "", f"program run_{module}", "   use funit_runner, only: begin_tests, end_tests, run_test",
+        "", f"program run_{module}", "   use PFUNIT_EXTRA_USE", "   use funit_runner, only: end_tests, run_test",
         *(f"   use {module}, only: {name}" for kind in PROCEDURES for name in procedures[kind]),
-        "   implicit none (type, external)", "", "   call begin_tests()",
+        "   implicit none (type, external)", "   procedure(), pointer :: extra_initialize, extra_finalize", "",
+        "   extra_initialize => PFUNIT_EXTRA_INITIALIZE", "   extra_finalize => PFUNIT_EXTRA_FINALIZE",
+        "   call extra_initialize()",
         *(f"   call run_test('{module}.{name}', &\n      {name}{fixtures})" for name in procedures["test"]),
-        "   call end_tests()", f"end program run_{module}"]
+        "   call extra_finalize()", "   call end_tests()", f"end program run_{module}"]
 
 
 def main(source, target):

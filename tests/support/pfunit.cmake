@@ -11,15 +11,12 @@ else()
 endif()
 include(${CMAKE_CURRENT_LIST_DIR}/test_properties.cmake)
 
+# What every test program does first and last. pFUnit alone would pass a program that a test stopped with status 0.
+set(wavycon_early_exit EXTRA_USE early_exit EXTRA_INITIALIZE refuse_early_exit EXTRA_FINALIZE allow_exit)
+
 # wavycon_add_pf_test(name label source.pf [library ...]): one test program and its ctest.
 function(wavycon_add_pf_test name label source)
-  if(PFUNIT_FOUND)
-    # pFUnit alone would pass a program that a test stopped with status 0.
-    add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES early_exit ${ARGN}
-      EXTRA_USE early_exit EXTRA_INITIALIZE refuse_early_exit EXTRA_FINALIZE allow_exit)
-  else()
-    add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES ${ARGN})
-  endif()
+  add_pfunit_ctest(${name} TEST_SOURCES ${source} LINK_LIBRARIES early_exit ${ARGN} ${wavycon_early_exit})
   # Tests spend their time in the library: less optimisation of their own code halves the time to compile it.
   target_compile_options(${name} PRIVATE ${wavycon_test_flags} $<$<CONFIG:Release>:-O1>)
   wavycon_test_properties(${name} ${label})

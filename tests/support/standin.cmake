@@ -1,8 +1,11 @@
 # The stand-in for pFUnit's add_pfunit_ctest, as far as wavycon uses it.
-# N.B. It links early_exit by itself; pFUnit is given it by EXTRA_INITIALIZE and EXTRA_FINALIZE.
 
-# wavycon_standin_executable(name source.pf): the test program alone, without a ctest.
-function(wavycon_standin_executable name source)
+# wavycon_standin_executable(name TEST_SOURCES source.pf [LINK_LIBRARIES ...] EXTRA_USE module
+#   EXTRA_INITIALIZE procedure EXTRA_FINALIZE procedure): the test program alone, without a ctest.
+function(wavycon_standin_executable name)
+  set(extras EXTRA_USE EXTRA_INITIALIZE EXTRA_FINALIZE)
+  cmake_parse_arguments(PARSE_ARGV 1 PF "" "TEST_SOURCES;${extras}" "LINK_LIBRARIES")
+  set(source ${PF_TEST_SOURCES})
   set(translator ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/pf2f90.py)
   get_filename_component(path ${source} ABSOLUTE)
   get_filename_component(stem ${source} NAME_WE)
@@ -17,13 +20,14 @@ function(wavycon_standin_executable name source)
   add_executable(${name} ${output})
   set_target_properties(${name} PROPERTIES
     Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/mod/${name})
-  target_link_libraries(${name} funit)
+  target_link_libraries(${name} funit ${PF_LINK_LIBRARIES})
+  foreach(extra IN LISTS extras)
+    target_compile_definitions(${name} PRIVATE PFUNIT_${extra}=${PF_${extra}})
+  endforeach()
 endfunction()
 
-# add_pfunit_ctest(name TEST_SOURCES source.pf [LINK_LIBRARIES ...]): program and ctest.
+# add_pfunit_ctest(name, and the same arguments): program and ctest.
 function(add_pfunit_ctest name)
-  cmake_parse_arguments(PARSE_ARGV 1 PF "" "TEST_SOURCES" "LINK_LIBRARIES")
-  wavycon_standin_executable(${name} ${PF_TEST_SOURCES})
-  target_link_libraries(${name} ${PF_LINK_LIBRARIES})
+  wavycon_standin_executable(${name} ${ARGN})
   add_test(NAME ${name} COMMAND ${name})
 endfunction()

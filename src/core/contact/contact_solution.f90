@@ -34,6 +34,7 @@ module wavycon_contact_solution
    contains
       procedure :: move_to
       procedure :: is_good
+      procedure :: has_numbers
       procedure :: largest_error
       procedure :: fields
       procedure :: contact_contours
@@ -66,6 +67,13 @@ contains
 
       is_good = is_good_status(self%status)
    end function is_good
+
+   !> Whether there are numbers with their error estimates, if not as accurate as requested; of a solution with fields.
+   pure logical function has_numbers(self)
+      class(contact_solution), intent(in) :: self
+
+      has_numbers = self%is_good() .or. allocated(self%source)
+   end function has_numbers
 
    !> The largest error estimate of mean gap [Delta], contact area fraction and peak pressure [p*].
    pure real(dp) function largest_error(self)

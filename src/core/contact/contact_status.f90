@@ -10,7 +10,8 @@ module wavycon_contact_status
    !> closed form; the contact is full; there is no load.
    integer, parameter, public :: converged = 0, closed_form = 1, full_contact = 2, no_load = 3
    !> Good as well: the equations are solved on the grid that was asked for, without an accuracy, but the error estimate
-   !> of mean gap, contact area or peak pressure is unknown or as large as the value.
+   !> of mean gap, contact area or peak pressure is unknown or as large as the value, or a largest stress is hardly
+   !> known.
    integer, parameter, public :: unresolved = 4
    !> The error estimate exceeds the accuracy requested.
    integer, parameter, public :: not_accurate = 10

@@ -1,8 +1,8 @@
-!> How a solution on a grid changes with the load, from solutions of the same grid at loads near by: (C29) of README.md
-!> in this directory.
+!> How a solution on a grid changes with the load, from solutions of the same grid at loads near by: (C29) to (C29c) of
+!> README.md in this directory.
 module wavycon_grid_derivatives
    use wavycon_contact_measures, only: is_known, load_derivatives, unknown
-   use wavycon_contact_tuning, only: load_difference
+   use wavycon_contact_tuning, only: area_kept_change, change_safety, load_difference
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: solution_record
@@ -14,7 +14,8 @@ module wavycon_grid_derivatives
 
 contains
 
-   !> Solves four loads and takes differences. Unknown if a load is not solved.
+   !> Solves five loads, and two nearer ones where the five are too far from one another, and takes differences. What
+   !> they do not show is unknown, all of it if a load is not solved.
    subroutine differentiate_on_grid(surface, points, record, answer)
       type(surface_type), intent(in) :: surface      !! whose cell was solved
       integer, intent(in) :: points(2)               !! of the grid on the whole cell; the second is ignored in 1-D
@@ -22,59 +23,140 @@ contains
       type(load_derivatives), intent(out) :: answer
 
       integer :: grid(2), i
-      real(dp) :: area(-2:2), gap(-2:2), step, unused(2)
-      type(sequence_answer) :: nearby
+      real(dp) :: bound   !! b of (C29)
+      real(dp) :: y(3, 2, -2:2)   !! of approach and area on the last three grids, the last first, at the five loads
+      real(dp) :: counted(-2:2)   !! the points in contact over all points
+      real(dp), dimension(3) :: errors, moved, near_errors, near_values, values   !! G', A', G''
+      logical :: solved, too_far, unused
 
       grid = points
       if (surface%dimension == 1) grid(2) = 1
-      step = record%pbar_over_pstar
-      if (.not. surface%has_free_edges) step = min(step, 1.0_dp - step)
-      step = load_difference*step
+      bound = merge(0.0_dp, 1.0_dp, surface%has_free_edges)
+      solved = .true.
       do i = -2, 2
-         ! The measures of the record may be of another sequence of grids, and differ within the residual.
-         call solve_by_sequence(surface, record%pbar_over_pstar + i*step, 0.0_dp, grid, nearby)
-         if (.not. nearby%state%converged .or. .not. allocated(nearby%edge)) return
-         gap(i) = -nearby%state%approach
-         if (.not. surface%has_free_edges) gap(i) = nearby%state%open_gap()
-         area(i) = nearby%values(2)
+         if (solved) call solve_near(i, i*load_difference)
       end do
-      call differentiate(gap, step, answer%gap_slope, answer%gap_slope_error, answer%gap_curvature, &
-                         answer%gap_curvature_error)
-      call differentiate(area, step, answer%area_slope, answer%area_slope_error, unused(1), unused(2))
-      ! Where the grid hardly resolves gap or contact, their part that is wrong is that of their derivatives too.
-      associate (of_gap => record%measures%mean_gap_error/max(abs(gap(0)), tiny(step)), &
-                 of_area => record%measures%contact_area_error/max(min(area(0), 1.0_dp - area(0)), tiny(step)))
-         answer%gap_slope_error = answer%gap_slope_error + abs(answer%gap_slope)*of_gap
-         answer%area_slope_error = answer%area_slope_error + abs(answer%area_slope)*of_area
-         if (is_known(answer%gap_curvature)) &
-            answer%gap_curvature_error = answer%gap_curvature_error + abs(answer%gap_curvature)*of_gap
-      end associate
+      if (.not. solved) return
+      call differentiate(record%pbar_over_pstar, bound, y, load_difference, values, errors, too_far)
+      ! In the same contact solutions are linear in the load, and show nothing of its growth.
+      if (all(abs(counted - counted(0)) <= 0.0_dp)) values(2:) = unknown
+      if (too_far) then
+         y(:, :, [-2, 2]) = y(:, :, [-1, 1])
+         call solve_near(-1, -0.5_dp*load_difference)
+         if (solved) call solve_near(1, 0.5_dp*load_difference)
+         if (.not. solved) return
+         call differentiate(record%pbar_over_pstar, bound, y, 0.5_dp*load_difference, near_values, near_errors, unused)
+         ! Where a derivative grows without bound the two differ by more than either shows.
+         moved = abs(near_values - values)
+         where (is_known(values) .and. near_errors < errors) values = near_values
+         errors = max(min(errors, near_errors), moved)
+      end if
+      ! A contact of a point or two has the size, and with it the stiffness, of the step.
+      if (record%measures%contact_area_error >= record%measures%contact_area_fraction) errors = unknown
+      where (.not. is_known(values)) errors = unknown
+      answer = load_derivatives(values(1), errors(1), values(2), errors(2), values(3), errors(3))
+
+   contains
+
+      !> Solves the load whose x differs from that of the record by this much, as number i of the five.
+      subroutine solve_near(i, difference)
+         integer, intent(in) :: i
+         real(dp), intent(in) :: difference
+
+         real(dp) :: grids(3, 3), odds
+         type(sequence_answer) :: nearby
+
+         odds = exp(difference)*record%pbar_over_pstar/(1.0_dp - bound*record%pbar_over_pstar)
+         call solve_by_sequence(surface, odds/(1.0_dp + bound*odds), 0.0_dp, grid, nearby)
+         solved = nearby%state%converged .and. allocated(nearby%edge)
+         if (.not. solved) return
+         counted(i) = nearby%measures%contact_area_counted_fraction
+         grids = reshape([nearby%history%values, nearby%history%before], [3, 3])
+         y(:, 2, i) = log_ratio(grids(2, :), 1.0_dp - bound*grids(2, :))
+         if (surface%has_free_edges) then
+            y(:, 1, i) = log_ratio(grids(1, :), 1.0_dp)
+         else
+            y(:, 1, i) = log_ratio(1.0_dp - grids(1, :), grids(1, :))
+         end if
+      end subroutine solve_near
+
    end subroutine differentiate_on_grid
 
-   !> The first two derivatives of a function from five values at equal steps, and their errors (C29).
-   !>
-   !> The points of a grid enter the contact one after another, which makes the values scatter: by how much is estimated
-   !> from third and fourth differences. They show errors of the differences too.
-   pure subroutine differentiate(f, step, slope, slope_error, curvature, curvature_error)
-      real(dp), intent(in) :: f(-2:2), step
-      real(dp), intent(out) :: slope, slope_error, curvature, curvature_error
+   !> ln(part/rest), unknown unless both are positive.
+   elemental real(dp) function log_ratio(part, rest)
+      real(dp), intent(in) :: part, rest
 
-      !> Scatter below which the contact is the same at all loads: the solutions are linear in the load.
-      real(dp), parameter :: unchanged = 1e-5_dp
-      real(dp) :: fourth, scatter, third
+      log_ratio = unknown
+      if (min(part, rest) > 0.0_dp .and. is_known(part)) log_ratio = log(part/rest)
+   end function log_ratio
 
-      slope = (8*(f(1) - f(-1)) - (f(2) - f(-2)))/(12*step)
-      curvature = (16*(f(1) + f(-1)) - (f(2) + f(-2)) - 30*f(0))/(12*step**2)
-      third = f(2) - f(-2) - 2*(f(1) - f(-1))
-      fourth = f(2) + f(-2) - 4*(f(1) + f(-1)) + 6*f(0)
-      ! In third differences of random numbers there are 10 of their squares, in fourth ones 70.
-      scatter = max(abs(third)/sqrt(10.0_dp), abs(fourth)/sqrt(70.0_dp))
-      ! The root sums of squares in slope and curvature are .95 and 3.1; twice that.
-      slope_error = 2*scatter/step
-      curvature_error = 6*scatter/step**2
-      if (scatter > unchanged*abs(f(2) - f(-2))) return
-      curvature = unknown
-      curvature_error = unknown
+   !> G', A', G'' and their errors from y at equal steps of x: (C29) to (C29c).
+   pure subroutine differentiate(p, bound, y, step, values, errors, too_far)
+      real(dp), intent(in) :: p                 !! P at the middle
+      real(dp), intent(in) :: bound             !! b
+      real(dp), intent(in) :: y(3, 2, -2:2)     !! of approach and area on the last three grids, the last first
+      real(dp), intent(in) :: step              !! of x
+      real(dp), intent(out) :: values(3), errors(3)
+      logical, intent(out) :: too_far           !! whether a third of the error or more is that of the differences
+
+      real(dp) :: error(0:2), first, part, second, terms(0:2), truncated, x1, x2
+      integer :: q
+
+      x1 = 1.0_dp/(p*(1.0_dp - bound*p))
+      x2 = -(1.0_dp - 2*bound*p)*x1**2
+      values = unknown
+      errors = unknown
+      too_far = .false.
+      do q = 1, 2
+         if (.not. all(is_known(y(1, q, :)))) cycle
+         call differences(y(:, q, :), terms, error, truncated)
+         too_far = too_far .or. truncated > 0.5_dp*error(1)
+         error(1:) = (error(1:) + truncated*[1.0_dp, 2.0_dp])/step**[1, 2]
+         part = 1.0_dp/(bound + exp(-terms(0)))
+         associate (y1 => terms(1)/step, y2 => terms(2)/step**2, bend => 1.0_dp - 2*bound*part, &
+                    slope => part*(1.0_dp - bound*part))
+            first = slope*y1*x1
+            second = slope*((bend*y1**2 + y2)*x1**2 + y1*x2)
+            values(q) = merge(-first, first, q == 1)
+            if (q == 1) values(3) = -second
+            if (.not. all(is_known(y(2, q, :)))) cycle
+            errors(q) = slope*x1*error(1) + abs(bend*first)*error(0)
+            if (q == 1) errors(3) = slope*(abs(2*bend*y1*x1**2 + x2)*error(1) + x1**2*error(2)) &
+                                    + abs(bend*second)*error(0)
+         end associate
+      end do
    end subroutine differentiate
+
+   !> Value, y' step and y'' step^2 on the last grid, by (C29a), and what their errors are from.
+   pure subroutine differences(y, terms, error, truncated)
+      real(dp), intent(in) :: y(3, -2:2)      !! on the last three grids, the last first
+      real(dp), intent(out) :: terms(0:2)
+      real(dp), intent(out) :: error(0:2)     !! of the grid (C29b)
+      real(dp), intent(out) :: truncated      !! of the first difference (C29c), half of that of the second
+
+      !> Of value and first two differences, and Taylor's third and fourth terms.
+      real(dp), parameter :: weights(5, 0:4) = reshape([ &
+         0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 1/12.0_dp, -8/12.0_dp, 0.0_dp, 8/12.0_dp, -1/12.0_dp, &
+         -1/12.0_dp, 16/12.0_dp, -30/12.0_dp, 16/12.0_dp, -1/12.0_dp, &
+         -1/12.0_dp, 2/12.0_dp, 0.0_dp, -2/12.0_dp, 1/12.0_dp, &
+         1/24.0_dp, -4/24.0_dp, 6/24.0_dp, -4/24.0_dp, 1/24.0_dp], [5, 5])
+      !> The roots of the sums of squares of these.
+      real(dp), parameter :: of_random(0:4) = sqrt(sum(weights**2, dim=1))
+      !> Least ratio of Taylor's fifth term to the fourth, and to the third, which is all that a logarithm in the middle
+      !> shows.
+      real(dp), parameter :: least_ratio(2) = [0.1_dp, 0.3_dp]
+      real(dp) :: change(0:4), scatter, sums(3, 0:4), third, fourth
+
+      sums = matmul(y, weights)
+      terms = sums(1, :2)
+      change = abs(sums(1, :) - sums(2, :))
+      error = change_safety*change(:2)
+      if (all(is_known(y(3, :)))) error = max(error, change_safety*area_kept_change*abs(sums(2, :2) - sums(3, :2)))
+      scatter = maxval(change(3:)/of_random(3:))
+      error(1:) = max(error(1:), scatter*of_random(1:2))
+      third = abs(sums(1, 3))
+      fourth = abs(sums(1, 4))
+      truncated = 4*max(least_ratio(1)*fourth, least_ratio(2)*third, fourth**2/max(third, fourth, tiny(third)))
+   end subroutine differences
 
 end module wavycon_grid_derivatives

@@ -7,7 +7,7 @@
 module wavycon_grid_error
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
-   use wavycon_contact_measures, only: unknown
+   use wavycon_contact_measures, only: is_known, unknown
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
    use wavycon_grid_area, only: edge_crossings
@@ -19,12 +19,11 @@ module wavycon_grid_error
 
    public :: change_history, estimate_errors, implied_errors, unresolved_errors
 
-   !> Mean gap, contact area and peak pressure on the last grid, and their last two changes; with fewer than three grids
-   !> the estimates are unknown.
+   !> Mean gap, contact area and peak pressure on the last grid, and on the two before it, the finer first; with fewer
+   !> than three grids the estimates are unknown.
    type :: change_history
       real(dp) :: values(3) = unknown
-      real(dp) :: change(3) = unknown
-      real(dp) :: change_before(3) = unknown
+      real(dp) :: before(3, 2) = unknown
    contains
       procedure :: push
       procedure :: errors => errors_of_changes
@@ -53,8 +52,7 @@ contains
       class(change_history), intent(inout) :: self
       real(dp), intent(in) :: values(3)
 
-      self%change_before = self%change
-      self%change = abs(values - self%values)
+      self%before = reshape([self%values, self%before(:, 1)], [3, 2])
       self%values = values
    end subroutine push
 
@@ -66,7 +64,11 @@ contains
 
       real(dp), parameter :: kept(3) = [kept_change, area_kept_change, kept_change]
 
-      errors = change_safety*max(self%change, kept*self%change_before)
+      associate (change => abs(self%values - self%before(:, 1)), &
+                 change_before => abs(self%before(:, 1) - self%before(:, 2)))
+         errors = change_safety*max(change, kept*change_before)
+      end associate
+      where (.not. is_known(self%before(:, 2))) errors = unknown
    end function errors_of_changes
 
    !> Errors that changes do not show (C15), (C16): of the area, because the position of the edge between points is

@@ -5,7 +5,7 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_measures, only: contact_measures, is_known, known_errors, unknown
+   use wavycon_contact_measures, only: contact_measures, is_known, known_errors, scaled_error, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
@@ -33,6 +33,7 @@ module wavycon_grid_sequence
       real(dp) :: values(3) = 0.0_dp
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
       type(contact_measures) :: measures   !! the values, their errors and what else the grid has
+      type(change_history) :: history      !! the values on the last three grids, without the bound of a hardness
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
@@ -60,7 +61,7 @@ contains
       logical, intent(in), optional :: needs_gap
 
       real(dp), allocatable :: h(:, :)
-      type(change_history) :: history, history_at_hardness
+      type(change_history) :: history_at_hardness
       type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
       real(dp) :: last_residual, scale(3)
@@ -86,8 +87,7 @@ contains
          if (.not. ends) has_room = fits_memory(plan%next(grid))
          if (surface%has_hardness()) call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
          ! Only the errors of an answer are of interest.
-         call measure_level(surface, mean_pressure, h, history, &
-                            ends .or. .not. has_room .or. all(grid >= plan%trusted), answer)
+         call measure_level(surface, mean_pressure, h, ends .or. .not. has_room .or. all(grid >= plan%trusted), answer)
          if (surface%has_hardness()) then
             call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
             deallocate (edge_at_hardness)
@@ -128,7 +128,7 @@ contains
          measures%mean_gap_error = answer%errors(1)
          measures%contact_area_error = answer%errors(2)
          measures%peak_pressure_error = answer%errors(3)
-         measures%elastic_energy_error = 2*mean_pressure*answer%errors(1)
+         measures%elastic_energy_error = scaled_error(answer%errors(1), 2*mean_pressure)
       end associate
    end subroutine solve_by_sequence
 
@@ -208,11 +208,10 @@ contains
    !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
    !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
    !> area although there is contact. The edge takes over the memory of the gap, which no longer exists afterwards.
-   subroutine measure_level(surface, mean_pressure, h, history, estimated, answer)
+   subroutine measure_level(surface, mean_pressure, h, estimated, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       real(dp), intent(in) :: h(:, :)    !! undeformed gap [Delta], of the columns of answer%state%gap
-      type(change_history), intent(inout) :: history
       logical, intent(in) :: estimated   !! whether the errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
@@ -240,8 +239,8 @@ contains
       call grid_peak_pressure(answer%edge, answer%values(3), peak_resolved)
       peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
       answer%values(3) = min(answer%values(3), surface%hardness)
-      call history%push(answer%values)
-      if (estimated) answer%errors = estimate_errors(history, surface, answer%edge, peak_resolved)
+      call answer%history%push(answer%values)
+      if (estimated) answer%errors = estimate_errors(answer%history, surface, answer%edge, peak_resolved)
       associate (errors => answer%errors, p => answer%edge%pressure_or_gap)
          has_corners = ends_at_corners(surface, p)
          if (surface%has_steps) then

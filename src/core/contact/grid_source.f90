@@ -175,29 +175,19 @@ contains
       type(fourier_series) :: pressure
       type(series_stress), allocatable :: own
       type(grid_transform) :: transform
-      integer :: i, j
-      real(dp) :: centre(2), load, spread, x(self%edge%slab%points(1)), y(self%edge%slab%points(2))
       real(dp), allocatable :: values(:, :)
 
       allocate (own)
       associate (points => self%edge%slab%points)
          allocate (values(2*points(1), 2*points(2)), source=0.0_dp)
-         associate (p => values(:points(1), :points(2)))
-            p = max(self%edge%pressure_or_gap, 0.0_dp)
-            call transform%start(points, self%edge%even, whole=.true.)
-            x = transform%x_angle([(i, i=1, points(1))])
-            y = transform%y_angle([(j, j=1, points(2))])
-            load = sum(p)
-            centre = [dot_product(x, sum(p, dim=2)), dot_product(y, sum(p, dim=1))]/load
-            spread = sqrt((dot_product((x - centre(1))**2, sum(p, dim=2)) + (surface%length(2)/surface%length(1))**2 &
-                           *dot_product((y - centre(2))**2, sum(p, dim=1)))/load)
-         end associate
+         values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
+         call transform%start(shape(values), .false., whole=.true.)
+         call transform%series(values, pressure)
+         call start_series_stress(own, surface, pressure, record%pbar_over_pstar/4, &
+                                  or_nan(record%measures%peak_pressure_error), is_sampled=.true.)
+         call transform%start(points, self%edge%even, whole=.true.)
       end associate
-      call transform%start(shape(values), .false., whole=.true.)
-      call transform%series(values, pressure)
-      call start_series_stress(own, surface, pressure, record%pbar_over_pstar/4, &
-                               or_nan(record%measures%peak_pressure_error), is_sampled=.true.)
-      call own%remove_images([x(1), y(1)], centre, spread)
+      call own%remove_images([transform%x_angle(1), transform%y_angle(1)])
       call move_alloc(own, answer)
    end subroutine stresses_with_free_edges
 

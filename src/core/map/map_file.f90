@@ -1,5 +1,6 @@
 !> Reads height maps from files, in any of six formats.
 module wavycon_map_file
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_invalid, ieee_overflow, &
       ieee_set_halting_mode, ieee_set_status, ieee_status_type
@@ -16,7 +17,7 @@ module wavycon_map_file
    use wavycon_plain_text, only: escaped, lower_case, newline
    use wavycon_point_map, only: check_matrix, resample_profile, take_points, take_profile
    use wavycon_ranks, only: share_error
-   use wavycon_system, only: path_device, path_kind
+   use wavycon_system, only: note_input, path_device, path_kind
    implicit none (type, external)
    private
 
@@ -53,6 +54,7 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
       else
          call file%open(path, error)
+         call note_input(path//c_null_char)
       end if
       if (present(in_slabs)) file%in_slabs = in_slabs
       call share_error(error)

@@ -12,7 +12,7 @@ module wavycon_contact_measures
    private
 
    public :: contact_details, contact_measures, full_contact_measures, is_known, known_errors, linear_area_fraction, &
-      load_derivatives, measure_series, measuring_intervals, or_nan, unmeasured
+      load_derivatives, measure_series, measuring_intervals, or_nan, scaled_error, unmeasured
 
    !> Stands for a number that is not known, and exceeds every accuracy. Not NaN, whose comparisons Debug builds trap:
    !> `or_nan` makes it NaN for the user. Its powers in estimates of errors are finite.
@@ -110,6 +110,14 @@ contains
 
       is_known = number < unknown
    end function is_known
+
+   !> An error times a factor, which is unknown if the error is: a product with a small factor would pass for known.
+   elemental real(dp) function scaled_error(error, factor)
+      real(dp), intent(in) :: error, factor   !! >= 0
+
+      scaled_error = unknown
+      if (is_known(error)) scaled_error = factor*error
+   end function scaled_error
 
    !> A number for the user: NaN if it is unknown.
    elemental real(dp) function or_nan(number)

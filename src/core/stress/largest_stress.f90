@@ -68,7 +68,9 @@ contains
       where (parts > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function place_in_cell
 
-   !> Refines the best of the places, each farther from those before it than twice the width of the stress.
+   !> Refines the best of the places, each farther from those before it than twice the width of the stress. The largest
+   !> stress is the one that is largest less its error: one at the edge of contact may be large by its error alone. That
+   !> another one plus its error is larger is an error of the largest.
    subroutine search(fields, body, quantity, places, widths, stresses, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -76,7 +78,8 @@ contains
       real(dp), intent(in) :: places(:, :), widths(:), stresses(:, :)   !! from start_places
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: enough, error, gain, least, least_gain, parts(6, 2), values(size(widths))
+      real(dp) :: certain, doubt, enough, error, gain, highest, least, parts(6, 2), values(size(widths))
+      logical :: is_doubtful, is_larger
       type(largest_stress) :: other
       integer :: best, i
 
@@ -84,28 +87,42 @@ contains
          values(i) = size_of(quantity, stresses(:, i))
       end do
       best = maxloc(values, dim=1)
-      least = close_to_largest*values(best)
       enough = search_accuracy*values(best)
       call fields%at(places(1, best), places(2, best), places(3, best), parts, error)
       if (.not. ieee_is_nan(error)) enough = min(gain_part*error, enough)
       answer%value = -1.0_dp
-      least_gain = 0.0_dp
+      certain = -huge(certain)
+      least = 0.0_dp
+      highest = 0.0_dp
       do i = 1, refined_places
          best = maxloc(values, dim=1)
          if (values(best) < least) exit
          other%value = values(best)
          other%place = places(:, best)
          call refine(fields, body, quantity, widths(best), enough, answer%value, other, gain)
-         if (other%value > answer%value) then
+         if (fields%dimension == 1) other%place(2) = 0.0_dp
+         call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
+         other%value = size_of(quantity, body%stress(parts, fields%pbar_over_pstar))
+         other%error = error_of_invariant*error + gain
+         doubt = merge(0.0_dp, error_of_invariant*error, ieee_is_nan(error))
+         highest = max(highest, other%value + doubt)
+         is_doubtful = doubt > (1.0_dp - close_to_largest)*other%value
+         is_larger = other%value - merge(doubt, 0.0_dp, is_doubtful) > certain
+         if (is_doubtful .and. certain < answer%value) is_larger = other%value > answer%value
+         if (is_larger) then
             answer = other
-            least_gain = gain
+            certain = other%value - merge(doubt, 0.0_dp, is_doubtful)
+         end if
+         ! Where a stress is this doubtful it is so at all places no deeper: they leave the others their turn.
+         if (is_doubtful) then
+            highest = max(highest, maxval(values, mask=places(3, :) <= places(3, best)) + doubt)
+            where (places(3, :) <= places(3, best)) values = -1.0_dp
+         else
+            least = max(least, close_to_largest*values(best))
          end if
          where (norm2(places - spread(places(:, best), 2, size(widths)), dim=1) <= 2*widths(best)) values = -1.0_dp
       end do
-      if (fields%dimension == 1) answer%place(2) = 0.0_dp
-      call fields%at(answer%place(1), answer%place(2), answer%place(3), parts, answer%error)
-      answer%value = size_of(quantity, body%stress(parts, fields%pbar_over_pstar))
-      answer%error = error_of_invariant*answer%error + least_gain
+      if (.not. ieee_is_nan(answer%error)) answer%error = max(answer%error, highest - answer%value)
    end subroutine search
 
    !> Improves a place by quadratic models.

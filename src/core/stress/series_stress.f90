@@ -7,12 +7,13 @@ module wavycon_series_stress
    use wavycon_elastic_body, only: elastic_body
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_image_stress, only: image_stress, images_of
    use wavycon_kinds, only: dp
+   use wavycon_load_tree, only: load_tree, plant_load_tree
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
-      plane_points, plane_ratio, pressure_part, waves_in_depth, window_depth, window_points
+      plane_points, plane_ratio, pressure_part, shift_of_smooth, steps_in_shift, waves_in_depth, window_depth, &
+      window_points
    use wavycon_stress_waves, only: deepest, stress_waves
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -24,6 +25,9 @@ module wavycon_series_stress
    integer, parameter :: middle = window_points/2
 
    integer, parameter :: number_of_sums = 11
+
+   !> What of a pressure is rounding.
+   real(dp), parameter :: rounding = 1e-13_dp
 
    !> The Taylor series (S9) of the moments about a place.
    type :: taylor_series
@@ -38,7 +42,10 @@ module wavycon_series_stress
       type(taylor_series), allocatable :: known(:)   !! about places of the search
       integer :: used = 0                       !! that in use
       real(dp) :: first(3) = 0.0_dp             !! X, Y, 0 of the first point of the series on the surface [rad]
-      type(image_stress), allocatable :: images   !! of the load, whose stresses do not count
+      !> Of a surface with free edges the smooth part of its stresses, which `waves` lack, and the waves with all of it
+      !> and with the mean.
+      type(load_tree), allocatable :: load
+      type(stress_waves), allocatable :: whole
    contains
       procedure :: remove_images
       procedure :: at
@@ -71,16 +78,37 @@ contains
          stress%waves%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), coarsest))
    end subroutine start_series_stress
 
-   !> Leaves out the images of a surface with free edges, whose series is that of a cell of twice its sides.
-   subroutine remove_images(self, first, centre, spread)
+   !> Leaves out the images of a surface with free edges, whose series is that of a cell of twice its sides: (S11).
+   subroutine remove_images(self, first)
       class(series_stress), intent(inout) :: self   !! just started, with the mean pressure of the cell
       real(dp), intent(in) :: first(2)              !! X, Y of the first point of the series on the surface [rad]
-      real(dp), intent(in) :: centre(2)             !! of the load, X, Y [rad]
-      real(dp), intent(in) :: spread                !! root mean square distance of the load from it, in x [rad]
+
+      real(dp), allocatable :: pressure(:, :)
+      real(dp) :: scale(2), shift
+      integer :: k, l, points(2)
 
       self%first(:2) = first
-      self%images = images_of(self%pbar_over_pstar, self%side_ratio, centre, spread)
-      self%pressure_error = self%pressure_error + self%images%error
+      scale = [1.0_dp, self%side_ratio]
+      self%whole = self%waves
+      self%whole%wave(0, 0) = self%pbar_over_pstar
+      shift = pi*minval(scale)*shift_of_smooth
+      points = 2*ubound(self%waves%wave)
+      points = points*ceiling(2*pi*scale*steps_in_shift/(points*shift))
+      call find_pressures(self%whole, points, pressure)
+      ! Rounding between the loads; between finer points than those of the series its ringing is all over the cell.
+      where (abs(pressure) <= rounding*maxval(pressure)) pressure = 0.0_dp
+      pressure = cshift(cshift(pressure, -points(1)/4, 1), -points(2)/4, 2)
+      allocate (self%load)
+      associate (step => 2*pi*scale/points)
+         call plant_load_tree(self%load, pressure, first*scale - (points/4)*step, step, shift)
+      end associate
+      do l = lbound(self%waves%wave, 2), ubound(self%waves%wave, 2)
+         do k = 0, ubound(self%waves%wave, 1)
+            self%waves%wave(k, l) = self%waves%wave(k, l)*self%load%left_out(norm2([real(k, dp), l/self%side_ratio]))
+         end do
+      end do
+      self%pressure_error = self%pressure_error + 120*self%pbar_over_pstar*shift_of_smooth**4
+      self%pbar_over_pstar = 0.0_dp
    end subroutine remove_images
 
    !> The sums (S4) at one point.
@@ -103,13 +131,13 @@ contains
       sets = 1
       if (present(error) .and. .not. ieee_is_nan(self%pressure_error) .and. self%waves%octave_reaches(depth)) sets = 2
       call self%waves%find_moments([x, y, depth] - self%first, 0, sets, moment)
-      parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth))
+      parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth) &
+                       + smooth_sums(self, [x, y, depth]))
       octave = 0.0_dp
       if (sets == 2) octave = [real(moment(0, 0, 0, 2) + depth*moment(0, 0, 1, 2)), &
                                -aimag(moment(1, 0, -1, 2) + depth*moment(1, 0, 0, 2)), &
                                -aimag(moment(0, 1, -1, 2) + depth*moment(0, 1, 0, 2))]
       if (present(error)) error = error_of(self, parts(zz, 1) - self%pbar_over_pstar, octave)
-      if (allocated(self%images)) parts = parts + self%images%correction([x, y, depth])
    end subroutine at
 
    !> Prepares the Taylor series (S9) about a place, unless a known one is accurate enough there.
@@ -147,7 +175,7 @@ contains
    pure real(dp) function least_width(stress)
       class(series_stress), intent(in) :: stress
 
-      least_width = pi/max(plane_points/2.0_dp, real(maxval(ubound(stress%waves%wave)), dp))
+      least_width = pi/max(plane_points/2.0_dp, maxval(ubound(stress%waves%wave)/[1.0_dp, stress%side_ratio]))
    end function least_width
 
    !> By that Taylor series.
@@ -157,9 +185,9 @@ contains
       real(dp), intent(out) :: parts(6, 2)
 
       associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
-         parts = parts_of(sums_near(known%moment(:, :, :, 1), (place - known%centre)*scale, place(3)))
+         parts = parts_of(sums_near(known%moment(:, :, :, 1), (place - known%centre)*scale, place(3)) &
+                          + smooth_sums(self, place))
       end associate
-      if (allocated(self%images)) parts = parts + self%images%correction(place)
    end subroutine near
 
    !> The sums (S4) by the Taylor series (S9) about a point.
@@ -196,6 +224,16 @@ contains
       end do
       sums([2, 4, 6, 7, 8]) = depth*sums([2, 4, 6, 7, 8])
    end function sums_near
+
+   !> The part of the sums (S4) that the waves of a surface with free edges lack.
+   pure function smooth_sums(stress, place) result(sums)
+      class(series_stress), intent(in) :: stress
+      real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
+      real(dp) :: sums(8)
+
+      sums = 0.0_dp
+      if (allocated(stress%load)) sums = stress%load%sums(place*[1.0_dp, stress%side_ratio, 1.0_dp])
+   end function smooth_sums
 
    !> The stresses from the sums (S4).
    pure function parts_of(sums) result(parts)
@@ -260,13 +298,12 @@ contains
       end do
       do i = 1, size(t)
          sums = 0.0_dp
+         sums(:8) = smooth_sums(self, [start + direction*t(i), depth])
          do m = lbound(along, 2), ubound(along, 2)
             sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
          end do
          parts(:, :, i) = parts_of(sums(:8))
          error(i) = error_of(self, parts(zz, 1, i) - self%pbar_over_pstar, sums(9:))
-         if (allocated(self%images)) parts(:, :, i) = parts(:, :, i) &
-                                                      + self%images%correction([start + direction*t(i), depth])
       end do
    end subroutine on_line
 
@@ -293,7 +330,7 @@ contains
 
       real(dp), parameter :: no_waves(6, 2) = 0.0_dp
       complex(dp), allocatable :: waves(:, :, :)
-      real(dp), allocatable :: fields(:, :, :)
+      real(dp), allocatable :: fields(:, :, :), smooth(:, :, :)
       real(dp) :: mean(6), step(2)
       type(grid_transform) :: plane
       integer :: i, k, l, number
@@ -316,12 +353,15 @@ contains
       end do
       deallocate (waves)
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      associate (scale => [1.0_dp, self%side_ratio])
+         if (allocated(self%load)) call self%load%sums_on_plane(offset*step*scale, step*scale, points, depth, smooth)
+      end associate
       do l = 1, points(2)
          do k = 1, points(1)
             stress(k, l, :) = fields(k, l, :6) + mean
+            if (allocated(self%load)) stress(k, l, :) = stress(k, l, :) &
+               + matmul(parts_of(smooth(:, k, l)), [1.0_dp, body%nu])
             error(k, l) = error_of(self, stress(k, l, zz), fields(k, l, 7:))
-            if (allocated(self%images)) stress(k, l, :) = stress(k, l, :) &
-               + matmul(self%images%correction([([k, l] - 1 + offset)*step, depth]), [1.0_dp, body%nu])
          end do
       end do
    end subroutine on_plane
@@ -341,23 +381,27 @@ contains
       real(dp) :: largest, region, step
       type(fourier_series) :: series
       type(grid_transform) :: plane
-      type(stress_waves) :: waves
+      type(stress_waves) :: all_waves, waves
       integer :: block(2), i, last, points(2), shallow
 
       step = least_width(self)
       last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
       allocate (places(3, 0), widths(0), stresses(6, 0))
       largest = 0.0_dp
-      points = points_of(self%waves, 0.0_dp)
+      all_waves = self%waves
+      if (allocated(self%whole)) all_waves = self%whole
+      points = points_of(all_waves, 0.0_dp)
       ! An even field is that of its quarter, and one with free edges has its load there.
-      region = merge(0.5_dp, 1.0_dp, self%waves%is_even .or. allocated(self%images))
+      region = merge(0.5_dp, 1.0_dp, self%waves%is_even .or. allocated(self%whole))
       shallow = -1
       if (all(points >= 4*window)) then
-         call find_pressures()
+         call find_pressures(all_waves, points, pressure)
+         pressure = pressure + self%pbar_over_pstar
+         call find_highest()
          if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
             shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
       end if
-      call scan(self%waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
+      call scan(all_waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
       if (shallow < 0) return
       call plane%start(window, even=.false., whole=.true.)
       do
@@ -412,8 +456,6 @@ contains
                                      min(floor(to*number), number - 1), depth/part(1), body, place, stress)
                do k = 1, 2
                   associate (here => [2*pi*(corner/real(points, dp) + part*place(:, k)/number), depth] + self%first)
-                     if (allocated(self%images)) stress(:, k) = stress(:, k) + matmul(self%images%correction(here), &
-                                                                                      [1.0_dp, body%nu])
                      places = reshape([places, here], [3, ubound(places, 2) + 1])
                   end associate
                   widths = [widths, max(depth, step)]
@@ -424,21 +466,30 @@ contains
          end associate
       end subroutine scan
 
-      !> The pressure at the points of the cell, and the largest ones in the middle of windows.
-      subroutine find_pressures()
-         complex(dp), allocatable :: spectrum(:, :, :)
+      !> The largest pressures in the middle of windows.
+      subroutine find_highest()
          integer :: j, seen(2)
 
-         allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
-         call plane%start(points, even=.false., whole=.true.)
-         call self%waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
-         call plane%sample_waves(spectrum(:, :, 1), pressure)
-         pressure = pressure + self%pbar_over_pstar
          seen = min(floor(region*points), points - 1)
          highest = reshape([((maxval(pressure(i:min(i + middle, seen(1)), j:min(j + middle, seen(2)))), &
                               i=0, seen(1), middle), j=0, seen(2), middle)], seen/middle + 1)
-      end subroutine find_pressures
+      end subroutine find_highest
 
    end subroutine start_places
+
+   !> The pressure of waves at points of the cell.
+   subroutine find_pressures(waves, points, pressure)
+      type(stress_waves), intent(in) :: waves
+      integer, intent(in) :: points(2)
+      real(dp), allocatable, intent(out) :: pressure(:, :)   !! shape (0:N_x - 1, 0:N_y - 1) [p*]
+
+      complex(dp), allocatable :: spectrum(:, :, :)
+      type(grid_transform) :: plane
+
+      allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
+      call plane%start(points, even=.false., whole=.true.)
+      call waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
+      call plane%sample_waves(spectrum(:, :, 1), pressure)
+   end subroutine find_pressures
 
 end module wavycon_series_stress

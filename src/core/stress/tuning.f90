@@ -48,6 +48,19 @@ module wavycon_stress_tuning
    real(dp), parameter, public :: depths_of_cell(*) = [0.03_dp, 0.07_dp, 0.12_dp, 0.2_dp]
       !! Depths over the distance of crests, where spots have merged.
 
+   ! Free edges.
+
+   real(dp), parameter, public :: shift_of_smooth = 0.05_dp
+      !! d of (S11) over the shorter side of the map. Larger: the images show in the stresses. Smaller: more forces.
+   real(dp), parameter, public :: steps_in_shift = 3.0_dp
+      !! Fewest steps of the lattice of forces in d. Smaller: the lattice shows in the stresses. Larger: more forces.
+   integer, parameter, public :: nodes = 8
+      !! Forces of a block each way. Smaller: blocks have other fields than their load. Larger: more forces.
+   real(dp), parameter, public :: whole_from = 1.75_dp
+      !! Distance from which a block is seen as a whole, over its longer side. As nodes.
+   real(dp), parameter, public :: smooth_places = 6.0_dp
+      !! Places on a plane in d and its depth. Smaller: the stresses between them are wrong. Larger: more places.
+
    ! Refinement of the largest stress.
 
    integer, parameter, public :: refined_places = 3

@@ -1,6 +1,7 @@
 !> The table of --table: a row for each load of each deck, with the columns of the summary. Its rows are read from the
 !> summaries that the runs have written.
 module wavycon_collected_table
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: read_file
    use wavycon_group_values, only: group_values
@@ -11,7 +12,9 @@ module wavycon_collected_table
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
    use wavycon_summary_tables, only: summary_columns
-   use wavycon_system, only: make_directories, path_directory, path_kind
+   use wavycon_system, only: error_text, full_path, make_directories, path_directory, path_kind, refusal_to_write
+   use wavycon_table, only: table_type
+   use wavycon_tables, only: all_tables
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
@@ -22,6 +25,9 @@ module wavycon_collected_table
    integer, parameter :: narrowest = 25
 
    integer, parameter :: longest_key_name = 49
+
+   !> How the table begins, as others do.
+   character(*), parameter :: table_mark = '# wavycon '
 
    !> A key of a deck and its value.
    type :: deck_key
@@ -35,7 +41,8 @@ module wavycon_collected_table
    !> What the table has of a deck.
    type :: collected_deck
       character(:), allocatable :: path, case    !! of the deck; its name
-      character(:), allocatable :: summary       !! path of its summary table
+      !> The absolute path of its results without '.summary.dat' and the like; not allocated for a bad deck.
+      character(:), allocatable :: stem
       logical :: is_written = .false.            !! whether that has been written by this run
       type(deck_key), allocatable :: keys(:)     !! the same of each deck
       character(:), allocatable :: units, names  !! lines of the summary
@@ -44,19 +51,38 @@ module wavycon_collected_table
 
 contains
 
-   !> Makes the directory of a table, so that a bad name is reported before decks are run. Errors: exit_file_trouble.
-   subroutine check_table_file(path, error)
+   !> Makes the directory of a table, so that a bad name is reported before decks are run. A file that is no table, such
+   !> as a deck, is not replaced, nor is a result of the run. Errors: exit_file_trouble.
+   subroutine check_table_file(path, decks, error)
       character(*), intent(in) :: path
+      class(collected_deck), intent(in) :: decks(:)   !! those that are run have a stem
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: failure
+      character(:), allocatable :: full, kind, trouble
+      integer :: d, number
+      type(table_type), allocatable :: tables(:)
 
-      call make_directories(directory_of(path), failure)
-      if (allocated(failure)) then
-         call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(failure))
-      else if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) then
-         call fatal_error(error, exit_file_trouble, escaped(path)//': the table cannot be written: this is a directory')
+      call make_directories(directory_of(path), trouble)
+      if (allocated(trouble)) then
+         call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(trouble))
+         return
       end if
+      number = refusal_to_write(path//c_null_char, table_mark//c_null_char)
+      if (number /= 0) trouble = error_text(number)
+      if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
+         trouble = 'this is a directory'
+      full = full_path(path)
+      call all_tables(tables)
+      do d = 1, size(decks)
+         if (.not. allocated(decks(d)%stem)) cycle
+         if (index(full, decks(d)%stem//'.') /= 1) cycle
+         kind = full(len(decks(d)%stem) + 2:)
+         kind = kind(:index(kind//'.', '.') - 1)
+         if (any(kind == [character(len(tables%file)) :: tables%file, 'resolved', 'checkpoint'])) &
+            trouble = 'this is a result of '//escaped(decks(d)%path)
+      end do
+      if (allocated(trouble)) &
+         call fatal_error(error, exit_file_trouble, escaped(path)//': the table cannot be written: '//trouble)
    end subroutine check_table_file
 
    !> Lists the keys of &material, &surface, &load, &stress and &method, the same for all decks. Lists of loads have no
@@ -168,7 +194,7 @@ contains
          if (all([(solved(d)%units == solved(1)%units, d=1, size(solved))])) units = solved(1)%units
       end if
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
-      call file%put('# wavycon '//version//' ('//revision//')')
+      call file%put(table_mark//version//' ('//revision//')')
       do d = 1, size(decks)
          if (.not. decks(d)%is_written) call file%put('# failed: '//escaped(decks(d)%path))
       end do
@@ -217,7 +243,7 @@ contains
       character(:), allocatable :: text
       integer :: names, rows, units   ! where they begin
 
-      call read_file(deck%summary, huge(names), text, error)
+      call read_file(deck%stem//'.summary.dat', huge(names), text, error)
       if (allocated(error)) return
       units = index(text, newline//'#', back=.true.) + 2
       names = units + index(text(units:), newline)

@@ -56,7 +56,7 @@ module wavycon_command_line
          'run N decks at a time, each in a process of its own; 1 if not given', 1, most_processes), &
       key_type(integer_value, '--threads', '1', 'N', 'work on large grids with N threads; 1 if not given', 1, &
          most_processes), &
-      key_type(logical_value, '--quiet', '.false.', '', 'write nothing but errors'), &
+      key_type(logical_value, '--quiet', '.false.', '', 'write nothing but problems'), &
       key_type(logical_value, '--version', '.false.', '', 'show the version and stop'), &
       key_type(logical_value, '--help', '.false.', '', 'show this and stop')]
 

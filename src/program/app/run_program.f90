@@ -3,18 +3,20 @@
 !> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
-   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_notes, only: outcome
+   use wavycon_plain_text, only: escaped, integer_text, newline
    use wavycon_ranks, only: comm, end_ranks, is_first_rank, rank_count, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: keep_memory, note_command, outlive_file_size_limit
+   use wavycon_system, only: error_text, full_path, keep_memory, note_command, outlive_file_size_limit, print_text, &
+      print_trouble, remove_leftovers, stack_limit
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -22,6 +24,8 @@ module wavycon_run_program
 
    public :: run_program
 
+   !> The stack that the program needs [byte]. Tables of keys take 100 kB of it, solvers less.
+   integer(int64), parameter :: least_stack = 256*1024
    !> A status from here on less this number is that of the signal that ended a process.
    integer, parameter :: signal_status = 128
    !> Jobs that may be begun beyond the first one that was not shown: each has open files, and a place in jobs.c.
@@ -63,6 +67,9 @@ contains
       integer :: i, worst
       logical :: quiet
 
+      if (stack_limit() < least_stack) call fatal_error(error, exit_file_trouble, &
+         'the limit on the stack is too low: allow '//integer_text(int(least_stack/1024))//' kB (ulimit -s)')
+      call stop_on(error)
       call use_one_thread_for_matrices()
       call keep_memory()
       call outlive_file_size_limit()
@@ -78,7 +85,7 @@ contains
       end if
       if (command_line%options%logical('--help')) text = help_text(allocated(comm))
       if (allocated(text)) then
-         if (is_first_rank()) write (output_unit, '(a)') text
+         if (is_first_rank()) call print_text(text//newline//c_null_char)
          call finish(exit_fine)
       end if
       quiet = command_line%options%logical('--quiet') .or. .not. is_first_rank()
@@ -122,7 +129,7 @@ contains
          else
             if (command_line%options%has('--table')) call list_keys(scenes(i)%scene, scenes(i)%keys)
             scenes(i)%case = scenes(i)%scene%case
-            scenes(i)%summary = scenes(i)%scene%directory//'/'//scenes(i)%case//'.summary.dat'
+            scenes(i)%stem = full_path(scenes(i)%scene%directory)//'/'//scenes(i)%case
          end if
       end do
       if (worst /= exit_fine .and. .not. command_line%options%logical('--keep-going')) call finish(worst)
@@ -131,7 +138,7 @@ contains
          if (.not. allocated(scenes(i)%scene)) cycle
          do j = 1, i - 1
             if (.not. allocated(scenes(j)%scene)) cycle
-            if (scenes(j)%summary == scenes(i)%summary) exit
+            if (scenes(j)%stem == scenes(i)%stem) exit
          end do
          if (j == i) cycle
          associate (one => scenes(j)%scene, other => scenes(i)%scene)
@@ -142,14 +149,14 @@ contains
          if (.not. command_line%options%logical('--keep-going')) call stop_on(error)
          call show(error)
          worst = max(worst, error%status)
-         deallocate (scenes(i)%scene, error)
+         deallocate (scenes(i)%scene, scenes(i)%stem, error)
       end do
    end subroutine read_decks
 
    !> Runs all scenes and writes the collected table.
    subroutine run_scenes(command_line, quiet, scenes, worst)
       type(command_line_type), intent(in) :: command_line
-      logical, intent(in) :: quiet      !! whether to write nothing but errors
+      logical, intent(in) :: quiet      !! whether to write nothing but problems
       type(scene_item), intent(inout) :: scenes(:)
       integer, intent(inout) :: worst   !! the worst exit status
 
@@ -163,10 +170,13 @@ contains
       call set_threads(command_line%options%integer('--threads'))
       with_table = .false.
       if (is_first_rank()) with_table = command_line%options%has('--table')
-      if (with_table) call check_table_file(command_line%options%text('--table'), error)
+      if (with_table) call check_table_file(command_line%options%text('--table'), scenes, error)
       call share_error(error)
       call stop_on(error)
       is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
+      do i = 1, size(scenes)
+         if (is_good(i)) call remove_leftovers(scenes(i)%scene%directory//c_null_char)
+      end do
       status = exit_bad_input
       begun = 0
       running = 0
@@ -190,9 +200,9 @@ contains
       call show(error)
       if (.not. keep_going .or. quiet) return
       call separate(size(scenes) + 1, quiet)
-      write (output_unit, '(a)') integer_text(size(scenes))//' decks: '// &
+      call print_text(integer_text(size(scenes))//' decks: '// &
          integer_text(count(status == exit_fine))//' solved, '//integer_text(count(status == exit_not_converged))// &
-         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed'
+         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed'//newline//c_null_char)
 
    contains
 
@@ -207,6 +217,9 @@ contains
          call separate(i, quiet)
          call run_scene(scenes(i)%scene, quiet, command_line%options%logical('--resume'), results, status, error)
          if (allocated(error)) status = error%status
+         ! What the log says otherwise.
+         if (status == exit_not_converged .and. quiet .and. is_first_rank()) &
+            write (error_unit, '(a)') 'wavycon: '//outcome(results)
       end subroutine run_one
 
       !> Takes the outcome of a scene that runs in a process of its own; meanwhile those of the scenes behind it are
@@ -223,7 +236,6 @@ contains
             do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
                begun = begun + 1
                if (.not. is_good(begun)) cycle
-               flush (output_unit)
                flush (error_unit)
                here = begin_job(begun)
                if (here < 0) call fatal_error(error, exit_file_trouble, &
@@ -241,7 +253,6 @@ contains
             has_ended(await_job()) = .true.
             running = running - 1
          end do
-         flush (output_unit)
          status = show_job(i)
          if (status < signal_status) return
          call fatal_error(error, exit_file_trouble, escaped(scenes(i)%path)// &
@@ -257,7 +268,7 @@ contains
       integer, intent(in) :: deck   !! number of the one that follows
       logical, intent(in) :: quiet
 
-      if (deck > 1 .and. .not. quiet) write (output_unit, '(a)') ''
+      if (deck > 1 .and. .not. quiet) call print_text(newline//c_null_char)
    end subroutine separate
 
    !> Writes the message of an error, if there is one, and ends the program with its status.
@@ -274,17 +285,22 @@ contains
       type(error_type), allocatable, intent(in) :: error
 
       if (.not. allocated(error)) return
-      flush (output_unit)
       if (is_first_rank()) write (error_unit, '(a)') 'wavycon: '//error%message
    end subroutine show
 
-   !> Ends the program with an exit status.
+   !> Ends the program with an exit status, that of file trouble if not all could be written to standard output.
    subroutine finish(status)
       integer, intent(in) :: status
 
-      flush (output_unit)
-      call end_ranks(status)
-      stop status, quiet=.true.
+      integer :: last_status
+
+      last_status = status
+      if (print_trouble() /= 0) then
+         write (error_unit, '(a)') 'wavycon: standard output: cannot be written: '//error_text(int(print_trouble()))
+         last_status = exit_file_trouble
+      end if
+      call end_ranks(last_status)
+      stop last_status, quiet=.true.
    end subroutine finish
 
 end module wavycon_run_program

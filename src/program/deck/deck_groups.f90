@@ -1,7 +1,7 @@
 !> The groups of a deck: their tables of keys, and their values, which are read from its text.
 module wavycon_deck_groups
-   use wavycon_deck_text, only: at_end, deck_text_type, is_broken_word, is_comma, is_equals, is_group, is_slash, &
-      is_word, next_token, quotes, starts_entry, token_type
+   use wavycon_deck_text, only: at_end, deck_text_type, has_curly_quote, is_broken_word, is_comma, is_equals, &
+      is_group, is_slash, is_word, next_token, quotes, starts_entry, token_type
    use wavycon_group_values, only: group_values
    use wavycon_interface_group, only: interface_keys
    use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, key_type, name_length, &
@@ -65,6 +65,7 @@ contains
 
       integer :: g, s                       ! the number of the open group's table, 0: it has none; that of a setting
       logical :: is_guessed(size(tables))   ! of a misspelt name
+      logical :: is_unknown                 ! a group, which may be any that is missing
       logical :: is_lost                    ! since a token that does not fit, which was reported
       logical :: quote_is_open              ! a quote in the open group is not closed
       type(setting_type), allocatable :: own_settings(:)
@@ -73,6 +74,7 @@ contains
       allocate (own_settings(0))
       if (present(settings)) own_settings = settings
       is_guessed = .false.
+      is_unknown = .false.
       is_lost = .false.
       quote_is_open = .false.
       do g = 1, size(tables)
@@ -113,6 +115,7 @@ contains
       ! If a quote is not closed, the '/' is likely within the quoted text: do not report it as missing.
       if (group%kind == is_group .and. token%kind == at_end .and. .not. quote_is_open) call problems%add(group%first, &
          shown(group)//" is not closed: no '/' up to the end of the deck")
+      groups%has_unknown = groups%has_unknown .or. (is_unknown .and. groups%place == 0)
 
    contains
 
@@ -136,6 +139,7 @@ contains
          if (.not. is_known) then
             call problems%add(place, unknown_group(name, tables))
             g = nearest_name(name, tables%name)
+            is_unknown = is_unknown .or. g == 0
             if (g == 0) return
          end if
          if (groups(g)%place > 0 .and. groups(g)%place <= text%own .and. .not. is_guessed(g)) then
@@ -211,9 +215,15 @@ contains
             case (is_equals)
                call problems%add(token%first, "'=' in place of a value")
             case (is_broken_word)
-               call problems%add(token%first - 1 + scan(text%content(token%first:token%last), quotes), &
-                                 'this quote is not closed on its line; within a text a quote is doubled')
+               if (has_curly_quote(text%content(token%first:token%last))) then
+                  call problems%add(token%first, 'curly quotes are no quotes here: write straight ones, '' or "')
+               else
+                  call problems%add(token%first - 1 + scan(text%content(token%first:token%last), quotes), &
+                                    'this quote is not closed on its line; within a text a quote is doubled')
+               end if
                quote_is_open = .true.
+               ! Keys may stand behind it.
+               if (g > 0) groups(g)%has_unknown = .true.
                wants_value = .false.
                is_bad = .true.
             case (is_word)
@@ -248,7 +258,8 @@ contains
          integer, intent(out) :: k          !! 0: they are not, as where the group is unknown or an option sets the key
 
          character(:), allocatable :: before
-         integer :: first, last, nearest
+         integer :: first, i, last, nearest
+         logical, allocatable :: is_given(:)
 
          k = 0
          if (g == 0) return
@@ -257,9 +268,11 @@ contains
          k = key_index(tables(g)%keys, name)
          associate (values => groups(g), names => tables(g)%keys%name)
             if (k == 0) then
-               call problems%add(place, unknown_key(name, tables(g), tables))
+               values%has_unknown = .true.
+               is_given = [(values%has(names(i)), i=1, size(names))]
+               call problems%add(place, unknown_key(name, tables(g), tables, is_given))
                ! A key that is misspelt in the deck is not reported as missing too, and the right one may follow.
-               nearest = nearest_name(name, names)
+               nearest = nearest_name(name, names, is_given)
                if (nearest == 0 .or. place > text%own) return
                if (.not. values%has(names(nearest))) call values%take(names(nearest), place)
             else if (values%has(name) .and. .not. values%is_bad(name)) then
@@ -343,24 +356,25 @@ contains
    end function unknown_group
 
    !> The message for a key that the group does not have.
-   pure function unknown_key(key, table, tables) result(words)
+   pure function unknown_key(key, table, tables, is_given) result(words)
       character(*), intent(in) :: key
       type(key_group_type), intent(in) :: table, tables(:)
+      logical, intent(in) :: is_given(:)   !! whether the group's keys are given
       character(:), allocatable :: words
 
       integer :: bracket, i
+      logical :: has_key(size(tables))
 
       bracket = index(key//'(', '(')
-      do i = 1, size(tables)
-         if (key_index(tables(i)%keys, key) == 0) cycle
-         words = key//' belongs to &'//trim(tables(i)%name)//', not to &'//trim(table%name)
-         return
-      end do
-      if (key_index(table%keys, key(:bracket - 1)) > 0) then
+      has_key = [(key_index(tables(i)%keys, key) > 0, i=1, size(tables))]
+      if (any(has_key)) then
+         words = key//' belongs to &'//listed(pack(tables%name, has_key), ' and &')//', not to &'//trim(table%name)// &
+                 did_you_mean(key, pack(table%keys%name, .not. is_given), "'", "'")
+      else if (key_index(table%keys, key(:bracket - 1)) > 0) then
          words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
       else
          words = "there is no key '"//excerpt(key)//"' in &"//trim(table%name)// &
-                 did_you_mean(key, table%keys%name, "'", "'", related_keys(key, table%keys))
+                 did_you_mean(key, table%keys%name, "'", "'", related_keys(key, table%keys), is_given)
       end if
    end function unknown_key
 

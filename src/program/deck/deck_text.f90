@@ -2,16 +2,18 @@
 !> report of problems in it. Any bytes are tokens. Options of the command line that set keys of the deck stand behind
 !> it, each as a line, so that problems with them have a place too.
 module wavycon_deck_text
+   use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_plain_text, only: character_count, escaped, integer_text, lower_case, newline
    use wavycon_problems, only: most_kept, problem_list_type
    use wavycon_ranks, only: is_first_rank, share_error, share_text
+   use wavycon_system, only: note_input
    implicit none (type, external)
    private
 
    public :: deck_text_type, problem_report, read_deck_text
-   public :: token_type, next_token, starts_entry
+   public :: token_type, has_curly_quote, next_token, starts_entry
 
    !> A place is the number of a byte of the text, counted from 1.
    type :: deck_text_type
@@ -27,7 +29,8 @@ module wavycon_deck_text
       module procedure new_deck_text
    end interface deck_text_type
 
-   !> Kinds of tokens. A group token is '&' and the name; a broken word has a quote that is not closed.
+   !> Kinds of tokens. A group token is '&' and the name; a broken word has a quote that is not closed, or begins with a
+   !> curly quote.
    integer, parameter, public :: at_end = 0, is_word = 1, is_broken_word = 2, is_equals = 3, is_comma = 4, &
       is_slash = 5, is_group = 6
 
@@ -94,6 +97,7 @@ contains
       character(:), allocatable :: content
 
       if (is_first_rank()) call read_file(path, largest, content, error)
+      call note_input(path//c_null_char)
       call share_error(error)
       if (allocated(error)) return
       if (.not. allocated(content)) content = ''
@@ -140,13 +144,17 @@ contains
    end function end_before
 
    !> Finds the end of a word: the closing quote, or the byte before the next separator. If a quote is not closed on its
-   !> line, the word is broken.
+   !> line, the word is broken. So is one that begins with a curly quote: it ends with its line.
    pure subroutine find_word_end(content, token)
       character(*), intent(in) :: content
       type(token_type), intent(inout) :: token
 
       character(1) :: quote
 
+      if (has_curly_quote(content(token%first:min(token%first + 2, len(content))))) then
+         token%last = end_before(content, token%first, line_ends)
+         return
+      end if
       token%kind = is_word
       token%last = end_before(content, token%first, word_ends//quotes)
       if (token%last == len(content)) return
@@ -162,6 +170,16 @@ contains
       end do
       token%kind = is_broken_word
    end subroutine find_word_end
+
+   !> Whether a text has a curly quote, one of U+2018 to U+201F in UTF-8.
+   pure logical function has_curly_quote(text)
+      character(*), intent(in) :: text
+
+      integer :: i
+
+      has_curly_quote = any([(text(i:i + 1) == char(226)//char(128) .and. text(i + 2:i + 2) >= char(152) .and. &
+                              text(i + 2:i + 2) <= char(159), i=1, len(text) - 2)])
+   end function has_curly_quote
 
    !> Whether a token begins an entry `key = values`: a word followed by '='.
    pure logical function starts_entry(content, token)

@@ -63,7 +63,7 @@ contains
       call values%check_relations(problems)
       if (values%has('friction')) then
          call take_ratios(values, material, problems)
-         if (.not. (values%has('tangential_load') .or. values%has('tangential_over_normal'))) &
+         if (.not. (values%has('tangential_load') .or. values%has('tangential_over_normal') .or. values%has_unknown)) &
             call values%complain(problems, 'friction', 'friction needs tangential_load or tangential_over_normal')
          if (values%has('tangential_over_normal') .and. .not. values%any_bad()) then
             if (maxval(values%reals('tangential_over_normal')) > values%real('friction')) call values%complain( &

@@ -18,6 +18,9 @@ module wavycon_load_group
 
    integer, parameter :: most_loads = 100000
 
+   !> Numbers of six digits, as those of the log, may be rounded up by this part of themselves.
+   real(dp), parameter :: rounding = 5e-6_dp
+
    !> What the lists of loads give, which are the first keys of the table.
    integer, parameter :: list_is(*) = [by_pressure, by_pressure, by_mean_gap, by_mean_gap, by_contact_area, by_yield, &
                                        by_pressure, by_approach, by_contact_area]
@@ -81,6 +84,8 @@ contains
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%complain(problems, key, &
          key//' = '//short_number(minval(loads))// &
          ' is a tension: without work_of_adhesion of &interface loads are >= 0')
+      if (with_adhesion .and. loads_by /= by_pressure) call values%complain(problems, key, key// &
+         ' is found without adhesion: with work_of_adhesion of &interface give force, mean_pressure or pbar_over_pstar')
       if (values%integer('sweep_steps') == 1 .and. abs(values%real('sweep_to') - values%real('sweep_from')) > 0) &
          call values%complain(problems, 'sweep_steps', &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
@@ -88,7 +93,7 @@ contains
 
    !> Reports loads that the surface cannot have: a mean gap above that before load, an area above the nominal one, a
    !> pressure of more than largest_pbar_over_pstar p*, a gap or an area on a flat surface, with free edges what needs
-   !> p*.
+   !> p*. The largest gap, approach or area may be rounded up.
    subroutine check_loads_of_surface(values, surface, p_star, problems)
       type(group_values), intent(in) :: values               !! of a &load group without problems
       type(surface_type), intent(in) :: surface
@@ -138,7 +143,7 @@ contains
       case default
          return
       end select
-      if (maxval(loads) > most) call values%complain(problems, key, &
+      if (maxval(loads) > (1 + rounding)*most) call values%complain(problems, key, &
          key//' = '//short_number(maxval(loads))//' is more than '//limit//'. Do the units agree?')
    end subroutine check_loads_of_surface
 
@@ -166,6 +171,8 @@ contains
       case ('contact_area')
          target = target/surface%nominal_area()
       end select
+      if (loads_by == by_mean_gap .or. loads_by == by_contact_area .or. (loads_by == by_approach .and. &
+          .not. (surface%has_hardness() .or. surface%has_free_edges))) target = min(target, 1.0_dp)
       if (loads_by /= by_pressure) return
       if (p_star <= 0.0_dp) then
          ! On a flat surface contact is full at every load.

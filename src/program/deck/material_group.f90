@@ -88,7 +88,9 @@ contains
       type(group_values), intent(in) :: material
       type(problem_list_type), intent(inout) :: problems
 
-      if (material%any_bad() .or. values%is_bad('nu')) return
+      if (material%any_bad() .or. values%has_unknown .or. values%is_bad('nu')) return
+      ! Then &material lacks nu1, which has been reported.
+      if (material%has('e1') .and. .not. material%has('nu1')) return
       if (material%has('nu1')) then
          if (values%has('nu')) call values%complain(problems, 'nu', 'nu contradicts nu1 of &material: leave it out')
          call values%set_default('nu', [material%reals('nu1'), material%reals('nu2')])

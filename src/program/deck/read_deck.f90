@@ -81,7 +81,8 @@ contains
       tables => deck_tables()
       call take_groups(text, tables, groups, problems, settings)
       do i = 1, size(tables)
-         if (tables(i)%required .and. groups(i)%place == 0 .and. (is_file .or. i /= load_number)) &
+         if (tables(i)%required .and. groups(i)%place == 0 .and. .not. groups(i)%has_unknown .and. &
+             (is_file .or. i /= load_number)) &
             call problems%add(0, 'the group &'//trim(tables(i)%name)//' ('//trim(tables(i)%meaning)//') is missing')
       end do
       scene%deck_path = text%path
@@ -130,7 +131,11 @@ contains
          before = problems%number
          call check_surface_group(values, problems)
          if (problems%number > before .or. values%any_bad()) return
-         if (values%text('kind') == 'ball') call set_ball_sides(scene, problems)
+         if (values%text('kind') == 'ball') then
+            call set_ball_sides(scene, problems)
+            ! Without sides checks of the surface would report problems that are not there.
+            if (problems%number > before .or. .not. values%in_effect('length_y')) return
+         end if
          if (labels%has('length_unit')) values%length_unit = labels%text('length_unit')
          call make_surface(values, scene%surface, scene%map, error, heights)
          if (allocated(error)) return
@@ -141,7 +146,7 @@ contains
    end subroutine read_surface
 
    !> Sets the default sides of a ball: some half axes of Hertz's contact at the largest load, or what carries it at the
-   !> hardness. If &material or &load has problems, which are reported later, they stay as they are.
+   !> hardness. If &material or &load has problems, which are reported later, they stay unknown.
    subroutine set_ball_sides(scene, problems)
       type(scene_type), intent(inout) :: scene
       type(problem_list_type), intent(inout) :: problems

@@ -2,6 +2,7 @@
 module wavycon_scene_group
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_type, text_value
+   use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
    implicit none (type, external)
    private
@@ -20,7 +21,7 @@ module wavycon_scene_group
          'One line for the log and the heads of tables.', longest=longest_name, may_be_blank=.true.), &
       key_type(text_value, 'case', "the deck's name", '', &
          'Stem of the names of the result files: '//plain_in_words//". The deck's name is that of its file "// &
-         "without '.nml'.", longest=longest_name), &
+         "without '.nml', with '_' for other characters.", longest=longest_name), &
       key_type(text_value, 'pressure_unit', "'pressure'", '', &
          "Label of the deck's unit of pressures and moduli in the heads of tables and in pictures, such as "// &
          "'MPa'. No number is converted.", longest=longest_unit), &
@@ -37,7 +38,7 @@ contains
       logical, intent(in) :: is_file   !! whether the deck is a file: the default is otherwise 'deck'
 
       character(13), parameter :: units(*) = ['pressure_unit', 'length_unit  ']
-      character(:), allocatable :: usual
+      character(:), allocatable :: name, usual
       integer :: i
 
       usual = 'deck'
@@ -48,10 +49,18 @@ contains
          if (scan(values%text(units(i)), ' []') > 0 .and. .not. values%is_bad(units(i))) call values%complain( &
             problems, units(i), trim(units(i))//" must have no blanks and no brackets, such as 'mm' or 'N/mm^2'")
       end do
+      ! One '_' for each character: bytes 128 to 191 of UTF-8 continue one.
+      name = ''
+      do i = 1, len(usual)
+         if (iachar(usual(i:i)) >= 128 .and. iachar(usual(i:i)) < 192) cycle
+         name = name//merge(usual(i:i), '_', index(name_letters, usual(i:i)) > 0)
+      end do
+      usual = name
+      if (scan(usual, '-.') == 1) usual(1:1) = '_'
       if (values%is_bad('case')) return
       if (.not. values%has('case') .and. .not. is_plain_name(usual)) then
-         call problems%add(values%place, "the deck's file name cannot serve as the name of the case ("// &
-            plain_in_words//"): give case in &scene")
+         call problems%add(values%place, "the deck's file name is too long for the name of the case, at most "// &
+            integer_text(longest_name)//' bytes: give case in &scene')
          return
       end if
       call values%set_default('case', text=usual)

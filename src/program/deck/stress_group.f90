@@ -66,11 +66,8 @@ contains
 
       logical :: has_range
 
-      if (load%has('yield') .and. values%place == 0) then
-         call load%complain(problems, 'yield', 'yield needs yield_stress in a group &stress')
-      else if (load%has('yield') .and. .not. values%has('yield_stress')) then
-         call load%complain(problems, 'yield', 'yield needs yield_stress in &stress')
-      end if
+      if (load%has('yield') .and. .not. (values%has('yield_stress') .or. values%has_unknown)) &
+         call load%complain(problems, 'yield', 'yield needs yield_stress in the group &stress')
       if (values%place == 0) return
       call values%check_relations(problems)
       has_range = values%has('depth_from') .or. values%has('depth_to') .or. values%has('depth_steps')
@@ -78,7 +75,7 @@ contains
          call values%leave_out('depth_from')
          call values%leave_out('depth_to')
          call values%leave_out('depth_steps')
-      else if (values%logical('planes') .and. .not. has_range) then
+      else if (values%logical('planes') .and. .not. (has_range .or. values%has_unknown)) then
          call values%complain(problems, 'planes', 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
       call take_ratios(values, material, problems)

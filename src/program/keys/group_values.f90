@@ -29,6 +29,8 @@ module wavycon_group_values
       character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
       character(:), allocatable :: length_unit   !! the deck's label of lengths, for &surface; empty: it gives none
       integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
+      !> Whether the group, or a group in its place, has a key that the table has not: any other may have been meant.
+      logical :: has_unknown = .false.
       type(key_entry), allocatable, private :: entries(:)   !! of the keys of the table
    contains
       procedure :: start
@@ -110,11 +112,11 @@ contains
       is_bad = self%entries(self%find(key))%is_bad
    end function is_bad
 
-   !> Whether any key is bad.
+   !> Whether any key is bad or unknown.
    pure logical function any_bad(self)
       class(group_values), intent(in) :: self
 
-      any_bad = any(self%entries%is_bad)
+      any_bad = self%has_unknown .or. any(self%entries%is_bad)
    end function any_bad
 
    !> The place at which a problem with a key is reported: that of the key or, if it is absent, of the group.
@@ -287,14 +289,15 @@ contains
 
    !> Reports required keys that are missing, keys without those that they need, keys that give the same in two ways,
    !> and keys that the selected alternative does not read. What has no effect is left out of the resolved deck: keys of
-   !> other alternatives, keys without those that they need, and defaults beside another way to give the same.
+   !> other alternatives, keys without those that they need, and defaults beside another way to give the same. What
+   !> follows from a mistake that has been reported is no problem of its own.
    !>
    !> A group with a selector has alternatives: &surface its kinds of surface, &method its solvers.
    subroutine check_relations(self, problems)
       class(group_values), intent(inout) :: self   !! the selector has its value, if it is not bad
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: choice, key, selector, who
+      character(:), allocatable :: choice, key, said, selector, who
       character(name_length), allocatable :: needs(:)
       integer :: first, i, k, place
       logical, allocatable :: lacks(:)
@@ -302,6 +305,7 @@ contains
 
       selector = trim(self%table%selector)
       choice = ''
+      said = ' '
       place = self%place
       who = '&'//trim(self%table%name)
       if (selector /= '') choice = self%text(selector)
@@ -317,9 +321,10 @@ contains
             key = trim(keys(k)%name)
             if (.not. is_own(k)) then
                call self%leave_out(key)
-               if (is_given(k)) call self%complain(problems, key, key//' is a key of '//selector//' = '// &
-                  listed(in_quotes(words_of(keys(k)%of)), ' and ')//", not of '"//choice//"'"// &
-                  did_you_mean(key, pack(keys%name, is_own .and. keys%of /= ''), "'", "'"))
+               if (is_given(k) .and. .not. self%is_bad(key)) call self%complain(problems, key, &
+                  key//' is a key of '//selector//' = '//listed(in_quotes(words_of(keys(k)%of)), ' and ')// &
+                  ", not of '"//choice//"'"// &
+                  did_you_mean(key, pack(keys%name, is_own .and. keys%of /= '' .and. .not. is_given), "'", "'"))
                cycle
             end if
             ! Those that give the same quantity: a key alone, or all ways.
@@ -327,7 +332,7 @@ contains
             if (keys(k)%way == 0) family = keys%name == key
             first = findloc(family, .true., dim=1)
             if (keys(k)%required .and. k == first .and. self%place > 0 .and. .not. any(family .and. is_given) .and. &
-                (keys(k)%of == '' .or. choice /= '')) then
+                .not. self%has_unknown .and. (keys(k)%of == '' .or. choice /= '')) then
                if (keys(k)%way == 0) then
                   call problems%add(place, who//' needs '//key//' = '//allowed_values(keys(k)))
                else
@@ -345,14 +350,16 @@ contains
                   trim(keys(first)%name)//' and '//key//' contradict each other: give one of them')
             if (keys(k)%kind == logical_value .and. .not. self%logical(key)) cycle
             do i = 1, size(needs)
-               if (lacks(i)) call self%complain(problems, key, key//' needs '//trim(needs(i))//' beside it')
+               if (.not. lacks(i) .or. self%has_unknown .or. index(said, ' '//trim(needs(i))//' ') > 0) cycle
+               call self%complain(problems, key, key//' needs '//trim(needs(i))//' beside it')
+               said = said//trim(needs(i))//' '
             end do
          end do
       end associate
 
    contains
 
-      !> Whether the deck gives a key or, of key='value', whether it has that value.
+      !> Whether the deck gives a key or, of key='value', whether it has that value or a bad one.
       logical function stands_beside(word)
          character(*), intent(in) :: word
 
@@ -362,7 +369,8 @@ contains
          if (equals == 0) then
             stands_beside = self%has(word)
          else
-            stands_beside = self%text(word(:equals - 1)) == word(equals + 2:len(word) - 1)
+            stands_beside = self%text(word(:equals - 1)) == word(equals + 2:len(word) - 1) .or. &
+                            self%is_bad(word(:equals - 1))
          end if
       end function stands_beside
 

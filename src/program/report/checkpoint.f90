@@ -11,15 +11,15 @@
 !> columns of the grids. A run that resumes reads the checkpoints of all ranks of the interrupted run, and may have any
 !> number of them itself.
 module wavycon_checkpoint
-   use, intrinsic :: iso_c_binding, only: c_null_char
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
    use wavycon_results, only: results_type
-   use wavycon_system, only: file_size, note_kept, path_absent, path_file, path_kind, process_id, remove_file, &
-      remove_when_interrupted, rename_file
+   use wavycon_system, only: end_written, file_size, note_kept, open_written, path_absent, path_file, path_kind, &
+      put_bytes, put_text, remove_file
    use wavycon_version, only: revision, version
    use wavycon_work_sharing, only: distributed_grids
    implicit none (type, external)
@@ -36,11 +36,12 @@ module wavycon_checkpoint
 
    type :: checkpoint_file
       logical :: is_complete = .false.                         !! whether all solutions added so far were written
-      integer, private :: unit = -1
+      type(c_ptr), private :: file = c_null_ptr                !! of open_written
+      logical, private :: has_name = .false.                   !! or a temporary one
       integer, private :: kept = -1                            !! solutions written; -1: not even the description
       integer, private :: loads = 0                            !! all loads of the run
       integer(int64), private :: bytes = 0                     !! written
-      character(:), allocatable, private :: name, name_now     !! final name; present name, temporary at first
+      character(:), allocatable, private :: name
    contains
       procedure :: create
       procedure :: add
@@ -89,30 +90,24 @@ contains
       type(results_type), intent(in) :: results   !! its directory exists
       logical, intent(in) :: known(:)             !! of each load: whether its solution is known
 
-      character(:), allocatable :: failure, text
-      integer :: load, status
+      character(:), allocatable :: text
+      integer :: load
 
       self%name = checkpoint_name(results)
-      self%name_now = results%scene%directory//'/.'//self%name(index(self%name, '/', back=.true.) + 1:)// &
-                      '.'//integer_text(process_id())//'.part'
       call remove_others(results)
-      call remove_when_interrupted(self%name_now//c_null_char)
-      open (newunit=self%unit, file=self%name_now, access='stream', form='unformatted', status='replace', &
-            action='write', iostat=status)
-      self%is_complete = status == 0
-      if (self%is_complete) write (self%unit, iostat=status) mark
+      self%file = open_written(self%name//c_null_char)
+      self%is_complete = .true.
+      self%bytes = len(mark)
       self%loads = size(results%loads)
       text = description(results)
+      if (put_text(self%file, mark, len(mark, c_size_t)) /= 0) call close_file(self)
       call put(self, transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64]))
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
-      if (self%is_complete) then
-         call rename_file(self%name_now, self%name, failure)
-         if (allocated(failure)) call close_file(self)
-      end if
-      if (.not. self%is_complete) call remove_file(self%name_now)
-      self%name_now = self%name
+      self%has_name = .true.
+      if (.not. self%is_complete) return
+      if (end_written(self%file, 1_c_int, 1_c_int) /= 0) call close_file(self)
    end subroutine create
 
    !> Adds a solution, if it is worth keeping.
@@ -146,27 +141,31 @@ contains
    subroutine close_file(self)
       type(checkpoint_file), intent(inout) :: self
 
-      integer :: ignored
+      integer(c_int) :: ignored
 
-      if (self%is_complete) close (self%unit, iostat=ignored)
+      if (self%is_complete) ignored = end_written(self%file, 0_c_int, 0_c_int)
       self%is_complete = .false.
    end subroutine close_file
 
-   !> Writes a record, compares the file's size, as gfortran 12 does not report a full disk, and says what an
-   !> interruption leaves from now on. Nothing is written any more once another run has replaced the file.
+   !> Writes a record and says what an interruption leaves from now on. Nothing is written any more once another run has
+   !> replaced the file, as its size shows.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
       integer(int64), intent(in) :: words(:)
 
-      integer :: status
+      integer(c_int) :: status
+      integer(c_size_t) :: bytes
 
       if (.not. self%is_complete) return
-      write (self%unit, iostat=status) size(words, kind=int64), words, checksum(words)
-      if (status == 0) flush (self%unit, iostat=status)
-      if (status == 0) then
-         inquire (unit=self%unit, pos=self%bytes)
-         self%bytes = self%bytes - 1
-         if (file_size(self%name_now) /= self%bytes) status = 1
+      bytes = bytes_of_word*size(words, kind=c_size_t)
+      self%bytes = self%bytes + bytes + 2*bytes_of_word
+      ! The status is that of all so far.
+      status = put_bytes(self%file, [bytes/bytes_of_word], int(bytes_of_word, c_size_t))
+      status = put_bytes(self%file, words, bytes)
+      status = put_bytes(self%file, [checksum(words)], int(bytes_of_word, c_size_t))
+      if (self%has_name) then
+         status = end_written(self%file, 1_c_int, 1_c_int)
+         if (file_size(self%name) /= self%bytes) status = 1
       end if
       if (status /= 0) call close_file(self)
       if (status /= 0) return

@@ -65,7 +65,7 @@ contains
          resistance = not_a_number()
          if (solution%status == no_load) then
             stiffness = 0.0_dp
-         else if (solution%is_good() .or. allocated(solution%source)) then
+         else if (solution%has_numbers()) then
             call solution%derivatives(surface, slopes)
             if (slopes%gap_slope < 0.0_dp) stiffness = [-1.0_dp, or_nan(slopes%gap_slope_error)/slopes%gap_slope] &
                                                        /slopes%gap_slope
@@ -87,37 +87,39 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(load_derivatives) :: slopes
+      type(load_derivatives) :: slopes(2)   ! at P and P*
       integer :: i
       real(dp) :: displacement(2), energy(2), of_stick(3), stiffness
 
       associate (solution => results%loads(load), setting => results%scene%interface_setting, &
                  p_star => results%scene%p_star, amplitude => results%solver%surface%amplitude)
+         call solution%derivatives(results%solver%surface, slopes(1))
          do i = 1, size(results%slip, 1)
             associate (slip => results%slip(i, load), stick => results%slip(i, load)%stick)
                stiffness = not_a_number()
                displacement = not_a_number()
                energy = not_a_number()
                of_stick = not_a_number()
-               if (stick%is_good()) then
+               if (stick%has_numbers()) then
                   of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%measures%contact_area_fraction, &
                               or_nan(stick%measures%contact_area_error)]
                   displacement = setting%friction*amplitude*or_nan(relative_displacement(solution, stick))
+                  call stick%derivatives(results%solver%surface, slopes(2))
                   if (results%traits%has_errors) then
                      energy = setting%kappa(1)*setting%friction**2*p_star*amplitude* &
-                              or_nan(cycle_energy(solution, stick))
+                              or_nan(cycle_energy(solution, stick, slopes))
                   else
                      of_stick(3) = not_a_number()
                      displacement(2) = not_a_number()
                   end if
-                  call stick%derivatives(results%solver%surface, slopes)
-                  if (slopes%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes%gap_slope)
+                  if (slopes(2)%gap_slope < 0.0_dp) stiffness = &
+                     -p_star/(setting%kappa(1)*amplitude*slopes(2)%gap_slope)
                end if
                call file%put_row([real(dp) :: load, i, results%mean_pressure(load), p_star*slip%tangential, &
                                   slip%tangential/(setting%friction*solution%pbar_over_pstar), of_stick(1), &
                                   solution%measures%contact_area_fraction, of_stick(2:), &
                                   setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, &
-                                  energy, status_code(stick%status)], [status_name(stick%status)])
+                                  energy, status_code(slip%status)], [status_name(slip%status)])
             end associate
          end do
       end associate
@@ -183,10 +185,10 @@ contains
                mean_pressure = results%scene%p_star*point%load
                numbers = not_a_number()
                if (point%exists) numbers = &
-                  [results%in_p_star([point%load, point%load_error]), mean_pressure, &
+                  [results%in_p_star([point%load, or_nan(point%load_error)]), mean_pressure, &
                    mean_pressure*surface%nominal_area(), &
-                   results%in_p_star([1.0_dp - point%approach, point%approach_error]), &
-                   surface%amplitude*point%approach, point%area, point%area_error, &
+                   results%in_p_star([1.0_dp - point%approach, or_nan(point%approach_error)]), &
+                   surface%amplitude*point%approach, point%area, or_nan(point%area_error), &
                    surface%nominal_area()*point%area, point%release_range]
                call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
                                  [merge(point_names(point%kind), 'none                ', point%exists)])

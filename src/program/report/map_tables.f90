@@ -169,7 +169,7 @@ contains
                   call fields%on_grid(map%points, map%offset, p_of_stick, u, gap)
                end associate
                do l = 1, map%points(2)
-                  if (results%slip(i, load)%stick%is_good()) then
+                  if (results%slip(i, load)%stick%has_numbers()) then
                      ! The state is 0 where the gap is open, 1 slip, 2 stick.
                      values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
                                                  p_star*p(:, l), merge(1.0_dp, 0.0_dp, p(:, l) > 0.0_dp) + &

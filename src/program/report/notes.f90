@@ -2,23 +2,25 @@
 !> should know of the solutions.
 module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_series_contact, only: paper_errors
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: is_known, or_nan
-   use wavycon_contact_status, only: converged, not_found, status_name, unresolved
+   use wavycon_contact_status, only: converged, is_good_status, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
-   use wavycon_results, only: results_type
+   use wavycon_results, only: not_a_number, results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
-   use wavycon_solution_record, only: solver_names
+   use wavycon_solution_record, only: by_beale, by_dual, solution_record, solver_names
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: show_loads, show_scene, show_stresses, sum_up
+   public :: note_loads, note_scene, outcome, show_loads, show_scene, show_stresses, sum_up
 
    !> A line that grows column by column, together with that of the names.
    type :: log_line
@@ -40,6 +42,10 @@ contains
 
       associate (scene => results%scene, surface => results%solver%surface)
          call log%say(head_lines(scene, surface, results%method, '', 'some'))
+         words = scene%deck_path(index(scene%deck_path, '/', back=.true.) + 1:)
+         if (index(words//'.nml', '.nml') > 1) words = words(:index(words//'.nml', '.nml') - 1)
+         if (.not. scene%scene_values%has('case') .and. index(scene%case, words) /= 1) call log%note( &
+            'the results have the name '//scene%case//", with '_' for characters of the deck's name")
          loads = scene%target
          words = trim(target_words(scene%loads_by))
          if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
@@ -49,10 +55,18 @@ contains
          call log%say('loads: '//integer_text(size(loads))//', '//words//' from '//short_number(minval(loads))// &
                       ' to '//short_number(maxval(loads)))
          if (results%sharing%words() /= '') call log%say('ranks: '//results%sharing%words())
-         if (allocated(scene%map)) call note_map(scene, scene%map, log)
-         call note_slopes(scene, log)
+         call note_scene(scene, log)
       end associate
    end subroutine show_scene
+
+   !> Notes what is suspicious of a scene before its loads are solved.
+   subroutine note_scene(scene, log)
+      type(scene_type), intent(in) :: scene
+      type(run_log), intent(inout) :: log
+
+      if (allocated(scene%map)) call note_map(scene, scene%map, log)
+      call note_slopes(scene, log)
+   end subroutine note_scene
 
    !> Says what is suspicious of a height map.
    subroutine note_map(scene, map, log)
@@ -66,22 +80,22 @@ contains
       character(:), allocatable :: remedies
       integer :: direction
 
-      if (map%lacks_missing_value) call log%say('note: no height of the file has the missing_value of the deck')
-      if (map%spikes > 0) call log%say('note: '//integer_text(map%spikes)//' of the heights are far from all '// &
+      if (map%lacks_missing_value) call log%note('no height of the file has the missing_value of the deck')
+      if (map%spikes > 0) call log%note(integer_text(map%spikes)//' of the heights are far from all '// &
          'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
          'surface does not. Remedy: despike = .true.')
       remedies = "edges = 'mirror', edges = 'window'"
       if (map%changes%detrend /= 'plane' .and. map%changes%detrend /= 'quadratic') &
          remedies = "detrend = 'plane', "//remedies
       do direction = 1, 2
-         if (map%is_broken_along(direction)) call log%say('note: along '//'xy'(direction:direction)// &
+         if (map%is_broken_along(direction)) call log%note('along '//'xy'(direction:direction)// &
             ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['// &
             scene%length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
             '; such steps carry load. Remedies: '//remedies)
       end do
       ! A broken border is a step between two points.
       if (map%slope_by_differences >= least_ratio*scene%roughness%slope .or. any(map%is_broken_along([1, 2]))) return
-      call log%say('note: the rms slope is '//short_number(scene%roughness%slope)// &
+      call log%note('the rms slope is '//short_number(scene%roughness%slope)// &
                    ', by differences of neighbours only '//short_number(map%slope_by_differences)// &
                    ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
                    'they make contact areas smaller')
@@ -107,16 +121,17 @@ contains
       borders = ''
       cause = 'Are amplitudes and wavelengths in one unit?'
       if (allocated(scene%map)) then
-         if (scene%map%path /= '') cause = 'Do height_scale, and the sides of the cell, suit the units of the file?'
+         if (scene%surface_values%text('kind') == 'file') &
+            cause = 'Do height_scale, and the sides of the cell, suit the units of the heights?'
          if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
       end if
-      call log%say('note: the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
+      call log%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
                    verdict//' '//cause)
    end subroutine note_slopes
 
-   !> A line for each load: mean gap, area and peak pressure, each followed by its error estimate if the solver has
-   !> them; mean and peak pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges
-   !> force, approach, area and peak pressure in the deck's units.
+   !> A line for each load: mean gap, area and peak pressure, each followed by its error estimate; mean and peak
+   !> pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges force, approach, area
+   !> and peak pressure in the deck's units.
    subroutine show_loads(results, log)
       type(results_type), intent(in) :: results   !! with a solution for each load
       type(run_log), intent(inout) :: log
@@ -142,6 +157,7 @@ contains
                          or_nan(measures%peak_pressure_over_pstar)]
                errors = or_nan(measures%errors())
             end associate
+            if (.not. results%traits%has_errors) errors = not_a_number()
             if (surface%has_free_edges) then
                approach = results%approach_over_amplitude(load)
                values(1) = approach(1)
@@ -150,7 +166,7 @@ contains
             call line%start(results, load)
             do i = 1, size(names)
                call line%add(trim(names(i)), unit(i)*values(i))
-               if (results%traits%has_errors) call line%add('error', unit(i)*errors(i))
+               call line%add('error', unit(i)*errors(i))
             end do
             if (scene%gives_modulus .and. .not. surface%has_free_edges) &
                call line%add('peak['//scene%pressure_unit//']', results%peak_pressure(load))
@@ -254,120 +270,145 @@ contains
       type(run_log), intent(inout) :: log
       integer, intent(out) :: status
 
-      character(:), allocatable :: loads
-      integer :: bad, i, without_area
-      logical :: is_measured
+      associate (scene => results%scene)
+         call note_loads(results, scene%loads_by, results%loads%solution_record, log)
+         if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
+         call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
+      end associate
+      call log%say(outcome(results))
+      status = merge(exit_fine, exit_not_converged, all(is_good_status(results%loads%status)))
+   end subroutine sum_up
 
-      loads = integer_text(size(results%loads))
-      associate (scene => results%scene, surface => results%solver%surface, all_measures => results%loads%measures)
-         call note_unresolved(results, ' of '//loads//' loads', log)
-         if (scene%loads_by == by_yield) then
-            call note(count(results%loads%status == not_found), 'for ', ' loads no mean pressure was found that '// &
-                      'brings the stresses to the given part of the yield stress')
-            if (.not. results%traits%has_errors) call log%say("note: solver = '"//scene%method%text('solver')// &
+   !> How many loads of a run were solved as requested, in a line.
+   function outcome(results) result(words)
+      type(results_type), intent(in) :: results   !! with a solution for each load
+      character(:), allocatable :: words
+
+      integer :: bad
+
+      bad = count(.not. is_good_status(results%loads%status))
+      words = results%scene%case//': all '//integer_text(size(results%loads))//' loads solved'
+      if (bad > 0) words = results%scene%case//': '//integer_text(bad)//' of '//integer_text(size(results%loads))// &
+                           ' loads NOT solved as requested, see the status column'
+   end function outcome
+
+   !> Notes what a user should know of solutions.
+   subroutine note_loads(results, loads_by, loads, log)
+      type(results_type), intent(in) :: results       !! started
+      integer, intent(in) :: loads_by                 !! how the loads were given, a name of wavycon_scene
+      type(solution_record), intent(in) :: loads(:)   !! the solutions
+      type(run_log), intent(inout) :: log
+
+      integer :: without_area
+      logical :: is_series(size(loads))
+
+      associate (scene => results%scene, surface => results%solver%surface)
+         call note_unresolved(surface, loads, log)
+         is_series = loads%solver == by_beale .or. loads%solver == by_dual
+         if (any(is_series)) call log%note( &
+            "the errors of the paper's truncated series are not estimated: with its harmonics and points they are up "// &
+            'to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
+            ' in area/A0 and '//short_number(paper_errors(3))//' in peak/p* from 0.05 to 0.9 p*, more at other '// &
+            "loads. solver = 'auto' gives digits, with error estimates")
+         call note_some(count(is_series .and. loads%measures%mean_gap_over_amplitude < 0.0_dp), &
+                        'the mean gap is below 0, where no gap can be: this is an error of the series')
+         if (loads_by == by_yield) then
+            call note_some(count(loads%status == not_found), 'no mean pressure was found that brings the '// &
+                           'stresses to the given part of the yield stress')
+            if (.not. results%traits%has_errors) call log%note("solver = '"//scene%method%text('solver')// &
                "' estimates no errors; a light load of first yield may be wrong by a factor of 2. solver = 'auto' "// &
                'estimates them')
          else
-            call note_unreached(results, log)
+            call note_unreached(loads_by, loads, log)
          end if
-         ! A map from a file that is continued periodically.
-         is_measured = allocated(scene%map) .and. surface%dimension == 2 .and. .not. surface%mirrored
-         if (is_measured) is_measured = scene%map%path /= ''
-         if (is_measured) call note(count(all_measures%load_concentration >= least_concentration), 'at ', ' of '// &
-            loads//' loads the contact is one spot, whose approach its periodic images change: '// &
-            "edges = 'free' leaves them out")
+         if (scene%surface_values%text('kind') == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
+            call note_some(count(loads%measures%load_concentration >= least_concentration), &
+            "the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
          if (surface%has_free_edges) then
-            if (any(all_measures%load_at_border > 0.0_dp)) call log%say( &
-               'note: contact reaches the border: up to '//percent(maxval(all_measures%load_at_border))// &
+            if (any(loads%measures%load_at_border > 0.0_dp)) call log%note( &
+               'contact reaches the border: up to '//percent(maxval(loads%measures%load_at_border))// &
                ' of the load is within '//percent(border)// &
                ' of the sides from it, where a larger map might carry more')
-            if (surface%has_steps) call log%say('note: a map of two heights at most is taken as blocks, the cells '// &
-               'of its points, as a punch is')
-            if (.not. all(is_known(all_measures%peak_pressure_over_pstar))) call log%say('note: where contact ends '// &
-               'at a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
-            if (surface%dimension == 1) call log%say('note: the approach of a profile with free edges is not '// &
+            if (surface%has_steps) call log%note('a map of two heights at most is taken as blocks, the cells of its '// &
+               'points, as a punch is')
+            if (.not. all(is_known(loads%measures%peak_pressure_over_pstar))) call log%note('where contact ends at '// &
+               'a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
+            if (surface%dimension == 1) call log%note('the approach of a profile with free edges is not '// &
                'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
          end if
-         without_area = count(results%loads%status == converged .and. all_measures%contact_area_fraction <= 0.0_dp)
-         if (without_area > 0) call note(without_area, 'at ', ' loads no pressure reaches edge_level = '// &
-            short_number(scene%method%real('edge_level'))//' p*, so that their contact area shows as 0')
-         if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
-         call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
-         bad = count([(.not. results%loads(i)%is_good(), i=1, size(results%loads))])
-         if (bad == 0) then
-            call log%say(scene%case//': all '//loads//' loads solved')
-         else
-            call log%say(scene%case//': '//integer_text(bad)//' of '//loads// &
-                         ' loads NOT solved as requested, see the status column')
-         end if
+         without_area = count(loads%status == converged .and. loads%measures%contact_area_fraction <= 0.0_dp)
+         call note_some(without_area, 'no pressure reaches edge_level = '// &
+            short_number(scene%method%real('edge_level'))//' p*, so that the contact area shows as 0')
       end associate
-      status = merge(exit_fine, exit_not_converged, bad == 0)
 
    contains
 
-      !> Says something of some loads, if there are any.
-      subroutine note(number, before, behind)
-         integer, intent(in) :: number
-         character(*), intent(in) :: before, behind   !! words before and behind the number
+      !> Notes what holds for some of the loads, if it does for any.
+      subroutine note_some(number, words)
+         integer, intent(in) :: number       !! of these loads
+         character(*), intent(in) :: words
 
-         if (number > 0) call log%say('note: '//before//integer_text(number)//behind)
-      end subroutine note
+         if (number > 0) call log%note('at '//integer_text(number)//' of '//integer_text(size(loads))//' loads '//words)
+      end subroutine note_some
 
-   end subroutine sum_up
+   end subroutine note_loads
 
    !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
-   subroutine note_unreached(results, log)
-      type(results_type), intent(in) :: results
+   subroutine note_unreached(loads_by, loads, log)
+      integer, intent(in) :: loads_by
+      type(solution_record), intent(in) :: loads(:)
       type(run_log), intent(inout) :: log
 
       character(:), allocatable :: limit
       integer :: last
-      logical :: is_unreached(size(results%loads))
+      logical :: is_unreached(size(loads))
 
-      is_unreached = results%loads%status == not_found .and. .not. results%loads%pbar_over_pstar > 0.0_dp
+      is_unreached = loads%status == not_found .and. .not. loads%pbar_over_pstar > 0.0_dp
       last = findloc(is_unreached, .true., dim=1, back=.true.)
       if (last == 0) return
-      associate (measures => results%loads(last)%measures)
+      associate (measures => loads(last)%measures)
          limit = ' mean gaps are above the largest that the grid shows, '// &
                  short_number(measures%mean_gap_over_amplitude)
-         if (results%scene%loads_by == by_contact_area) limit = &
+         if (loads_by == by_contact_area) limit = &
             ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
       end associate
-      call log%say('note: '//integer_text(count(is_unreached))//' of '//integer_text(size(is_unreached))// &
+      call log%note(integer_text(count(is_unreached))//' of '//integer_text(size(is_unreached))// &
          limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
          "accuracy; solver = 'fitted' has no such limit")
    end subroutine note_unreached
 
    !> Says which values have no error estimate and which are no larger than theirs, and what helps.
-   subroutine note_unresolved(results, of_loads, log)
-      type(results_type), intent(in) :: results
-      character(*), intent(in) :: of_loads       !! such as ' of 3 loads'
+   subroutine note_unresolved(surface, loads, log)
+      type(surface_type), intent(in) :: surface       !! that was solved
+      type(solution_record), intent(in) :: loads(:)
       type(run_log), intent(inout) :: log
 
+      character(:), allocatable :: of_loads
       character(32) :: values(3)
       integer :: coarse(3), i, unknown
 
       values = [character(32) :: 'the mean gap', 'the contact area', 'the peak pressure']
-      if (results%solver%surface%has_free_edges) values(1) = 'the approach'
+      if (surface%has_free_edges) values(1) = 'the approach'
+      of_loads = ' of '//integer_text(size(loads))//' loads'
       coarse = 0
       unknown = 0
-      do i = 1, size(results%loads)
-         associate (solution => results%loads(i))
+      do i = 1, size(loads)
+         associate (solution => loads(i))
             if (solution%status /= unresolved) cycle
             if (any(is_known(solution%measures%errors()))) then
-               coarse = coarse + merge(0, 1, solution%measures%are_resolved(results%solver%surface))
+               coarse = coarse + merge(0, 1, solution%measures%are_resolved(surface))
             else
                unknown = unknown + 1
             end if
          end associate
       end do
-      if (unknown > 0) call log%say('note: the errors of '//integer_text(unknown)//of_loads//' are unknown: a grid '// &
+      if (unknown > 0) call log%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: a grid '// &
          'has error estimates from 64 points a side on. Give more grid_points, or an accuracy')
       if (all(coarse == 0)) return
       do i = 1, size(values)
          values(i) = trim(values(i))//' at '//integer_text(coarse(i))
       end do
-      call log%say('note: the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
+      call log%note('the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
                    ': the error is as large as the value, or unknown. Give an accuracy, or more grid_points')
    end subroutine note_unresolved
 

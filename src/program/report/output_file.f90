@@ -1,16 +1,15 @@
-!> Result files. A file is written under a temporary name and renamed when it is complete. A table may be written to
-!> memory in place of a file: it gets columns and rows, and lines by `put` are left out.
+!> Result files, written as written_file.c says. A table may be written to memory in place of a file: it gets columns and rows, and
+!> lines by `put` are left out.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
 module wavycon_output_file
-   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char
-   use, intrinsic :: iso_fortran_env, only: int64
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: memory_table, of_words
-   use wavycon_plain_text, only: escaped, integer_text, system_words
-   use wavycon_system, only: process_id, remove_file, remove_when_interrupted, rename_file
+   use wavycon_plain_text, only: escaped, newline
+   use wavycon_system, only: end_written, error_text, open_written, put_bytes, put_text
    implicit none (type, external)
    private
 
@@ -33,12 +32,8 @@ module wavycon_output_file
    type :: output_file
       private
       type(memory_table), pointer, public :: memory => null()   !! in place of the file; exists until `finish`
-      integer :: unit = -1
-      logical :: opened = .false.
-      character(:), allocatable :: name           !! final name
-      character(:), allocatable :: working_name   !! temporary name
-      integer :: status = 0                       !! of the last statement, from iostat
-      character(200) :: message = ''              !! from iomsg
+      type(c_ptr) :: file = c_null_ptr            !! of open_written
+      character(:), allocatable :: name
       character(:), allocatable :: trouble        !! first error; not allocated if there was none
       character(:), allocatable :: names(:)       !! of the columns; not allocated if the file is no table
       logical :: has_names = .false.              !! whether the line of the names was written
@@ -67,14 +62,8 @@ contains
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
 
       self%name = directory//'/'//name
-      self%working_name = directory//'/.'//name//'.'//integer_text(process_id())//'.part'
-      call remove_when_interrupted(self%working_name//c_null_char)
-      ! As a stream, because close_file needs the number of bytes written.
-      open (newunit=self%unit, file=self%working_name, access='stream', status='replace', action='write', &
-            form=merge('unformatted', 'formatted  ', present(head)), iostat=self%status, iomsg=self%message)
-      self%opened = self%status == 0
-      if (self%opened .and. present(head)) write (self%unit, iostat=self%status, iomsg=self%message) head
-      call check(self)
+      self%file = open_written(self%name//c_null_char)
+      if (present(head)) call check(self, put_text(self%file, head, len(head, c_size_t)))
    end subroutine open_file
 
    !> Whether the file is open and no error has occurred.
@@ -90,8 +79,7 @@ contains
       character(*), intent(in) :: line
 
       if (allocated(self%trouble) .or. associated(self%memory)) return
-      write (self%unit, '(a)', iostat=self%status, iomsg=self%message) line
-      call check(self)
+      call check(self, put_text(self%file, line//newline, len(line, c_size_t) + 1))
    end subroutine put
 
    !> Writes numbers to a binary file, in the order of the array.
@@ -100,8 +88,7 @@ contains
       real(dp), intent(in), contiguous :: numbers(:, :)
 
       if (allocated(self%trouble)) return
-      write (self%unit, iostat=self%status, iomsg=self%message) numbers
-      call check(self)
+      call check(self, put_bytes(self%file, numbers, size(numbers, kind=c_size_t)*storage_size(numbers)/8))
    end subroutine put_numbers
 
    !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
@@ -195,28 +182,26 @@ contains
       call self%put(line)
    end subroutine put_row
 
-   !> Records an error of the last statement.
-   subroutine check(self)
-      type(output_file), intent(inout) :: self
+   !> Records the error of the file, if there is one.
+   subroutine check(self, number)
+      class(output_file), intent(inout) :: self
+      integer(c_int), intent(in) :: number   !! as of error_text
 
-      if (self%status /= 0) call self%note_trouble(self%message)
+      if (number /= 0) call self%note_trouble(error_text(number))
    end subroutine check
 
    !> Records an error: `finish` will report it and remove the file.
    subroutine note_trouble(self, message)
       class(output_file), intent(inout) :: self
-      character(*), intent(in) :: message   !! as from iomsg
+      character(*), intent(in) :: message
 
-      if (.not. allocated(self%trouble)) self%trouble = system_words(message)
+      if (.not. allocated(self%trouble)) self%trouble = message
    end subroutine note_trouble
 
-   !> Closes the file and renames it to its final name; after an error the file is removed instead. Errors:
-   !> exit_file_trouble.
+   !> Closes the file and gives it its name; after an error the file is removed instead. Errors: exit_file_trouble.
    subroutine finish(self, error)
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-
-      character(:), allocatable :: failure
 
       if (associated(self%memory)) then
          if (self%memory%is_full) call self%note_trouble('there is not the memory for all rows')
@@ -224,33 +209,9 @@ contains
          return
       end if
       if (allocated(self%names) .and. .not. self%has_names) call put_names(self)
-      if (self%opened) call close_file(self)
-      if (.not. allocated(self%trouble)) then
-         call rename_file(self%working_name, self%name, failure)
-         if (allocated(failure)) call self%note_trouble(failure)
-      end if
-      if (allocated(self%trouble)) then
-         if (self%opened) call remove_file(self%working_name)
+      call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
+      if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
-      end if
    end subroutine finish
-
-   !> Closes the file and compares its size with the number of bytes written.
-   !>
-   !> N.B. On a full disk neither write, flush nor close reports an error with gfortran 12: the file is only too short.
-   subroutine close_file(self)
-      type(output_file), intent(inout) :: self
-
-      integer(int64) :: bytes_there, next_byte
-
-      flush (self%unit, iostat=self%status, iomsg=self%message)
-      call check(self)
-      inquire (unit=self%unit, pos=next_byte)
-      close (self%unit, iostat=self%status, iomsg=self%message)
-      call check(self)
-      inquire (file=self%working_name, size=bytes_there)
-      if (bytes_there /= next_byte - 1) &
-         call self%note_trouble('it is cut short: the disk is full, or over a quota or a limit on file sizes')
-   end subroutine close_file
 
 end module wavycon_output_file

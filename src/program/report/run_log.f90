@@ -1,10 +1,11 @@
 !> The log of a run on standard output.
 module wavycon_run_log
-   use, intrinsic :: iso_fortran_env, only: int64, output_unit
+   use, intrinsic :: iso_c_binding, only: c_null_char
+   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_plain_text, only: integer_text, newline, short_number
    use wavycon_solver_progress, only: solver_progress
-   use wavycon_system, only: terminal_columns
+   use wavycon_system, only: print_text, terminal_columns
    implicit none (type, external)
    private
 
@@ -16,12 +17,14 @@ module wavycon_run_log
    type :: run_log
       private
       logical, public :: quiet = .false.   !! whether nothing is written
+      character(:), allocatable, public :: notes   !! those made since the start, each once: lines
       integer :: columns = 0          !! of the terminal; 0: there is none
       integer :: shown = 0            !! of them by the progress line
       integer(int64) :: started = 0, last_progress = 0, rate = 1
    contains
       procedure :: start
       procedure :: say
+      procedure :: note
       procedure :: say_timed
       procedure :: say_progress
       procedure :: is_due
@@ -47,6 +50,7 @@ contains
       logical, intent(in) :: quiet   !! whether to write nothing
 
       self%quiet = quiet
+      self%notes = ''
       self%columns = terminal_columns()
       call system_clock(self%started, self%rate)
       self%last_progress = self%started
@@ -57,15 +61,22 @@ contains
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: line
 
-      integer :: ignored
-
       if (self%quiet) return
       ! Blanks over the progress line.
-      if (self%shown > 0) write (output_unit, '(3a)', advance='no') achar(13), repeat(' ', self%shown), achar(13)
+      if (self%shown > 0) call print_text(achar(13)//repeat(' ', self%shown)//achar(13)//c_null_char)
       self%shown = 0
-      ! A closed or full standard output must not stop the run: the results go to files.
-      write (output_unit, '(a)', iostat=ignored) line
+      ! A closed or full standard output does not stop the run: the results go to files. The program's end tells of it.
+      call print_text(line//newline//c_null_char)
    end subroutine say
+
+   !> Writes a note, what a user should know, and keeps it.
+   subroutine note(self, words)
+      class(run_log), intent(inout) :: self   !! started
+      character(*), intent(in) :: words       !! one line
+
+      call self%say('note: '//words)
+      if (index(newline//self%notes, newline//words//newline) == 0) self%notes = self%notes//words//newline
+   end subroutine note
 
    !> Writes a line after the time since the start.
    subroutine say_timed(self, line)
@@ -146,8 +157,7 @@ contains
       if (.not. self%is_due()) return
       call system_clock(self%last_progress)
       width = min(len(words), self%columns - 1)
-      write (output_unit, '(3a)', advance='no') achar(13), words(:width), repeat(' ', max(0, self%shown - width))
-      flush (output_unit)
+      call print_text(achar(13)//words(:width)//repeat(' ', max(0, self%shown - width))//c_null_char)
       self%shown = width
    end subroutine say_progress
 

@@ -116,8 +116,9 @@ contains
                                details%saddle_pressure, details%saddle_pressure_error, &
                                details%energy, details%energy_error, details%perimeter, details%perimeter_error]
          call file%put_row([real(dp) :: load, solution%pbar_over_pstar, measures%mean_gap_over_amplitude, &
-                            measures%mean_gap_error, measures%contact_area_fraction, measures%contact_area_error, &
-                            measures%peak_pressure_over_pstar, measures%peak_pressure_error, numbers, &
+                            or_nan(measures%mean_gap_error), measures%contact_area_fraction, &
+                            or_nan(measures%contact_area_error), measures%peak_pressure_over_pstar, &
+                            or_nan(measures%peak_pressure_error), or_nan(numbers), &
                             details%degree, status_code(solution%status)], [status_name(solution%status)])
       end associate
    end subroutine put_details

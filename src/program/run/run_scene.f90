@@ -3,19 +3,20 @@ module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
+   use wavycon_file_bytes, only: read_file
    use wavycon_kinds, only: dp
    use wavycon_methods, only: start_solver
    use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_own_waves, only: gather_series
-   use wavycon_plain_text, only: escaped, integer_text, short_number
+   use wavycon_plain_text, only: escaped, integer_text, newline, short_number
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
-   use wavycon_system, only: has_memory_for, make_directories
+   use wavycon_system, only: full_path, has_memory_for, make_directories
    use wavycon_table, only: table_type
    use wavycon_tables, only: all_tables
    use wavycon_work_sharing, only: choose_sharing, distributed_grids
@@ -110,7 +111,7 @@ contains
       call checkpoint%create(results, known)
       call solve_loads(results, known, checkpoint, log)
       if (results%sharing%any(.not. checkpoint%is_complete)) &
-         call log%say('note: not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
+         call log%note('not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
       call log%say_timed('solved and measured')
       call show_loads(results, log)
       call write_results(results, tables, log, error)
@@ -231,7 +232,7 @@ contains
          call log%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
                       ' loads are in '//escaped(name))
       else
-         call log%say('note: there is no '//escaped(checkpoint_name(results))// &
+         call log%note('there is no '//escaped(checkpoint_name(results))// &
                       ' to resume from: all loads are solved')
       end if
       ! The digits of these loads depend on the load solved before.
@@ -244,7 +245,7 @@ contains
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: failure
+      character(:), allocatable :: failure, name, text
       type(output_file) :: file
 
       call make_directories(scene%directory, failure)
@@ -253,7 +254,14 @@ contains
                           ': the output directory cannot be made: '//escaped(failure))
          return
       end if
-      call file%open(scene%directory, scene%case//'.resolved.nml')
+      name = scene%case//'.resolved.nml'
+      ! A resolved deck may be run where it is. But its first line has the name of the deck that it was made from.
+      if (full_path(scene%directory//'/'//name) == full_path(scene%deck_path)) then
+         call read_file(scene%deck_path, huge(0), text, error)
+         if (allocated(error)) return
+         if (text(index(text, newline):) == scene%resolved_deck(index(scene%resolved_deck, newline):)//newline) return
+      end if
+      call file%open(scene%directory, name)
       call file%put(scene%resolved_deck)
       call file%finish(error)
    end subroutine prepare_directory

@@ -1,12 +1,15 @@
 !> Solves all loads of a scene and finds their largest stresses, partial slip and adhesion. Where the ranks share the
 !> loads, each solves its own and finds their stresses, and all then have the results.
 module wavycon_solve_loads
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_adhesive_curve, only: add_load, adhesive_point, follow_curve, point_names
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: is_good_status, not_accurate, unresolved
+   use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_find_load, only: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
    use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
@@ -138,7 +141,7 @@ contains
       type(run_log), intent(inout) :: log            !! shows the progress
 
       class(stress_fields), allocatable :: fields
-      integer :: body, load
+      integer :: body, load, number
       logical :: are_distributed
 
       are_distributed = results%sharing%kind == distributed_loads
@@ -149,8 +152,8 @@ contains
          do load = 1, size(results%loads)
             if (.not. results%sharing%is_own_load(load)) cycle
             call results%loads(load)%stresses(results%solver%surface, fields)
-            if (results%loads(load)%is_good() .and. .not. fields%exist) call log%say( &
-               'note: there is not enough memory for the stresses of load '//integer_text(load))
+            if (results%loads(load)%is_good() .and. .not. fields%exist) call log%note( &
+               'there is not enough memory for the stresses of load '//integer_text(load))
             do body = 1, size(setting%body)
                call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &
                                           results%shear(body, load))
@@ -159,11 +162,31 @@ contains
                                   ' loads')
          end do
       end associate
-      if (.not. are_distributed) return
-      call results%sharing%work_alone(.false.)
-      call share_stresses(results%sharing, results%von_mises)
-      call share_stresses(results%sharing, results%shear)
+      if (are_distributed) then
+         call results%sharing%work_alone(.false.)
+         call share_stresses(results%sharing, results%von_mises)
+         call share_stresses(results%sharing, results%shear)
+      end if
+      number = 0
+      do load = 1, size(results%loads)
+         if (.not. results%loads(load)%is_good() .or. .not. any(is_doubtful([results%von_mises(:, load), &
+                                                                             results%shear(:, load)]))) cycle
+         number = number + 1
+         results%loads(load)%status = merge(unresolved, not_accurate, all(results%traits%given_grid > 0))
+      end do
+      if (number > 0) call log%note('the error of the largest stress is more than half of it at '// &
+         integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
+         'grid_points')
    end subroutine find_stresses
+
+   !> Whether a largest stress is hardly known.
+   elemental logical function is_doubtful(largest)
+      type(largest_stress), intent(in) :: largest
+
+      is_doubtful = .false.
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      if (.not. ieee_is_nan(largest%error)) is_doubtful = largest%error > largest_stress_error*largest%value
+   end function is_doubtful
 
    !> Gives all ranks the largest stresses of all loads.
    subroutine share_stresses(sharing, stresses)
@@ -199,10 +222,10 @@ contains
       type(results_type), intent(inout) :: results
       type(run_log), intent(inout) :: log
 
-      integer :: i, load
+      integer :: bad, i, load
 
       associate (setting => results%scene%interface_setting)
-         if (abs(setting%beta) > 0.0_dp) call log%say('note: partial slip neglects the coupling of normal and '// &
+         if (abs(setting%beta) > 0.0_dp) call log%note('partial slip neglects the coupling of normal and '// &
             "tangential displacements of unlike bodies, Dundurs' beta = "//short_number(setting%beta))
          allocate (results%slip(size(setting%tangential), size(results%loads)))
          do load = 1, size(results%loads)
@@ -213,12 +236,15 @@ contains
                   call solve_partial_slip(results%solver, setting%friction, solution, setting%tangential(i)* &
                                           merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
                                           results%scene%interface%logical('slip_loop'), results%slip(i, load))
-                  if (results%slip(i, load)%stick%pbar_over_pstar < 0.0_dp) call log%say( &
-                     'note: under load '//integer_text(load)//' tangential load '//integer_text(i)// &
+                  if (results%slip(i, load)%slides) call log%note( &
+                     'under load '//integer_text(load)//' tangential load '//integer_text(i)// &
                      ' is more than friction times the mean pressure: the bodies slide')
                end do
             end associate
          end do
+         bad = count(.not. (results%slip%slides .or. is_good_status(results%slip%status)))
+         if (bad > 0) call log%note('partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
+            integer_text(size(results%slip))//' tangential loads, see the status column')
       end associate
    end subroutine find_slip
 
@@ -232,11 +258,14 @@ contains
       allocate (results%adhesion)
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
                  loads => results%loads%pbar_over_pstar)
+         ! Derivatives on grids take long, and their errors look like extremes.
+         results%solver%without_grids = .true.
          call follow_curve(results%solver, work, maxval(loads), curve)
          do i = 1, size(loads)
             call add_load(curve, results%solver, loads(i), i)
          end do
-         if (.not. all(curve%points%exists)) call log%say('note: '// &
+         results%solver%without_grids = .false.
+         if (.not. all(curve%points%exists)) call log%note( &
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
             ' points of the curve have no solution')
          do i = 1, size(curve%critical)

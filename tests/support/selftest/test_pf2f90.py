@@ -54,6 +54,19 @@ class Preprocessor(unittest.TestCase):
                         self.assertEqual(f"{source}:{number}", run.stderr.partition(": error: ")[0])
                         self.assertIn(words, run.stderr)
 
+    def test_driver(self):
+        """Like pFUnit's it points to the procedures that run first and last: compilers refuse what they cannot be."""
+        with tempfile.TemporaryDirectory() as folder:
+            source, target = pathlib.Path(folder, "test_x.pf"), pathlib.Path(folder, "test_x.F90")
+            source.write_text("\n".join(SOUND) + "\n")
+            subprocess.run([sys.executable, PROGRAM, source, target], check=True)
+            driver = [line.strip() for line in target.read_text().partition("\nprogram ")[2].splitlines()]
+        places = [driver.index(line) for line in (
+            "use PFUNIT_EXTRA_USE", "procedure(), pointer :: extra_initialize, extra_finalize",
+            "extra_initialize => PFUNIT_EXTRA_INITIALIZE", "extra_finalize => PFUNIT_EXTRA_FINALIZE",
+            "call extra_initialize()", "call run_test('test_x.first', &", "call extra_finalize()", "call end_tests()")]
+        self.assertEqual(sorted(places), places)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,15 +1,15 @@
-"""Files of instruments, read by SurfaceTopography."""
+"""Files of instruments, read by SurfaceTopography; files that are written."""
 import argparse
+import contextlib
 import os
 import sys
 import tempfile
-import warnings
 from pathlib import Path
 
 import numpy as np
 
 from .deck import Surface, deck_text, heights
-from .library import reals
+from .library import reals, tell
 
 
 def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
@@ -32,7 +32,7 @@ def read(file, channel: str | int | None = None, *, length_unit: str | None = No
     if x is None:
         given = {key: side for key, side in sides.items() if side is not None}
         return heights(z, length_unit=unit, **given, **keys_of_maps)
-    warnings.warn(f"{file}: this profile has unequal steps and is resampled to equal ones", stacklevel=2)
+    tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
     folder = tempfile.TemporaryDirectory(prefix="wavycon-")
     profile = Path(folder.name, "profile.txt")
     write_profile(profile, x, z)
@@ -49,7 +49,9 @@ def open_file(file, channel, unit=None):
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:
-        raise ImportError("files of instruments need SurfaceTopography: pip install 'wavycon[files]'") from error
+        is_absent = isinstance(error, ModuleNotFoundError) and error.name == "SurfaceTopography"
+        raise ImportError("files of instruments need SurfaceTopography: pip install 'wavycon[files]'" if is_absent else
+                          f"SurfaceTopography is installed, but cannot be imported: {error}") from error
     if not os.path.isfile(file):
         raise FileNotFoundError(f"{file}: there is no such file")
     try:
@@ -93,11 +95,36 @@ def choose(channels, channel):
     raise ValueError(f"there is no channel {channel!r}; there are {', '.join(map(repr, names))}")
 
 
+@contextlib.contextmanager
+def written(path, begin=b"", *inputs):
+    """A binary file that takes the place of `path` when it is complete. It replaces no input, no directory and no file
+    that begins in another way; a pipe or a device is written into. Errors: OSError."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        with open(path, "wb") as file:
+            yield file
+        return
+    if os.path.exists(path):
+        with open(path, "rb") as file:
+            start = file.read(len(begin))
+        if start not in (begin, b"") or any(os.path.samefile(path, one) for one in inputs):
+            raise FileExistsError(f"{path}: this is another file than would be written; it is not replaced")
+    folder, name = os.path.split(os.path.realpath(path))
+    part = os.path.join(folder, f".{name}.{os.getpid()}.part")
+    try:
+        with open(part, "xb") as file:
+            yield file
+        os.replace(part, os.path.join(folder, name))
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(part)
+        raise
+
+
 def write_profile(path, x, z):
     np.savetxt(path, np.column_stack([x, z]), fmt="%.17g")
 
 
-def write_gsf(path, z, sides, unit):
+def write_gsf(file, z, sides, unit):
     """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32. The
     heights are written over their mean, which may be so large that float32 does not tell them apart."""
     head = "Gwyddion Simple Field 1.0\n"
@@ -105,7 +132,7 @@ def write_gsf(path, z, sides, unit):
              "XYUnits": unit, "ZUnits": unit}
     head += "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
     head = head.encode()
-    Path(path).write_bytes(head + bytes(4 - len(head) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
+    file.write(head + bytes(4 - len(head) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
 
 
 def convert(arguments=None) -> None:
@@ -124,15 +151,18 @@ def convert(arguments=None) -> None:
         kind, rows = Path(given.map).suffix, np.atleast_2d(z)
         if kind == ".txt" and len(rows) == 1:
             step = (sides["length_x"] or 1)/z.size
-            write_profile(given.map, np.arange(z.size)*step if x is None else x, z)
+            with written(given.map, b"", given.file) as file:
+                write_profile(file, np.arange(z.size)*step if x is None else x, z)
         elif x is not None:
             raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")
         elif kind == ".npy":
-            np.save(given.map, z)
+            with written(given.map, b"\x93NUMPY", given.file) as file:
+                np.save(file, z)
         elif kind == ".gsf" and sides["length_x"] is None:
             raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
         elif kind == ".gsf":
-            write_gsf(given.map, rows, sides, unit)
+            with written(given.map, b"Gwyddion", given.file) as file:
+                write_gsf(file, rows, sides, unit)
         else:
             raise ValueError(f"{given.map}: the name must end in .gsf or .npy, of a profile also in .txt")
     except (ImportError, OSError, ValueError) as error:

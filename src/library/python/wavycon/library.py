@@ -6,6 +6,7 @@ import functools
 import json
 import sys
 import threading
+import warnings
 from ctypes import CDLL, CFUNCTYPE, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
 
@@ -39,6 +40,10 @@ lib.wavycon_get_message.restype = c_size_t
 functions = {name: getattr(lib, "wavycon_" + name) for name in FUNCTIONS}
 for _name, (_result, _arguments) in FUNCTIONS.items():
     functions[_name].restype, functions[_name].argtypes = _result, [POINTER, *_arguments]
+
+
+class Note(UserWarning):
+    """What the program notes of a surface, a load or a table."""
 
 
 class Handle:
@@ -82,6 +87,16 @@ def text(thing, name):
     buffer = create_string_buffer(call("get_text", thing, name.encode(), None, 0))
     call("get_text", thing, name.encode(), buffer, len(buffer))
     return buffer.value.decode()
+
+
+def tell(notes):
+    """Warns of notes, at the line that called this package; returns them."""
+    frame, level = sys._getframe(), 1
+    while frame.f_globals.get("__package__") == __package__ and frame.f_back:
+        frame, level = frame.f_back, level + 1
+    for note in notes:
+        warnings.warn(note, Note, level)
+    return notes
 
 
 def table(solution, name, load):

@@ -2,6 +2,7 @@
 import importlib.metadata
 import itertools
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -32,12 +33,12 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
     list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless given.
     directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
 
-    Returns a frame of pandas: a row for each run and load, with the values, the columns of the summary, and message. A
-    run that failed is a row with the status 'failed' and the message of the program.
+    Returns a frame of pandas: a row for each run and load, with the values, the columns of the summary, and message, what
+    the program notes of the run. A run that failed is a row with the status 'failed' and the message of the program.
     """
     import pandas
     combinations = [dict(zip(values, one)) for one in itertools.product(*values.values())]
-    command = [program(), os.fspath(deck), "--quiet"]
+    command = [program(), os.fspath(deck)]
     running: set = set()
     with tempfile.TemporaryDirectory() as own:
         def run(number):
@@ -45,10 +46,11 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
             sets = [f"--set={key}={value_text(value)}" for key, value in settings.items()]
             output = Path(directory or own, "" if directory else str(number))
             with subprocess.Popen([*command, *sets, f"--output={output}", f"--table={table}"], text=True,
-                                  errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                  errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE) as process:
                 running.add(process)
-                message = process.communicate()[1].strip()
+                log, message = process.communicate()
+                message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             running.discard(process)
             if table.exists():
                 names, *lines = [line.split() for line in table.read_text().splitlines() if not line.startswith("#")]

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import library, pictures
 from .deck import Surface, deck_text, sort_keys, value_text
+from .files import written
 from .library import address, call, keys, reals
 
 FACTS = ("e_star", "p_star", "amplitude", "length_x", "length_y", "points_x", "points_y", "dimension")
@@ -23,8 +24,8 @@ class Result:
     """One solved load. The columns of the summary table are its attributes, such as mean_pressure, mean_gap,
     contact_area_fraction, contact_area_fraction_error, status; outputs/README.md describes them."""
 
-    def __init__(self, load, facts, tables, solution=None):
-        self._load, self._facts, self._tables, self._solution = load, facts, tables, solution
+    def __init__(self, load, facts, tables, solution=None, scene=None):
+        self._load, self._facts, self._tables, self._solution, self._scene = load, facts, tables, solution, scene
 
     def __getattr__(self, name):
         if name.startswith("_") or name not in (summary := self.table("summary")).dtype.names:
@@ -46,6 +47,8 @@ class Result:
         if name not in self._tables:
             self._tables[name], units = library.table(self._live(name), name, self._load)
             self._facts["units"].update(units)
+            if name != "summary":
+                note_news(self._scene, self._facts)
         return self._tables[name]
 
     def _live(self, what):
@@ -121,8 +124,9 @@ class Result:
 class Results(Sequence):
     """The solved loads, in the order in which they were given. Columns of the summary table are arrays over the loads,
     such as results.contact_area_fraction. Facts of the scene: e_star, p_star [pressure], amplitude (Delta), length_x,
-    length_y [length], points_x, points_y, dimension, method, why_chosen, pressure_unit, length_unit, and deck, the text
-    of the deck that the program runs to the same numbers."""
+    length_y [length], points_x, points_y, dimension, method, why_chosen, pressure_unit, length_unit, deck, the text of
+    the deck that the program runs to the same numbers, and notes, a list of what the program's log notes of the surface,
+    the loads and the tables; each was also a warning, wavycon.Note."""
 
     def __init__(self, loads, facts):
         self._loads, self._facts = loads, facts
@@ -160,12 +164,18 @@ class Results(Sequence):
     plot = pictures.plot
 
     def save(self, file, fields: bool = True) -> None:
-        """Saves the summary, all tables that were asked for and, unless told not to, the fields to an .npz file."""
+        """Saves the summary, all tables that were asked for and, unless told not to, the fields to an .npz file. It appears
+        whole or not at all, and replaces no other kind of file."""
         self.table("summary")
         arrays = {f"{load._load}/{name}": rows for load in self for name, rows in load._tables.items()}
         if fields:
             arrays |= {f"{load._load}/fields/{name}": values for load in self for name, values in load._fields.items()}
-        np.savez(file, facts=json.dumps(self._facts), **arrays)
+        if hasattr(file, "write"):
+            place = contextlib.nullcontext(file)
+        else:
+            place = written(os.fspath(file) + ("" if os.fspath(file).endswith(".npz") else ".npz"), b"PK")
+        with place as opened:
+            np.savez(opened, facts=json.dumps(self._facts), **arrays)
 
 
 def load(file) -> Results:
@@ -190,13 +200,17 @@ def solve(surface: Surface, *, keep_fields: bool = True, **options) -> Results:
     so on; groups as dictionaries, such as stress={"nu": 0.3}. wavycon.keys() has all. The solver is 'auto' unless one
     is given. keep_fields: False for results without fields, contours and stresses, which are smaller.
 
-    A load that cannot be solved as requested has a status. What is wrong in the options is a ValueError. Ctrl-C ends a
-    solve in the main thread.
+    A load that cannot be solved as requested has a status. What is wrong in the options is a ValueError. What a user
+    should know of the surface and the results is a warning, Note, and in the results' notes. Ctrl-C ends a solve in the
+    main thread.
     """
     if not isinstance(surface, Surface):
         raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}")
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
-    groups["scene"] = {"length_unit": surface.length_unit, **groups["scene"]}
+    unit = groups["scene"].setdefault("length_unit", surface.length_unit)
+    if surface.length_unit not in (None, unit):
+        raise ValueError(f"the lengths of this surface are in {surface.length_unit}, and length_unit={unit!r} would only "
+                         "rename them: leave it out, or give it to the function that made the surface")
     if not groups.get("load"):
         raise ValueError(f"there is no load: give one of {', '.join(keys()['load'])}")
     rows, columns = (0, 0) if surface.heights is None else surface.heights.shape
@@ -216,14 +230,21 @@ def run(deck, set: Mapping = MappingProxyType({}), *, keep_fields: bool = True) 
 
 def _solve_all(scene):
     """Solves the loads of a scene in the order of the program, whose digits they have."""
-    facts = {"units": {}, **{name: library.number(scene, name) for name in FACTS},
+    facts = {"units": {}, "notes": [], **{name: library.number(scene, name) for name in FACTS},
              **{name: library.text(scene, text) for name, text in WORDS.items()}}
     loads = {}
     with _stopped_by_ctrl_c(scene) as stopped:
         for number in map(int, library.text(scene, "order").split()):
             if not stopped:
-                loads[number] = Result(number, facts, {}, call("solve_load", scene, number - 1))
+                loads[number] = Result(number, facts, {}, call("solve_load", scene, number - 1), scene)
+    note_news(scene, facts)
     return Results([loads[number] for number in sorted(loads)], facts)
+
+
+def note_news(scene, facts):
+    """Warns of what the library notes of a scene, and adds it to the notes, unless it is there."""
+    news = [note for note in library.text(scene, "notes").splitlines() if note not in facts["notes"]]
+    facts["notes"] += library.tell(news)
 
 
 @contextlib.contextmanager

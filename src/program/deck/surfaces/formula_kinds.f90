@@ -32,7 +32,7 @@ contains
       call values%set_default('length_y', values%reals('length_x'))
       call values%set_default('waves_y', 0*values%reals('waves_x'))
       call values%set_default('phases', 0*values%reals('amplitudes'))
-      if (values%any_bad()) return
+      if (values%any_bad() .or. .not. values%has('amplitudes')) return
       number = size(values%reals('amplitudes'))
       do i = 1, size(lists)
          key = trim(lists(i))

@@ -1,0 +1,215 @@
+!> The smooth part of the stresses below a pressure that nothing repeats, that of a surface with free edges: equations
+!> (S11), (S12) of README.md in this directory.
+!>
+!> The load is a lattice of point forces. From afar, blocks of them are replaced by fewer forces with the same field: a
+!> tree of blocks, all with the same number of forces, each with two blocks of half its length in it.
+module wavycon_load_tree
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_stress_tuning, only: nodes, smooth_places, whole_from
+   implicit none (type, external)
+   private
+
+   public :: load_tree, plant_load_tree
+
+   !> The number of shifted depths of (S11), and their factors.
+   integer, parameter :: order = 4
+   real(dp), parameter :: factors(order) = [4.0_dp, -6.0_dp, 4.0_dp, -1.0_dp]
+
+   type :: tree_level
+      real(dp), allocatable :: force(:, :)   !! [p* rad^2]; blocks are `nodes` forces wide, each way
+      real(dp) :: step(2) = 0.0_dp           !! of the forces [rad of x]
+      integer :: way = 1                     !! along which a block has two blocks of the level below, 1: x, 2: y
+   end type tree_level
+
+   type :: load_tree
+      private
+      real(dp) :: shift = 0.0_dp             !! d of (S11) [rad of x]
+      real(dp) :: corner(2) = 0.0_dp         !! of the first block [rad of x]
+      type(tree_level), allocatable :: levels(:)
+   contains
+      procedure :: left_out
+      procedure :: sums
+      procedure :: sums_on_plane
+   end type load_tree
+
+contains
+
+   !> Makes the tree of a lattice of pressures.
+   pure subroutine plant_load_tree(tree, pressure, first, step, shift)
+      type(load_tree), intent(out) :: tree
+      real(dp), intent(in) :: pressure(:, :)   !! [p*]
+      real(dp), intent(in) :: first(2)         !! place of the first of them, x and y [rad of x]
+      real(dp), intent(in) :: step(2)          !! of the lattice, at most a third of the shift
+      real(dp), intent(in) :: shift            !! d of (S11)
+
+      real(dp), allocatable :: below(:, :)
+      real(dp) :: weight(nodes, 2*nodes)
+      integer :: blocks(2), i, k
+
+      tree%shift = shift
+      tree%corner = first - 0.5_dp*step
+      weight = reshape([(lagrange(0.5_dp*i + 0.25_dp, nodes), i=1, 2*nodes)], shape(weight))
+      blocks = (shape(pressure) + nodes - 1)/nodes
+      allocate (tree%levels(1 + sum(bit_size(blocks) - leadz(blocks - 1))))
+      allocate (tree%levels(1)%force(nodes*blocks(1), nodes*blocks(2)), source=0.0_dp)
+      tree%levels(1)%force(:size(pressure, 1), :size(pressure, 2)) = pressure*product(step)
+      tree%levels(1)%step = step
+      do k = 2, size(tree%levels)
+         associate (level => tree%levels(k), way => tree%levels(k)%way)
+            level%step = tree%levels(k - 1)%step
+            way = minloc(level%step, dim=1, mask=blocks > 1)
+            level%step(way) = 2*level%step(way)
+            below = tree%levels(k - 1)%force
+            if (way == 2) below = transpose(below)
+            blocks(way) = (blocks(way) + 1)/2
+            allocate (level%force(nodes*blocks(way), size(below, 2)))
+            do i = 1, blocks(way)
+               associate (last => min(2*nodes, size(below, 1) - 2*nodes*(i - 1)))
+                  level%force(nodes*(i - 1) + 1:nodes*i, :) = &
+                     matmul(weight(:, :last), below(2*nodes*(i - 1) + 1:2*nodes*(i - 1) + last, :))
+               end associate
+            end do
+            if (way == 2) level%force = transpose(level%force)
+         end associate
+      end do
+   end subroutine plant_load_tree
+
+   !> Lagrange's polynomials of the nodes 1, 2 .. n at a place.
+   pure function lagrange(place, n) result(weight)
+      real(dp), intent(in) :: place
+      integer, intent(in) :: n
+      real(dp) :: weight(n)
+
+      integer :: a, b, others(n - 1)
+
+      do a = 1, n
+         others = [(b, b=1, a - 1), (b, b=a + 1, n)]
+         weight(a) = product((place - others)/(a - others))
+      end do
+   end function lagrange
+
+   !> The factor of a wave in what the smooth part leaves out, (S11).
+   elemental real(dp) function left_out(self, q)
+      class(load_tree), intent(in) :: self
+      real(dp), intent(in) :: q   !! [1/rad of x]
+
+      left_out = (1.0_dp - exp(-q*self%shift))**order
+   end function left_out
+
+   !> The sums (S4) of the smooth part.
+   pure function sums(self, place)
+      class(load_tree), intent(in) :: self
+      real(dp), intent(in) :: place(3)   !! x, y, Z [rad of x]
+      real(dp) :: sums(8)
+
+      sums = 0.0_dp
+      call add_block(self, size(self%levels), [0, 0], place, sums)
+      sums = sums/(2*pi)
+   end function sums
+
+   !> The same on a plane: at fewer places if the smooth part varies less than the plane's points show, and from those
+   !> by Lagrange's polynomials.
+   pure subroutine sums_on_plane(self, first, step, points, depth, sums)
+      class(load_tree), intent(in) :: self
+      real(dp), intent(in) :: first(2), step(2)   !! first point, and distance of points along x and y [rad of x]
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: depth               !! Z [rad of x]
+      real(dp), allocatable, intent(out) :: sums(:, :, :)   !! shape (8, N_x, N_y)
+
+      real(dp), allocatable :: at_few(:, :, :)
+      real(dp) :: few_step(2)
+      integer :: before(2), few(2), i, k, l
+
+      few_step = (depth + self%shift)/smooth_places
+      few = ceiling(step*(points - 1)/few_step) + nodes
+      before = merge(nodes/2 - 1, 0, few < points)
+      few_step = merge(few_step, step, few < points)
+      few = min(few, points)
+      allocate (at_few(8, few(1), few(2)), sums(8, points(1), points(2)))
+      do l = 1, few(2)
+         do k = 1, few(1)
+            at_few(:, k, l) = self%sums([first + ([k, l] - 1 - before)*few_step, depth])
+         end do
+      end do
+      do i = 1, 8
+         sums(i, :, :) = matmul(transpose(weights(1)), matmul(at_few(i, :, :), weights(2)))
+      end do
+
+   contains
+
+      !> Of the fewer places along a way at the points.
+      pure function weights(way) result(weight)
+         integer, intent(in) :: way
+         real(dp) :: weight(few(way), points(way)), place
+         integer :: from, k, n
+
+         weight = 0.0_dp
+         n = min(nodes, few(way))
+         do k = 1, points(way)
+            place = 1 + before(way) + (k - 1)*step(way)/few_step(way)
+            from = max(0, min(floor(place) - n/2, few(way) - n))
+            weight(from + 1:from + n, k) = lagrange(place - from, n)
+         end do
+      end function weights
+
+   end subroutine sums_on_plane
+
+   !> Adds what a block, as a whole or by the blocks in it, causes.
+   pure recursive subroutine add_block(tree, number, block, place, sums)
+      type(load_tree), intent(in) :: tree
+      integer, intent(in) :: number     !! of the level
+      integer, intent(in) :: block(2)   !! from 0
+      real(dp), intent(in) :: place(3)
+      real(dp), intent(inout) :: sums(8)
+
+      real(dp) :: distance, from_corner(2)
+      integer :: a, b, i, lower(2)
+
+      associate (level => tree%levels(number), first => nodes*block)
+         if (any(first >= shape(level%force))) return
+         associate (force => level%force(first(1) + 1:first(1) + nodes, first(2) + 1:first(2) + nodes))
+            if (all(abs(force) <= 0.0_dp)) return
+            from_corner = place(:2) - tree%corner - first*level%step
+            distance = norm2([from_corner - 0.5_dp*nodes*level%step, place(3) + tree%shift])
+            if (number > 1 .and. distance < whole_from*nodes*maxval(level%step)) then
+               do i = 0, 1
+                  lower = block
+                  lower(level%way) = 2*block(level%way) + i
+                  call add_block(tree, number - 1, lower, place, sums)
+               end do
+               return
+            end if
+            do b = 1, nodes
+               do a = 1, nodes
+                  sums = sums + force(a, b)*of_force(from_corner - ([a, b] - 0.5_dp)*level%step, place(3), tree%shift)
+               end do
+            end do
+         end associate
+      end associate
+   end subroutine add_block
+
+   !> The sums (S4) of a unit force at the shifted depths, times 2 pi: (S12).
+   pure function of_force(r, z, shift) result(sums)
+      real(dp), intent(in) :: r(2)    !! x, y from the force
+      real(dp), intent(in) :: z       !! depth
+      real(dp), intent(in) :: shift   !! d
+      real(dp) :: sums(8)
+
+      real(dp) :: c3, c5, depth, rho, s, t
+      integer :: j
+
+      sums = 0.0_dp
+      do j = 1, order
+         depth = z + j*shift
+         rho = sqrt(r(1)**2 + r(2)**2 + depth**2)
+         c3 = factors(j)/rho**3
+         c5 = 3*c3/rho**2
+         s = factors(j)/(rho*(rho + depth))
+         t = c3/(rho + depth) + s/(rho*(rho + depth))
+         sums = sums + [depth*c3, z*(c5*depth**2 - c3), s - r(1)**2*t, z*(c3 - c5*r(1)**2), -r(1)*r(2)*t, &
+                        -z*c5*r(1)*r(2), -z*c5*depth*r(1), -z*c5*depth*r(2)]
+      end do
+   end function of_force
+
+end module wavycon_load_tree

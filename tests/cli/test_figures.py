@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""No figure is cut off on a machine whose only faces are DejaVu's, which are wider than Times.
+
+usage: test_figures.py --program WAVYCON [unittest's options]
+
+The long test, Figures.every_figure_in_every_format, runs only if it is named.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+from ink import dejavu_alone, inked_borders
+from program import ProgramTest, main, skip
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FORMATS = "png", "svg", "pdf"
+
+
+class Figures(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        """The scripts write into the tree that they stand in: a copy of it."""
+        super().setUpClass()
+        for name in "scripts", "inputs", "outputs/reference":
+            shutil.copytree(ROOT/name, cls.folder/name)
+        # Without DejaVu the machine's own faces are tried.
+        cls.variables = {**(dejavu_alone(cls.folder) or os.environ), "WAVYCON": cls.program}
+
+    def check(self, *figures, formats=("png",)):
+        for figure in figures:
+            for form in formats:
+                # The tables of the first format are drawn again in the others: no program runs.
+                variables = self.variables if form == formats[0] else {**self.variables, "WAVYCON": "true"}
+                with self.subTest(figure=figure, format=form):
+                    done = subprocess.run([self.folder/"scripts"/f"{figure}.sh", "--format", form], env=variables,
+                                          capture_output=True, text=True, check=False)
+                    self.assertEqual((0, ""), (done.returncode, done.stderr))
+                    picture = pathlib.Path(done.stdout.strip())
+                    self.assertEqual(self.folder/"outputs"/"figures"/f"{figure}.{form}", picture)
+                    if form == "png":
+                        self.assertEqual([], inked_borders(picture))
+
+    def test_some(self):
+        self.check("fig03", "fig04")
+
+    def every_figure_in_every_format(self):
+        figures = re.search("^for figure in (.*); do", (ROOT/"scripts"/"figures").read_text(encoding="utf-8"), re.M)[1]
+        self.check(*figures.split(), formats=FORMATS)
+
+
+if __name__ == "__main__":
+    if not shutil.which("gnuplot"):
+        skip("gnuplot is not installed")
+    main()
