@@ -5,7 +5,7 @@ module wavycon_notes
    use wavycon_series_contact, only: paper_errors
    use wavycon_constants, only: pi
    use wavycon_contact_measures, only: is_known, or_nan
-   use wavycon_contact_status, only: converged, is_good_status, not_found, status_name, unresolved
+   use wavycon_contact_status, only: converged, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
@@ -270,13 +270,16 @@ contains
       type(run_log), intent(inout) :: log
       integer, intent(out) :: status
 
+      integer :: load
+
       associate (scene => results%scene)
          call note_loads(results, scene%loads_by, results%loads%solution_record, log)
          if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
          call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
       end associate
       call log%say(outcome(results))
-      status = merge(exit_fine, exit_not_converged, all(is_good_status(results%loads%status)))
+      status = exit_fine
+      if (.not. all([(results%is_solved(load), load=1, size(results%loads))])) status = exit_not_converged
    end subroutine sum_up
 
    !> How many loads of a run were solved as requested, in a line.
@@ -284,9 +287,9 @@ contains
       type(results_type), intent(in) :: results   !! with a solution for each load
       character(:), allocatable :: words
 
-      integer :: bad
+      integer :: bad, load
 
-      bad = count(.not. is_good_status(results%loads%status))
+      bad = count([(.not. results%is_solved(load), load=1, size(results%loads))])
       words = results%scene%case//': all '//integer_text(size(results%loads))//' loads solved'
       if (bad > 0) words = results%scene%case//': '//integer_text(bad)//' of '//integer_text(size(results%loads))// &
                            ' loads NOT solved as requested, see the status column'

@@ -1,11 +1,12 @@
 !> The data that the tables of one scene are written from, and the header lines that all tables have.
 module wavycon_results
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_adhesive_curve, only: adhesive_curve
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: status_name
+   use wavycon_contact_status, only: is_good_status, not_accurate, status_name, unresolved
+   use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
@@ -45,6 +46,8 @@ module wavycon_results
       procedure :: approach_over_amplitude
       procedure :: mean_pressure
       procedure :: peak_pressure
+      procedure :: stress_status
+      procedure :: is_solved
    end type results_type
 
 contains
@@ -92,6 +95,43 @@ contains
          return
       end do
    end function unit_in_words
+
+   !> The status of the largest stresses of a load in a body: that of the load or, where an error is more than half of
+   !> its stress, `unresolved` on a given grid and `not_accurate` otherwise.
+   pure integer function stress_status(self, load, body) result(status)
+      class(results_type), intent(in) :: self      !! with largest stresses
+      integer, intent(in) :: load, body            !! numbers in the deck's order
+
+      status = self%loads(load)%status
+      if (.not. is_good_status(status)) return
+      if (.not. (is_doubtful(self%von_mises(body, load)) .or. is_doubtful(self%shear(body, load)))) return
+      status = not_accurate
+      if (all(self%traits%given_grid > 0)) status = unresolved
+   end function stress_status
+
+   !> Whether a largest stress is hardly known.
+   pure logical function is_doubtful(largest)
+      type(largest_stress), intent(in) :: largest
+
+      is_doubtful = .false.
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      if (.not. ieee_is_nan(largest%error)) is_doubtful = largest%error > largest_stress_error*largest%value
+   end function is_doubtful
+
+   !> Whether a load, its largest stresses and its partial slip were solved as requested, as far as the deck asks for
+   !> them.
+   pure logical function is_solved(self, load)
+      class(results_type), intent(in) :: self
+      integer, intent(in) :: load    !! number in the deck's order
+
+      integer :: body
+
+      is_solved = is_good_status(self%loads(load)%status)
+      if (allocated(self%von_mises)) is_solved = is_solved .and. &
+         all([(is_good_status(self%stress_status(load, body)), body=1, size(self%von_mises, 1))])
+      if (allocated(self%slip)) is_solved = is_solved .and. &
+         all(self%slip(:, load)%slides .or. is_good_status(self%slip(:, load)%status))
+   end function is_solved
 
    !> Begins the block of a load with a comment and the names of the columns.
    subroutine begin_block(self, file, load)

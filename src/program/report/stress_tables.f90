@@ -72,7 +72,7 @@ contains
 
       do body = 1, size(results%scene%stress_setting%body)
          associate (setting => results%scene%stress_setting, yielding => results%von_mises(body, load), &
-                    shear => results%shear(body, load))
+                    shear => results%shear(body, load), status => results%stress_status(load, body))
             ratio = not_a_number()
             if (allocated(setting%yield_stress)) &
                ratio = setting%over_yield_stress(body, [yielding%value, yielding%error], [shear%value, shear%error])
@@ -80,7 +80,7 @@ contains
                                results%in_p_star([results%loads(load)%pbar_over_pstar, yielding%value, &
                                                   yielding%error, shear%value, shear%error]), ratio, &
                                results%mean_pressure(load), in_units(yielding), in_units(shear), &
-                               status_code(results%loads(load)%status)], [status_name(results%loads(load)%status)])
+                               status_code(status)], [status_name(status)])
          end associate
       end do
 

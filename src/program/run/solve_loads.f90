@@ -1,15 +1,13 @@
 !> Solves all loads of a scene and finds their largest stresses, partial slip and adhesion. Where the ranks share the
 !> loads, each solves its own and finds their stresses, and all then have the results.
 module wavycon_solve_loads
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_adhesive_curve, only: add_load, adhesive_point, follow_curve, point_names
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_status, only: is_good_status, not_accurate, unresolved
-   use wavycon_contact_tuning, only: largest_stress_error
+   use wavycon_contact_status, only: is_good_status
    use wavycon_find_load, only: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
    use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
@@ -169,24 +167,13 @@ contains
       end if
       number = 0
       do load = 1, size(results%loads)
-         if (.not. results%loads(load)%is_good() .or. .not. any(is_doubtful([results%von_mises(:, load), &
-                                                                             results%shear(:, load)]))) cycle
-         number = number + 1
-         results%loads(load)%status = merge(unresolved, not_accurate, all(results%traits%given_grid > 0))
+         if (any([(results%stress_status(load, body), body=1, size(results%von_mises, 1))] /= &
+                 results%loads(load)%status)) number = number + 1
       end do
       if (number > 0) call log%note('the error of the largest stress is more than half of it at '// &
          integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
          'grid_points')
    end subroutine find_stresses
-
-   !> Whether a largest stress is hardly known.
-   elemental logical function is_doubtful(largest)
-      type(largest_stress), intent(in) :: largest
-
-      is_doubtful = .false.
-      ! Comparisons with a NaN raise an exception, which Debug builds trap.
-      if (.not. ieee_is_nan(largest%error)) is_doubtful = largest%error > largest_stress_error*largest%value
-   end function is_doubtful
 
    !> Gives all ranks the largest stresses of all loads.
    subroutine share_stresses(sharing, stresses)
