@@ -27,8 +27,10 @@ SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed 
 ALL_TABLES = ("lines = t, map = t, contours = t, spots = t, histograms = t, coefficients = t, theory = t, "
               "spectrum = t, line_points = 8, map_points = 8")
 TABLE_DECKS = {
-    "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
-    "plane": f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n&output {ALL_TABLES} /\n",
+    "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n"
+           f"&method solver = 'beale' /\n&output {ALL_TABLES} /\n",
+    "plane": f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
+            f"&method solver = 'beale' /\n&output {ALL_TABLES} /\n",
     "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
                  "&method solver = 'fitted' /\n&output details = t /\n",
     "stresses": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'auto' /\n"
