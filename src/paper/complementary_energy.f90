@@ -6,7 +6,10 @@
 !>     f' = 1/2 sum_k w_k c_k x_k^2 - x_1    (eqs. 17, 26)   with   sum_k x_k t_k >= -P at the points (18, 27),
 !>
 !> w_k the weight, c_k the compliance of term t_k, x_1 the amplitude of the term of the surface's shape.
-!> The unconstrained minimum x_1 = 1 is full contact. A hardness H adds  -sum_k x_k t_k >= P - H.
+!> The unconstrained minimum x_1 = 1 is full contact.
+!>
+!> N.B. The paper has no hardness. A hardness H, the largest pressure, adds  -sum_k x_k t_k >= P - H.
+!>
 !> Numbers (E..) are the equations of README.md in this directory.
 module wavycon_complementary_energy
    use wavycon_constraint_points, only: choose_points, term_values

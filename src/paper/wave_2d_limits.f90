@@ -4,10 +4,10 @@
 !> **Light loads.** Each crest is a separate Hertzian point contact. A crest has the curvature 1/R = 4 pi^2
 !> Delta/lambda^2 and bears pbar lambda^2/2, the load on a square of side lambda/sqrt(2).
 !> `hertz_point_contact_area_fraction` is equation (23) of Johnson, Greenwood & Higginson (1985),
-!> `light_load_mean_gap_one_square` is equation (29); the others correct and extend them. Every function returns its
-!> formula's value for any P = pbar/p* >= 0, but none is useful above P = 0.2 or so, and values near P = 1 are
-!> meaningless; a negative P counts as 0. The gap is negative above P = 0.24 by (29), above P = 0.34 with the lattice's
-!> coefficient.
+!> `light_load_mean_gap_one_square` is equation (29). N.B. The other mean gaps, and the area with more terms, are not in
+!> the paper: they correct and extend it. Every function returns its formula's value for any P = pbar/p* >= 0, but none
+!> is useful above P = 0.2 or so, and values near P = 1 are meaningless; a negative P counts as 0. The gap is negative
+!> above P = 0.24 by (29), above P = 0.34 with the lattice's coefficient.
 !>
 !> Derivation of the longer asymptotes, with lengths in s = lambda/sqrt(2), a crest at r = 0 and its load P: about the
 !> crest h/Delta = pi^2 r^2 - (pi^4/4) r^4 + terms in cos(4 theta). The other crests displace it by P (S_1 + (S_3/4) r^2
@@ -16,8 +16,9 @@
 !>
 !> **Near full contact.** Each closed pool is a separate pressurised penny-shaped crack: equations (24), (30) and
 !> Appendix 2, after Sneddon. The radius, the contact area and the mean gap apply near pbar = p* and are those of full
-!> contact (0, 1, 0) above; below they return their formula's value. The longer asymptotes `near_closure_...` extend
-!> (24) and (30) in powers of e = 1 - pbar/p*. They are useful down to pbar = 0.8 p* or so.
+!> contact (0, 1, 0) above; below they return their formula's value. N.B. The longer asymptotes `near_closure_...` are
+!> not in the paper: they extend (24) and (30) in powers of e = 1 - pbar/p*. They are useful down to pbar = 0.8 p* or
+!> so.
 !>
 !> Derivation, with lengths in s and a trough at r = 0: the pressure that opens the crack is e - pi^2 r^2 + (pi^4/4) r^4
 !> + terms in cos(4 theta), and the volume G of each other crack adds the tension G/(4 pi^2 |n|^3). With y = pi^2 b^2

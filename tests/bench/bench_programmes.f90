@@ -2,11 +2,11 @@
 !>
 !>    bench_programmes HARMONICS POINTS SYMMETRY WAY
 !>
-!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none',
-!> min 1/2 x'Dx - c'x subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m
-!> of C', and reads lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of the
-!> solves [ms], each from nothing; x. With 0 solves there is one, which starts from the last answer. With -1 the answer
-!> is the programme: D (n numbers a line), c, and the columns of C' (n numbers a line).
+!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none', min 1/2 x'Dx
+!> - c'x subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m of C', and
+!> reads lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of
+!> the solves [ms], each from nothing; x. With 0 solves there is one, which starts from the last answer. With -1 the
+!> answer is the programme: D (n numbers a line), c, and the columns of C' (n numbers a line).
 program bench_programmes
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use wavycon_series_contact, only: series_contact, qp_options

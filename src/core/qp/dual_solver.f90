@@ -3,9 +3,9 @@
 !>
 !> It starts from the minimum without constraints, or on a given set of active constraints. Constraints with negative
 !> multipliers are released. Then violated constraints are made active one by one, while no multiplier may change sign:
-!> equations (Q11), (Q12) of README.md in this directory. Beale's method keeps the slacks >= 0 and lowers the objective;
-!> the dual method keeps the multipliers >= 0 and raises it. Each full step raises the objective, and between two full
-!> steps the active set shrinks, so the method ends.
+!> equations (Q11), (Q12) of README.md in this directory; (Q1) to (Q5) are those of src/paper/README.md. Beale's method
+!> keeps the slacks >= 0 and lowers the objective; the dual method keeps the multipliers >= 0 and raises it. Each full
+!> step raises the objective, and between two full steps the active set shrinks, so the method ends.
 !>
 !> The factors that are changed from exchange to exchange are used to find the set of active constraints. The solution
 !> on that set is computed from D, c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have

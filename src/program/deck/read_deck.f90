@@ -1,8 +1,8 @@
 !> Reads a deck file and reports all problems in it at once.
 !>
 !> The text is scanned here rather than by Fortran's NAMELIST, whose errors mislead: gfortran 12 reports a misspelt
-!> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is that of
-!> NAMELIST.
+!> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is a
+!> part of NAMELIST's, which inputs/README.md describes: no elements or parts of arrays, and no null values.
 module wavycon_read_deck
    use wavycon_deck_groups, only: deck_tables, interface_number, load_number, material_number, method_number, &
       number_of_groups, output_number, scene_number, stress_number, surface_number, take_groups
