@@ -17,7 +17,7 @@ module wavycon_grid_contact
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_grid_area, only: load_concentration
-   use wavycon_smaller_cell, only: has_smaller_cell, smaller_cell
+   use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_solution_record, only: by_grids, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)

@@ -18,7 +18,7 @@ module wavycon_grid_source
    use wavycon_region_numbers, only: region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
-   use wavycon_smaller_cell, only: smaller_cell
+   use wavycon_paper_wave, only: smaller_cell
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type

@@ -12,13 +12,11 @@ module wavycon_free_edges
 
 contains
 
-   !> A paraboloid with free edges, about the middle of a rectangle: a ball near its lowest point, in 1-D a roller.
-   type(surface_type) function surface_of_ball(sides, radii, dimension) result(surface)
+   !> A paraboloid with free edges, about the middle of a rectangle: a ball near its lowest point.
+   type(surface_type) function surface_of_ball(sides, radii) result(surface)
       real(dp), intent(in) :: sides(2)       !! of the rectangle along x and y [length], > 0
-      real(dp), intent(in) :: radii(2)       !! along x and y [length], > 0; the second is ignored in 1-D
-      integer, intent(in) :: dimension       !! 1 or 2
+      real(dp), intent(in) :: radii(2)       !! along x and y [length], > 0
 
-      surface%dimension = dimension
       surface%mirrored = .true.
       surface%has_free_edges = .true.
       surface%length = surface%parts()*sides
@@ -27,7 +25,6 @@ contains
       surface%amplitude = sum(surface%form%c)*pi**2/12
       surface%form%c = surface%form%c/surface%amplitude
       surface%crest = 0.5_dp*pi
-      if (dimension == 1) surface%crest(2) = 0.0_dp
       call set_units_without_closure(surface)
    end function surface_of_ball
 

@@ -31,15 +31,9 @@ contains
 
       gap = 0.0_dp
       if (self%is_flat()) return
-      gap = one_way(self%c(1), x) + one_way(self%c(2), y)
+      ! Angles beyond the map are replaced by their mirror images within it.
+      gap = sum(self%c*((0.5_dp*pi - abs(pi - modulo([x, y], 2*pi)))**2 - pi**2/12))
    end function gap
-
-   pure real(dp) function one_way(c, angle) result(gap)
-      real(dp), intent(in) :: c, angle
-
-      ! The mirror image of an angle within the map.
-      gap = c*((0.5_dp*pi - abs(pi - modulo(angle, 2*pi)))**2 - pi**2/12)
-   end function one_way
 
    !> Subtracts the gap from a field over points that are equally spaced.
    pure subroutine subtract_from(self, field, first, step)

@@ -16,9 +16,6 @@ module wavycon_surface
 
    public :: surface_type
 
-   !> Coefficients of a shape that differ by less than this are equal, and sides that differ by this fraction.
-   real(dp), parameter, public :: shape_rounding = 1e-13_dp
-
    !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has mean 0 and peak 1: the surfaces first
    !> touch at its peaks. Delta is the mean gap before load, which is the amplitude of the paper's waves.
    type :: surface_type
@@ -46,7 +43,6 @@ module wavycon_surface
       procedure :: parts
       procedure :: sides
       procedure :: nominal_area
-      procedure :: is_square
       procedure :: is_height_map
       procedure :: is_distributed
       procedure :: has_hardness
@@ -87,13 +83,6 @@ contains
       side = self%sides()
       nominal_area = product(side(:self%dimension))
    end function nominal_area
-
-   !> Whether the sides of the cell are equal.
-   pure logical function is_square(self)
-      class(surface_type), intent(in) :: self
-
-      is_square = abs(self%length(1) - self%length(2)) <= shape_rounding*self%length(1)
-   end function is_square
 
    !> Whether the surface was given on a grid.
    pure logical function is_height_map(self)

@@ -34,7 +34,7 @@ contains
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
-      real(dp) :: extremes(2), mean(1), per_wave(2)
+      real(dp) :: extremes(2), mean(1)
       integer :: crest(2), grid(2)
 
       grid = shape(height)
@@ -75,8 +75,7 @@ contains
       if (surface%has_free_edges) then
          call set_units_without_closure(surface)
       else
-         per_wave = 1.0_dp/surface%length
-         call transform%sample(surface%shape, values, 1, per_wave)
+         call transform%sample(surface%shape, values, 1, 1.0_dp/surface%length)
          extremes = [maxval(values), -minval(values)]
          call transform%slab%largest(extremes)
          surface%stiffness = 1.0_dp/extremes(2)

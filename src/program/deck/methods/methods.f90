@@ -15,10 +15,9 @@ module wavycon_methods
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
       words_of
    use wavycon_kinds, only: dp
-   use wavycon_paper_wave, only: is_paper_wave
+   use wavycon_paper_wave, only: has_smaller_cell, is_paper_wave
    use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
    use wavycon_problems, only: problem_list_type
-   use wavycon_smaller_cell, only: has_smaller_cell
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -69,7 +69,7 @@ contains
          surface = wave_sum([values%real('length_x'), values%real('length_y')], values%reals('amplitudes'), &
                             nint(values%reals('waves_x')), nint(values%reals('waves_y')), values%reals('phases')*pi/180)
       case ('ball')
-         surface = surface_of_ball([values%real('length_x'), values%real('length_y')], radii_of(values, 'radius'), 2)
+         surface = surface_of_ball([values%real('length_x'), values%real('length_y')], radii_of(values, 'radius'))
          if (values%has('points')) surface%points = surface%parts()*nint(values%pair('points'))
       end select
    end function formula_surface
