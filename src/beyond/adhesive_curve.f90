@@ -8,6 +8,7 @@ module wavycon_adhesive_curve
    use wavycon_contact_measures, only: is_known, load_derivatives, scaled_error
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
+   use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
@@ -71,7 +72,7 @@ contains
 
       curve%work = work
       allocate (curve%points(curve_points), curve%critical(0), curve%at_loads(0), curve%knots(0))
-      if (solver%surface%is_ball()) then
+      if (is_ball(solver%surface)) then
          call follow_ball(curve, solver%surface, largest_load)
          return
       end if
@@ -109,7 +110,7 @@ contains
       real(dp) :: ratio   ! the largest P1 over the least
       integer :: i
 
-      curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(surface%radii())/surface%nominal_area()
+      curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(ball_radii(surface))/surface%nominal_area()
       ratio = (1.0_dp + sqrt(1.0_dp + max(largest_load/curve%pull, 4.0_dp)))**2/least_over_pull
       do i = 1, curve_points
          curve%points(i) = point_of_ball(curve%pull, surface, &
@@ -150,7 +151,7 @@ contains
          curve%at_loads = [curve%at_loads, point]
       end do
       associate (pull => curve%pull, surface => solver%surface, critical => curve%critical)
-         if (surface%is_ball() .and. load >= -pull) then
+         if (is_ball(surface) .and. load >= -pull) then
             ! sqrt(P1) = sqrt(F_c) +- sqrt(F_c + P), by (I20).
             has_stable = .true.
             root = sqrt(pull) + sqrt(pull + load)
@@ -179,7 +180,7 @@ contains
       type(hertz_ball) :: contact
 
       ! Over p* and Delta the modulus does not matter.
-      contact = hertz_contact(surface%radii(), 1.0_dp, &
+      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
                               force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
       point = adhesive_point(exists=.true., kind=merge(stable_point, unstable_point, p1 >= pull), p1=p1, &
                              load=p1 - 2*sqrt(pull*p1), area=contact%contact_area()/surface%nominal_area(), &

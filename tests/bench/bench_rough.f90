@@ -11,7 +11,8 @@ program bench_rough
    use wavycon_constants, only: pi
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
-   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_of_points, only: surface_of_points
    use wavycon_system, only: keep_memory
    implicit none (type, external)
 

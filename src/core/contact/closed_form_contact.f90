@@ -10,6 +10,7 @@ module wavycon_closed_form_contact
    use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_kinds, only: dp
+   use wavycon_paper_wave, only: is_paper_wave
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
@@ -55,7 +56,7 @@ contains
    pure logical function closed_form_exists(surface)
       type(surface_type), intent(in) :: surface
 
-      closed_form_exists = surface%dimension == 1 .and. surface%is_paper_wave()
+      closed_form_exists = surface%dimension == 1 .and. is_paper_wave(surface)
    end function closed_form_exists
 
    !> Starts the solver.

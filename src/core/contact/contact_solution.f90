@@ -11,6 +11,7 @@ module wavycon_contact_solution
    use wavycon_contact_contours, only: contact_contour
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_full_contact, only: full_contact_series
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
@@ -171,7 +172,7 @@ contains
       if (allocated(self%source)) then
          call self%source%coefficients(self%solution_record, series)
       else if (self%status == full_contact) then
-         series = surface%full_contact_series(self%pbar_over_pstar)
+         series = full_contact_series(surface, self%pbar_over_pstar)
       else
          allocate (series%c, mold=surface%shape%c)
          series%c = 0.0_dp

@@ -5,6 +5,7 @@ module wavycon_contact_solver
    use wavycon_contact_measures, only: full_contact_measures
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
+   use wavycon_full_contact, only: full_contact_energy
    use wavycon_kinds, only: dp
    use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_solver_progress, only: solver_progress
@@ -105,7 +106,7 @@ contains
                    pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
             solution%status = full_contact
             solution%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)
-            solution%measures%elastic_energy = surface%full_contact_energy()
+            solution%measures%elastic_energy = full_contact_energy(surface)
             solution%measures%elastic_energy_error = 0.0_dp
          else
             shall_stop = .false.

@@ -3,7 +3,8 @@ module wavycon_fitted_frame
    use wavycon_constants, only: pi, sqrt2, sqrt3
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_kinds, only: dp
-   use wavycon_surface, only: no_paper_wave, surface_type, rotated_paper_wave
+   use wavycon_paper_wave, only: no_paper_wave, paper_wave, rotated_paper_wave
+   use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
       wave_lattice
    implicit none (type, external)
@@ -43,9 +44,9 @@ contains
       associate (c => surface%shape%c, length => surface%length)
          frame%side = minval(length)
          if (length(1) > length(2)) frame%turn = (0.0_dp, -1.0_dp)
-         if (surface%paper_wave() /= no_paper_wave) then
+         if (paper_wave(surface) /= no_paper_wave) then
             frame%lattice = square_lattice()
-            if (surface%paper_wave() /= rotated_paper_wave) then
+            if (paper_wave(surface) /= rotated_paper_wave) then
                frame%side = length(1)/sqrt2
                frame%turn = exp(cmplx(0.0_dp, -pi/4, dp))
                frame%crests = 2

@@ -17,6 +17,7 @@ module wavycon_grid_contact
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
    use wavycon_grid_area, only: load_concentration
+   use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_solution_record, only: by_grids, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -67,9 +68,9 @@ contains
       self%surface = surface
       self%is_started = allocated(surface%shape%c)
       self%keep_fields = keep_fields
-      if (any(self%options%points > 0) .or. .not. surface%has_smaller_cell()) return
+      if (any(self%options%points > 0) .or. .not. has_smaller_cell(surface)) return
       allocate (self%smaller)
-      self%smaller = surface%smaller_cell()
+      self%smaller = smaller_cell(surface)
    end subroutine start
 
    !> Each level has ten times the error of the one before it or, if the points are given, half the points each way.

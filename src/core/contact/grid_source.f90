@@ -18,6 +18,7 @@ module wavycon_grid_source
    use wavycon_region_numbers, only: region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_paper_wave, only: smaller_cell
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -200,7 +201,7 @@ contains
 
       if (self%distributed_points > 0 .or. surface%has_hardness()) return
       if (self%rotated) then
-         call differentiate_on_grid(surface%smaller_cell(), self%edge%period, record, answer)
+         call differentiate_on_grid(smaller_cell(surface), self%edge%period, record, answer)
       else
          call differentiate_on_grid(surface, self%edge%period, record, answer)
       end if

@@ -18,16 +18,18 @@ module wavycon_series_contact
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_full
+   use wavycon_full_contact, only: displacement_of
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_kinds, only: dp
    use wavycon_line_zeros, only: line_zeros
+   use wavycon_paper_wave, only: is_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_qp_problem, only: qp_problem, qp_solution
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_solution_record, only: by_beale, by_dual, solution_record
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_surface, only: surface_type, rotated_paper_wave
+   use wavycon_surface, only: surface_type
    use wavycon_working_set, only: working_set
    implicit none (type, external)
    private
@@ -100,9 +102,9 @@ contains
       call assert(options%constraint_points >= 2, 'constraint_points >= 2')
       call assert(options%edge_level > 0.0_dp, 'edge_level > 0')
       self%surface = surface
-      self%is_started = surface%is_paper_wave()
+      self%is_started = is_paper_wave(surface)
       self%series%options = options
-      self%series%rotated = surface%paper_wave() == rotated_paper_wave
+      self%series%rotated = paper_wave(surface) == rotated_paper_wave
       self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
       self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
                                     surface%has_hardness())
@@ -239,7 +241,7 @@ contains
 
       allocate (own)
       call self%coefficients(record, own%pressure)
-      own%displacement = surface%displacement_of(own%pressure)
+      own%displacement = displacement_of(surface, own%pressure)
       own%surface = surface
       own%mean_gap = 1.0_dp - record%measures%approach_over_amplitude
       call move_alloc(own, answer)

@@ -6,6 +6,7 @@ module wavycon_series_fields
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_status, only: full_contact, no_load
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_full_contact, only: full_contact_series
    use wavycon_kinds, only: dp
    use wavycon_series_samples, only: sample_series
    use wavycon_surface, only: surface_type
@@ -39,7 +40,7 @@ contains
       fields%surface = surface
       fields%is_edgeless = status == full_contact .or. status == no_load
       if (status == full_contact) then
-         fields%pressure = surface%full_contact_series(pbar_over_pstar)
+         fields%pressure = full_contact_series(surface, pbar_over_pstar)
          fields%displacement = surface%shape
          fields%mean_gap = 0.0_dp
       else

@@ -10,7 +10,8 @@ module wavycon_height_map
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
-   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_of_points, only: surface_of_points
    implicit none (type, external)
    private
 

@@ -12,7 +12,8 @@ module wavycon_self_affine
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_own_waves, only: wave_slab
    use wavycon_plain_text, only: short_number
-   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_of_points, only: surface_of_points
    implicit none (type, external)
    private
 

@@ -1,13 +1,14 @@
 !> Surfaces of cosine waves: sums of any, and those of the named kinds.
 module wavycon_wave_surfaces
    use wavycon_constants, only: sqrt3
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: divided, fourier_series, weighted
    use wavycon_kinds, only: dp
-   use wavycon_surface, only: surface_of_series, surface_type
+   use wavycon_series_peak, only: find_peak
+   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
+   public :: crossed_1d, hexagonal, surface_of_series, wave_1d, wave_2d, wave_sum
 
 contains
 
@@ -86,5 +87,28 @@ contains
          deallocate (waves%cs, waves%sc, waves%ss)
       surface = surface_of_series(length, waves)
    end function wave_sum
+
+   !> The surface whose height over its mean plane is a series.
+   type(surface_type) function surface_of_series(length, height) result(surface)
+      real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
+      type(fourier_series), intent(in) :: height   !! [length]; its mean is ignored
+
+      type(fourier_series) :: waves
+      real(dp) :: lowest, unused(2)
+
+      waves = height
+      waves%c(0, 0) = 0.0_dp
+      surface%length = length
+      surface%dimension = merge(1, 2, ubound(height%c, 2) == 0)
+      call find_peak(waves, surface%amplitude, surface%crest)
+      if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
+      surface%shape = divided(waves, surface%amplitude)
+      if (surface%amplitude <= 0.0_dp) return
+      waves = weighted(surface%shape, surface%length, 1)
+      call find_peak(waves, surface%full_contact_peak, unused)
+      call find_peak(divided(waves, -1.0_dp), lowest, unused)
+      surface%stiffness = 1.0_dp/lowest
+      surface%full_contact_peak = surface%full_contact_peak/lowest
+   end function surface_of_series
 
 end module wavycon_wave_surfaces

@@ -1,10 +1,12 @@
 !> The &interface group: what follows from the contact for the interface. Without it nothing of this is computed.
 module wavycon_interface_group
    use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: choice_value, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
+   use wavycon_paper_wave, only: is_paper_wave
    use wavycon_partial_slip, only: dundurs_beta, shear_factors
    use wavycon_plain_text, only: short_number
    use wavycon_problems, only: problem_list_type
@@ -89,7 +91,7 @@ contains
       if (.not. has_adhesion(surface)) then
          call values%complain(problems, 'work_of_adhesion', 'adhesion is computed for wave_1d, for the 2-D waves '// &
          "that solver = 'fitted' takes and for a round ball: on other surfaces the superposition does not hold")
-      else if (any(method%text('solver') == ['grid  ', 'beale ', 'series']) .and. .not. surface%is_ball()) then
+      else if (any(method%text('solver') == ['grid  ', 'beale ', 'series']) .and. .not. is_ball(surface)) then
          call values%complain(problems, 'work_of_adhesion', "adhesion needs solver = 'auto', 'fitted' or "// &
                               "'closed_form', which tell how the edge of contact moves with the load")
       end if
@@ -100,10 +102,10 @@ contains
       type(surface_type), intent(in) :: surface
 
       type(fitted_frame) :: frame
-      if (surface%is_ball()) then
-         has_adhesion = maxval(surface%radii()) <= minval(surface%radii())
+      if (is_ball(surface)) then
+         has_adhesion = maxval(ball_radii(surface)) <= minval(ball_radii(surface))
       else if (surface%dimension == 1) then
-         has_adhesion = surface%is_paper_wave()
+         has_adhesion = is_paper_wave(surface)
       else
          call find_frame(surface, frame)
          has_adhesion = allocated(frame%lattice)

@@ -57,7 +57,7 @@ contains
             call start_surface_line(line, results, number)
             allocate (p, u, gap, mold=line%t)
             shape = surface%shape%on_line(line%angle(:, 0), line%direction, line%t) &
-                    - surface%form_gap(line%angle(1, :), line%angle(2, :))
+                    - surface%form%gap(line%angle(1, :), line%angle(2, :))
             if (surface%has_steps) shape = surface%shape_at(line%angle(1, :), line%angle(2, :))
             call fields%at_points(line%angle, shape, p, u, gap)
             call put_surface_line(line, results, load, transpose(reshape( &

@@ -9,6 +9,7 @@ module wavycon_table
    use wavycon_kinds, only: dp
    use wavycon_methods, only: solvers_for
    use wavycon_output_file, only: output_file
+   use wavycon_paper_wave, only: is_paper_wave
    use wavycon_plain_text, only: short_number
    use wavycon_results, only: results_type
    use wavycon_scene, only: scene_type
@@ -140,11 +141,11 @@ contains
          if (max(surface%amplitude, maxval(surface%length)) > largest_length) words = 'it has the fourth power of '// &
             'lengths, which may be up to '//short_number(largest_length)//'; choose another unit of length'
       case ('theory', 'theory_lines')
-         if (surface%is_paper_wave()) return
+         if (is_paper_wave(surface)) return
          words = 'closed forms exist only for the waves of the paper: '//paper_waves
          if (self%file == 'theory_lines') return
          words = words//', and for a ball'
-         if (surface%has_free_edges .and. all(surface%form(:surface%dimension) > 0.0_dp)) words = ''
+         if (surface%has_free_edges .and. all(surface%form%c(:surface%dimension) > 0.0_dp)) words = ''
       end select
       if (lack == '') return
       ! Which solvers of the surface do, or have, what this one lacks.

@@ -9,10 +9,12 @@
 module wavycon_theory_tables
    use wavycon_constants, only: pi
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
+   use wavycon_free_edges, only: ball_radii
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact, hertz_roller
    use wavycon_kinds, only: dp
    use wavycon_line_tables, only: line_columns, put_surface_line, start_surface_line, surface_line
    use wavycon_output_file, only: output_file
+   use wavycon_paper_wave, only: paper_angles, paper_wavelength
    use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    use wavycon_wave_2d_limits, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
@@ -71,9 +73,9 @@ contains
       of_plane = not_a_number()
       force = results%solver%surface%nominal_area()*results%mean_pressure(load)
       associate (p => results%loads(load)%pbar_over_pstar, surface => results%solver%surface, &
-                 wavelength => results%solver%surface%paper_wavelength())
+                 wavelength => paper_wavelength(results%solver%surface))
          if (surface%has_free_edges) then
-            radii = surface%radii()
+            radii = ball_radii(surface)
             if (surface%dimension == 1) then
                roller = hertz_roller(radii(1), results%scene%e_star, force)
                of_ball([1, 3, 4]) = [2*roller(1), roller(2), roller(1)]
@@ -123,7 +125,7 @@ contains
             call start_surface_line(line, results, number)
             allocate (values(size(of_line) + size(of_plane), 0:ubound(line%distance, 1)))
             do k = 0, ubound(values, 2)
-               call surface%paper_angles(line%angle(1, k), line%angle(2, k), phi, theta)
+               call paper_angles(surface, line%angle(1, k), line%angle(2, k), phi, theta)
                if (surface%dimension == 1) then
                   of_line = [westergaard_pressure_over_pstar(phi/2, load_p), &
                              westergaard_displacement_over_amplitude(phi/2, load_p), &

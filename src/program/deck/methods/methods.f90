@@ -15,6 +15,7 @@ module wavycon_methods
    use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
       words_of
    use wavycon_kinds, only: dp
+   use wavycon_paper_wave, only: has_smaller_cell, is_paper_wave
    use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
    use wavycon_problems, only: problem_list_type
    use wavycon_surface, only: surface_type
@@ -120,7 +121,7 @@ contains
          words = 'has no solution with a hardness'
       select case (solver)
       case ('beale', 'series')
-         if (.not. surface%is_paper_wave()) words = 'is for the waves of the paper: '//paper_waves
+         if (.not. is_paper_wave(surface)) words = 'is for the waves of the paper: '//paper_waves
       case ('closed_form')
          if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
       case ('fitted')
@@ -376,7 +377,7 @@ contains
       else if (surface%shape%is_even()) then
          words = words//', on a quarter of the cell'
       end if
-      if (all(points == 0) .and. surface%has_smaller_cell()) words = words//' turned by 45 degrees'
+      if (all(points == 0) .and. has_smaller_cell(surface)) words = words//' turned by 45 degrees'
    end function grid_in_words
 
 end module wavycon_methods

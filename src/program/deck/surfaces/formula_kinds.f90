@@ -2,11 +2,12 @@
 !> or three and 'sum' of any; and 'ball', a ball, or a body with two radii of curvature, pressed on a half-space.
 module wavycon_formula_kinds
    use wavycon_constants, only: pi
+   use wavycon_free_edges, only: surface_of_ball
    use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text
    use wavycon_problems, only: problem_list_type
-   use wavycon_surface, only: surface_of_ball, surface_type
+   use wavycon_surface, only: surface_type
    use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    implicit none (type, external)
    private
@@ -68,7 +69,7 @@ contains
          surface = wave_sum([values%real('length_x'), values%real('length_y')], values%reals('amplitudes'), &
                             nint(values%reals('waves_x')), nint(values%reals('waves_y')), values%reals('phases')*pi/180)
       case ('ball')
-         surface = surface_of_ball([values%real('length_x'), values%real('length_y')], radii_of(values, 'radius'), 2)
+         surface = surface_of_ball([values%real('length_x'), values%real('length_y')], radii_of(values, 'radius'))
          if (values%has('points')) surface%points = surface%parts()*nint(values%pair('points'))
       end select
    end function formula_surface
