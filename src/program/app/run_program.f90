@@ -3,20 +3,20 @@
 !> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
-   use, intrinsic :: iso_fortran_env, only: error_unit, int64
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_notes, only: outcome
-   use wavycon_plain_text, only: escaped, integer_text, newline
+   use wavycon_plain_text, only: escaped, integer_text
    use wavycon_ranks, only: comm, end_ranks, is_first_rank, rank_count, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: error_text, full_path, keep_memory, note_command, outlive_file_size_limit, print_text, &
-      print_trouble, remove_leftovers, stack_limit
+   use wavycon_system, only: error_text, full_path, keep_memory, note_command, outlive_file_size_limit, &
+      print_trouble, remove_leftovers, say
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -24,8 +24,6 @@ module wavycon_run_program
 
    public :: run_program
 
-   !> The stack that the program needs [byte]. Tables of keys take 100 kB of it, solvers less.
-   integer(int64), parameter :: least_stack = 256*1024
    !> A status from here on less this number is that of the signal that ended a process.
    integer, parameter :: signal_status = 128
    !> Jobs that may be begun beyond the first one that was not shown: each has open files, and a place in jobs.c.
@@ -67,9 +65,6 @@ contains
       integer :: i, worst
       logical :: quiet
 
-      if (stack_limit() < least_stack) call fatal_error(error, exit_file_trouble, &
-         'the limit on the stack is too low: allow '//integer_text(int(least_stack/1024))//' kB (ulimit -s)')
-      call stop_on(error)
       call use_one_thread_for_matrices()
       call keep_memory()
       call outlive_file_size_limit()
@@ -85,7 +80,7 @@ contains
       end if
       if (command_line%options%logical('--help')) text = help_text(allocated(comm))
       if (allocated(text)) then
-         if (is_first_rank()) call print_text(text//newline//c_null_char)
+         if (is_first_rank()) call say(text)
          call finish(exit_fine)
       end if
       quiet = command_line%options%logical('--quiet') .or. .not. is_first_rank()
@@ -200,9 +195,9 @@ contains
       call show(error)
       if (.not. keep_going .or. quiet) return
       call separate(size(scenes) + 1, quiet)
-      call print_text(integer_text(size(scenes))//' decks: '// &
+      call say(integer_text(size(scenes))//' decks: '// &
          integer_text(count(status == exit_fine))//' solved, '//integer_text(count(status == exit_not_converged))// &
-         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed'//newline//c_null_char)
+         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed')
 
    contains
 
@@ -268,7 +263,7 @@ contains
       integer, intent(in) :: deck   !! number of the one that follows
       logical, intent(in) :: quiet
 
-      if (deck > 1 .and. .not. quiet) call print_text(newline//c_null_char)
+      if (deck > 1 .and. .not. quiet) call say('')
    end subroutine separate
 
    !> Writes the message of an error, if there is one, and ends the program with its status.

@@ -5,7 +5,7 @@ module wavycon_run_log
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text, newline, short_number
    use wavycon_solver_progress, only: solver_progress
-   use wavycon_system, only: print_text, terminal_columns
+   use wavycon_system, only: print_text, say_line => say, terminal_columns
    implicit none (type, external)
    private
 
@@ -66,7 +66,7 @@ contains
       if (self%shown > 0) call print_text(achar(13)//repeat(' ', self%shown)//achar(13)//c_null_char)
       self%shown = 0
       ! A closed or full standard output does not stop the run: the results go to files. The program's end tells of it.
-      call print_text(line//newline//c_null_char)
+      call say_line(line)
    end subroutine say
 
    !> Writes a note, what a user should know, and keeps it.

@@ -2,12 +2,14 @@
    that nothing is left if all are interrupted. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
-#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 /* Of written_file.c. */
 void wavycon_print(const char *text);
@@ -22,38 +24,27 @@ static struct job {
     FILE *files[streams]; /* standard output, standard error */
 } jobs[places];
 
-/* A pipe to which nobody writes: its end is that of the process that started the jobs. */
-static int life[2] = {-1, -1};
-
-/* Ends this process when the one that started it has ended, by whatever signal. */
-static void *end_with_parent(void *unused)
-{
-    char byte;
-    while (read(life[0], &byte, 1) < 0 && errno == EINTR)
-        ;
-    raise(SIGTERM);
-    _exit(128 + SIGTERM); /* where the signal is ignored */
-    return unused;
-}
-
 /* Starts the process of a job. Returns 1 in it, 0 in this one, -1 if there is none. Buffers must be empty. */
 int wavycon_begin_job(int number)
 {
     struct job *job = &jobs[number % places];
+    pid_t parent = getpid();
     job->number = number;
     for (int i = 0; i < streams; i++)
         if ((job->files[i] = tmpfile()) == NULL)
             return -1;
-    if (life[0] < 0 && pipe(life) != 0)
-        return -1;
     job->process = fork();
     if (job->process != 0)
         return job->process > 0 ? 0 : -1;
-    if (dup2(fileno(job->files[0]), STDOUT_FILENO) < 0 || dup2(fileno(job->files[1]), STDERR_FILENO) < 0)
+#ifdef __linux__
+    /* The job ends with the process that started it, by whatever signal that ends, and even if it ignores SIGTERM. */
+    signal(SIGTERM, SIG_DFL);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+    if (getppid() != parent || dup2(fileno(job->files[0]), STDOUT_FILENO) < 0 ||
+        dup2(fileno(job->files[1]), STDERR_FILENO) < 0)
         _exit(3);
-    pthread_t watch;
-    close(life[1]);
-    return pthread_create(&watch, NULL, end_with_parent, NULL) == 0 ? 1 : -1;
+    return 1;
 }
 
 /* Waits for any process to end. Returns the number of its job, 0 if it is none. */
@@ -76,19 +67,16 @@ int wavycon_await_job(void)
 /* Prints what the process of a job that has ended has printed. Returns its status. */
 int wavycon_show_job(int number)
 {
+    struct job *job = &jobs[number % places];
     char buffer[4096];
-    size_t bytes;
     for (int i = 0; i < streams; i++) {
-        FILE *from = jobs[number % places].files[i];
-        rewind(from);
-        while ((bytes = fread(buffer, 1, sizeof buffer - 1, from)) > 0) {
-            buffer[bytes] = '\0';
+        rewind(job->files[i]);
+        while (fgets(buffer, sizeof buffer, job->files[i]) != NULL)
             if (i == 0)
                 wavycon_print(buffer);
             else
                 fputs(buffer, stderr);
-        }
-        fclose(from);
+        fclose(job->files[i]);
     }
-    return jobs[number % places].status;
+    return job->status;
 }

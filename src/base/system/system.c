@@ -1,6 +1,5 @@
 /* Calls to the operating system for which Fortran has no statement. */
 #define _XOPEN_SOURCE 700
-#include <dlfcn.h>
 #include <errno.h>
 #include <limits.h>
 #include <signal.h>
@@ -116,13 +115,6 @@ void wavycon_remove(const char *path)
         note(unfinished, sizeof unfinished, "");
 }
 
-/* The limit on the stack of this process [byte], at most the largest int64_t. */
-int64_t wavycon_stack_limit(void)
-{
-    struct rlimit limit;
-    return getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur > INT64_MAX ? INT64_MAX : (int64_t)limit.rlim_cur;
-}
-
 /* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
 void wavycon_outlive_file_size_limit(void)
 {
@@ -169,51 +161,38 @@ static long long number_in_file(const char *directory, const char *file, const c
    files that can be dropped from memory count as free. -1 if it has no limit. */
 long long wavycon_memory_of_group(const char *directory)
 {
-    /* Version 2, then version 1. */
-    static const char *const names[2][3] = {
-        {"memory.max", "memory.current", "inactive_file "},
-        {"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file "}};
-    for (int version = 0; version < 2; version++) {
-        long long limit = number_in_file(directory, names[version][0], "");
-        long long used = number_in_file(directory, names[version][1], "");
-        if (limit < 0 || used < 0)
-            continue;
-        long long files = number_in_file(directory, "memory.stat", names[version][2]);
-        long long left = limit - used + (files > 0 ? files : 0);
-        return left > 0 ? left : 0;
-    }
-    return -1;
+    long long limit = number_in_file(directory, "memory.max", "");
+    long long used = number_in_file(directory, "memory.current", "");
+    long long files = number_in_file(directory, "memory.stat", "inactive_file ");
+    if (limit < 0 || used < 0)
+        return -1;
+    long long left = limit - used + (files > 0 ? files : 0);
+    return left > 0 ? left : 0;
 }
 
 /* The least that the control groups of this process, its own and all above, leave to it. -1 if none has a limit. */
 static long long memory_of_groups(void)
 {
-    static const char top[] = "/sys/fs/cgroup", top_of_version_1[] = "/sys/fs/cgroup/memory";
-    char line[PATH_MAX], directory[2*PATH_MAX];
-    long long least = wavycon_memory_of_group(top_of_version_1);
+    static const char top[] = "/sys/fs/cgroup", mark[] = "0::";
+    char line[PATH_MAX] = "", directory[2*PATH_MAX];
+    long long least = -1;
     FILE *file = fopen("/proc/self/cgroup", "r");
-    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
-        /* number:controllers:path; of version 2 the controllers are empty. In a container the path may be one of the
-           host that is not there, but the top is that of the container. */
-        char *controllers = strchr(line, ':');
-        char *slash = controllers == NULL ? NULL : strchr(controllers + 1, ':');
-        if (slash == NULL)
-            continue;
-        *slash = '\0';
-        if (controllers + 1 != slash && strstr(controllers + 1, "memory") == NULL)
-            continue;
-        snprintf(directory, sizeof directory, "%s%.*s", controllers + 1 == slash ? top : top_of_version_1,
-                 (int)strcspn(slash + 1, "\n"), slash + 1);
-        /* Up to the top, which has no path. */
-        while (strlen(directory) >= strlen(top)) {
-            long long left = wavycon_memory_of_group(directory);
-            if (left >= 0 && (least < 0 || left < least))
-                least = left;
-            *strrchr(directory, '/') = '\0';
-        }
-    }
+    while (file != NULL && fgets(line, sizeof line, file) != NULL && strncmp(line, mark, strlen(mark)) != 0)
+        ;
     if (file != NULL)
         fclose(file);
+    if (strncmp(line, mark, strlen(mark)) != 0)
+        return -1;
+    line[strcspn(line, "\n")] = '\0';
+    snprintf(directory, sizeof directory, "%s%s", top, line + strlen(mark));
+    /* Up to the top, which has no path. In a container the path may be one of the host that is not there, but the top is
+       that of the container. */
+    while (strlen(directory) >= strlen(top)) {
+        long long left = wavycon_memory_of_group(directory);
+        if (left >= 0 && (least < 0 || left < least))
+            least = left;
+        *strrchr(directory, '/') = '\0';
+    }
     return least;
 }
 
@@ -244,56 +223,17 @@ int64_t wavycon_available_memory(void)
     return left < available ? left : available;
 }
 
-/* Makes BLAS and LAPACK use one thread, if they are OpenBLAS or MKL; others are not changed. The functions are looked
-   up when the program runs, because another BLAS than that of the build may be linked then. */
+#ifdef WAVYCON_OPENBLAS
+void openblas_set_num_threads(int number);
+int blas_thread_shutdown_(void);
+#endif
+
+/* Makes BLAS and LAPACK use one thread, if they are OpenBLAS, and ends the threads that OpenBLAS started when it was
+   loaded: without work they try to get some for a tenth of a second, each on its processor. */
 void wavycon_use_one_thread_for_matrices(void)
 {
-    static const char *const setters[] = {"openblas_set_num_threads", "MKL_Set_Num_Threads"};
-    void (*set_number)(int);
-    int (*end_threads)(void);
-    void *program = dlopen(NULL, RTLD_LAZY);
-    if (program == NULL)
-        return;
-    /* POSIX allows these conversions to pointers to functions, for which ISO C has no notation. */
-    for (size_t i = 0; i < sizeof setters/sizeof setters[0]; i++) {
-        *(void **)&set_number = dlsym(program, setters[i]);
-        if (set_number != NULL)
-            set_number(1);
-    }
-    /* OpenBLAS starts its threads when it is loaded. Without work they try to get some for a tenth of a second, each
-       on its processor; this ends them. */
-    *(void **)&end_threads = dlsym(program, "blas_thread_shutdown_");
-    if (end_threads != NULL)
-        end_threads();
-    dlclose(program);
-}
-
-/* Lets OpenMP's threads sleep while they wait, unless the environment says how they wait. By default on Linux they spin
-   for milliseconds before and after each loop, and take the processor from working threads, also of other programs.
-   OpenMP reads this when the program starts, so a program with the option --threads starts itself again. */
-void wavycon_let_waiting_threads_sleep(void)
-{
-    static char words[1 << 21];
-    char program[PATH_MAX], **list;
-    size_t count = 0, size;
-    int has_option = 0;
-    FILE *file;
-    if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL)
-        return;
-    file = fopen("/proc/self/cmdline", "r");
-    if (file == NULL)
-        return;
-    /* Words that a null character each ends. With more than fit, or without success, the program goes on as it is. */
-    size = fread(words, 1, sizeof words, file);
-    fclose(file);
-    list = calloc(size + 1, sizeof *list);
-    if (list == NULL || size == sizeof words)
-        return;
-    for (char *word = words; word < words + size; word += strlen(word) + 1) {
-        list[count++] = word;
-        has_option |= strncmp(word, "--threads", strlen("--threads")) == 0;
-    }
-    if (has_option && realpath("/proc/self/exe", program) != NULL && setenv("OMP_WAIT_POLICY", "passive", 0) == 0)
-        execv(program, list);
-    free(list);
+#ifdef WAVYCON_OPENBLAS
+    openblas_set_num_threads(1);
+    blas_thread_shutdown_();
+#endif
 }

@@ -68,15 +68,9 @@ void wavycon_note_input(const char *path)
     inputs[input_count++] = input;
 }
 
-/* Standard output or error, if a file is open as it: "/dev/stdout" is a plain file if the output goes to one. That file
-   is written to and not replaced with all that is in it. NULL otherwise. */
-static FILE *standard_stream(const struct stat *info)
-{
-    struct stat output, error;
-    if (fstat(STDOUT_FILENO, &output) == 0 && is_same(info, &output))
-        return stdout;
-    return fstat(STDERR_FILENO, &error) == 0 && is_same(info, &error) ? stderr : NULL;
-}
+/* What goes here is written with all else that goes to standard output, which may be a plain file: that is not replaced
+   with all that is in it. */
+static const char standard_output[] = "/dev/stdout";
 
 /* Why a file cannot be written, as far as what has its name says: 0, an errno or one of the reasons above. Unless `mark`
    is empty, only an empty file and one that begins with it may be replaced. */
@@ -84,13 +78,15 @@ int wavycon_refusal(const char *path, const char *mark)
 {
     char start[64] = "";
     struct stat info;
+    if (strcmp(path, standard_output) == 0)
+        return 0;
     if (stat(path, &info) != 0)
         return errno != ENOENT ? errno : lstat(path, &info) == 0 ? leads_nowhere : 0;
     if (S_ISDIR(info.st_mode) || S_ISBLK(info.st_mode))
         return S_ISDIR(info.st_mode) ? EISDIR : is_disk;
     if (was_read(&info))
         return is_input;
-    if (!S_ISREG(info.st_mode) || info.st_size == 0 || standard_stream(&info) != NULL)
+    if (!S_ISREG(info.st_mode) || info.st_size == 0)
         return 0;
     FILE *file = fopen(path, "r");
     if (file != NULL && fread(start, 1, sizeof start - 1, file) > 0)
@@ -159,10 +155,10 @@ struct written_file *wavycon_open_written(const char *path)
     struct written_file *file = calloc(1, sizeof *file);
     if (file == NULL || (file->trouble = wavycon_refusal(path, "")) != 0)
         return file;
-    int exists = stat(path, &info) == 0;
-    file->stream = exists ? standard_stream(&info) : NULL;
-    if (file->stream == NULL)
-        file->stream = exists && !S_ISREG(info.st_mode) ? fopen(path, "w") : open_part(file, path);
+    if (strcmp(path, standard_output) == 0)
+        file->stream = stdout;
+    else
+        file->stream = stat(path, &info) == 0 && !S_ISREG(info.st_mode) ? fopen(path, "w") : open_part(file, path);
     file->trouble = file->stream == NULL ? errno : 0;
     return file;
 }
@@ -181,7 +177,7 @@ int wavycon_end_written(struct written_file *file, int is_complete, int stays_op
 {
     int trouble = wavycon_put_bytes(file, "", 0);
     if (file != NULL && file->stream != NULL) {
-        int is_closed = !stays_open && file->stream != stdout && file->stream != stderr;
+        int is_closed = !stays_open && file->stream != stdout;
         /* Keeps the file locked until it is renamed. A file system of a network tells of a full disk at the end. */
         int lock = dup(fileno(file->stream));
         if ((is_closed ? fclose(file->stream) : fflush(file->stream)) != 0 && trouble == 0)

@@ -1,9 +1,9 @@
-!> How many threads work on a grid, how they wait, and the threads of BLAS and LAPACK.
+!> How many threads work on a grid, and the threads of BLAS and LAPACK.
 module wavycon_threads
    implicit none (type, external)
    private
 
-   public :: let_waiting_threads_sleep, set_threads, threads_for, use_one_thread_for_matrices
+   public :: set_threads, threads_for, use_one_thread_for_matrices
 
    !> Loops over fewer points take one thread. Where two threads had loops over 65536 points and more, a load on
    !> 512 x 512 points took 1.0 to 1.1 of the time with one thread, on 1024 x 1024 points 0.8.
@@ -12,14 +12,8 @@ module wavycon_threads
    integer :: threads = 1
 
    interface
-      !> Lets threads that wait for the others sleep, not spin, unless the environment says how they wait.
-      !>
-      !> N.B. A program must call it as its first statement: with the option --threads it starts the program anew.
-      subroutine let_waiting_threads_sleep() bind(c, name='wavycon_let_waiting_threads_sleep')
-      end subroutine let_waiting_threads_sleep
-
-      !> Makes BLAS and LAPACK use one thread, if they are OpenBLAS or MKL. By default these libraries use all
-      !> processors, also for the small matrices here, where more threads save no time.
+      !> Makes BLAS and LAPACK use one thread, if they are OpenBLAS, which by default uses all processors, also for
+      !> the small matrices here, where more threads save no time.
       !>
       !> N.B. It acts on the whole process: programs may call it, procedures of a library must not.
       subroutine use_one_thread_for_matrices() bind(c, name='wavycon_use_one_thread_for_matrices')

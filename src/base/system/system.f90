@@ -6,9 +6,9 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: available_memory, has_memory_for, keep_memory, stack_limit
+   public :: available_memory, has_memory_for, keep_memory
    public :: end_written, error_text, note_input, open_written, print_text, print_trouble, put_bytes, put_text, &
-      refusal_to_write, remove_leftovers
+      refusal_to_write, remove_leftovers, say
    public :: file_size, full_path, path_kind, make_directories, remove_file
    public :: note_command, note_kept, outlive_file_size_limit, process_id, terminal_columns
 
@@ -32,11 +32,6 @@ module wavycon_system
          import :: c_char
          character(kind=c_char), intent(in) :: path(*)
       end subroutine c_remove
-
-      !> The limit on the stack [byte] (ulimit -s).
-      integer(c_int64_t) function stack_limit() bind(c, name='wavycon_stack_limit')
-         import :: c_int64_t
-      end function stack_limit
 
       !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
       subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
@@ -253,6 +248,13 @@ contains
          has_memory_for = status == 0
       end if
    end function has_memory_for
+
+   !> Writes a line to standard output, at once.
+   subroutine say(line)
+      character(*), intent(in) :: line
+
+      call print_text(line//new_line('a')//c_null_char)
+   end subroutine say
 
    !> The system's message of an error.
    function error_text(number) result(text)
