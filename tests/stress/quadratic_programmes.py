@@ -1,4 +1,5 @@
 """Random quadratic programmes with known solutions: a table of the lines of stress_qp.f90."""
+import itertools
 import math
 import re
 
@@ -94,11 +95,12 @@ def discretisations(quick):
 
 def loads(settings, work):
     """The paper's programmes at loads from 1e-12 to 1 - 1e-12: see stress_loads.f90."""
-    part = settings.part("loads of 'beale'")
+    part = settings.part("loads of the series")
     write({}, work)
-    for discretisation in discretisations(settings.quick):
-        name = " ".join(str(word) for word in discretisation)
-        outcome = run([settings.programs/"stress_loads", *discretisation], work, patience=SILENCE)
+    for words in itertools.product(("beale", "series"), discretisations(settings.quick)):
+        words = words[0], *words[1]
+        name = " ".join(map(str, words))
+        outcome = run([settings.programs/"stress_loads", *words], work, patience=SILENCE)
         if outcome.status or RUNTIME_WORDS.search(outcome.stderr):
             part.count(name, [f"exit status {outcome.status}: {outcome.stderr.decode(errors='replace').strip()}"])
         for line in outcome.stdout.decode().splitlines():
