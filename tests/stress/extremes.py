@@ -40,7 +40,8 @@ def decks(quick):
             yield f"{solver}-{n}-{points}", deck("wave_1d", LOADS, method), None
     for n, solver in itertools.product((1, 6) if quick else (1, 2, 3, 5, 8, 12, 20, 40, 60), ("beale", "series")):
         for points in sorted({n + 1, 2*n, min(10*n, 900//n)}):
-            if n < points <= 4000//n:  # bounded work
+            # Bounded work: of 960 unknowns Beale's method would take minutes.
+            if n < points <= 4000//n and (solver == "series" or n <= 20):
                 method = f"solver = '{solver}', harmonics = {n}, constraint_points = {points}"
                 yield f"{solver}-2d-{n}-{points}", deck("wave_2d", ("0.9", "0.3", "1e-6"), method), None
     for power in (2, 9) if quick else range(1, 17):

@@ -28,12 +28,14 @@ program stress_loads
    type(qp_problem) :: problem
    type(qp_solution) :: solution
    character(7) :: verdict
+   character(:), allocatable :: solver_name
    integer :: dimension, harmonics, i, points, symmetry
    logical :: by_beale
 
    if (command_argument_count() /= 5) error stop 'usage: stress_loads SOLVER DIMENSION HARMONICS POINTS SYMMETRY'
-   by_beale = word(1) == 'beale'
-   if (.not. by_beale .and. word(1) /= 'series') error stop 'stress_loads: SOLVER is beale or series'
+   solver_name = word(1)
+   by_beale = solver_name == 'beale'
+   if (.not. by_beale .and. solver_name /= 'series') error stop 'stress_loads: SOLVER is beale or series'
    dimension = number(2)
    harmonics = number(3)
    points = number(4)
