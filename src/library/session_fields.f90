@@ -36,8 +36,8 @@ module wavycon_session_fields
 
 contains
 
-   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for solver
-   !> 'beale', whose series is shown as it is.
+   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for the solvers
+   !> 'beale' and 'series', whose series is shown as it is.
    subroutine fields_at(session, solved, n, x, y, error, pressure, gap, displacement)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved

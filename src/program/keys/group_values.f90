@@ -294,12 +294,13 @@ contains
    !>
    !> A group with a selector has alternatives: &surface its kinds of surface, &method its solvers.
    subroutine check_relations(self, problems)
-      class(group_values), intent(inout) :: self   !! the selector has its value, if it is not bad
+      class(group_values), intent(inout) :: self
       type(problem_list_type), intent(inout) :: problems
 
-      character(:), allocatable :: choice, key, said, selector, who
+      character(:), allocatable :: choice, key, others, said, selector, who
       character(name_length), allocatable :: needs(:)
       integer :: first, i, k, place
+      logical :: is_default, is_told
       logical, allocatable :: lacks(:)
       logical, dimension(size(self%table%keys)) :: is_given, is_own, family
 
@@ -308,7 +309,15 @@ contains
       said = ' '
       place = self%place
       who = '&'//trim(self%table%name)
-      if (selector /= '') choice = self%text(selector)
+      is_default = .false.
+      is_told = .false.
+      if (selector /= '') then
+         is_default = .not. self%has(selector)
+         ! A bad selector, or one whose name is misspelt, has its default, which says nothing about the other keys.
+         if (.not. (self%is_bad(selector) .or. (is_default .and. self%has_unknown))) choice = self%text(selector)
+      end if
+      others = "'"//choice//"'"
+      if (is_default) others = 'the default, '//others
       associate (keys => self%table%keys)
          is_own = .true.
          if (choice /= '') then
@@ -321,10 +330,14 @@ contains
             key = trim(keys(k)%name)
             if (.not. is_own(k)) then
                call self%leave_out(key)
-               if (is_given(k) .and. .not. self%is_bad(key)) call self%complain(problems, key, &
-                  key//' is a key of '//selector//' = '//listed(in_quotes(words_of(keys(k)%of)), ' and ')// &
-                  ", not of '"//choice//"'"// &
-                  did_you_mean(key, pack(keys%name, is_own .and. keys%of /= '' .and. .not. is_given), "'", "'"))
+               ! Beside the default one key is enough to see that the selector is missing.
+               if (is_given(k) .and. .not. (self%is_bad(key) .or. (is_default .and. is_told))) then
+                  call self%complain(problems, key, &
+                     key//' is a key of '//selector//' = '//listed(in_quotes(words_of(keys(k)%of)), ' and ')// &
+                     ', not of '//others// &
+                     did_you_mean(key, pack(keys%name, is_own .and. keys%of /= '' .and. .not. is_given), "'", "'"))
+                  is_told = .true.
+               end if
                cycle
             end if
             ! Those that give the same quantity: a key alone, or all ways.
