@@ -1,8 +1,8 @@
 !> Finds the least load at which a body reaches its yield stress, or a given part of it.
 !>
-!> Equation (S8) of src/core/stress/README.md: the secant method for ln r(P) = ln r, r the largest equivalent stress over
-!> the yield stress. It begins at a light load, where r is a power of P, and approaches the root from below: beyond the
-!> first one r may fall again.
+!> Equation (S8) of src/core/stress/README.md: the secant method for ln r(P) = ln r, r the largest equivalent stress
+!> over the yield stress. It begins at a light load, where r is a power of P, and approaches the root from below: beyond
+!> the first one r may fall again.
 module wavycon_find_yield
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_measures, only: unknown

@@ -253,7 +253,7 @@ contains
    subroutine unpack_solution(self, words, whole, complete, understood)
       class(contact_solution), intent(inout) :: self     !! without a source at first
       integer(int64), intent(in) :: words(:)
-      logical, intent(in) :: whole                       !! whether this rank needs all columns of a grid that was distributed
+      logical, intent(in) :: whole                       !! whether this rank needs all columns of a distributed grid
       logical, intent(out) :: complete                   !! whether nothing is missing any more
       logical, intent(out) :: understood                 !! .false. if these are not the words of a solution
 

@@ -4,8 +4,7 @@ module wavycon_fitted_frame
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_kinds, only: dp
    use wavycon_surface, only: no_paper_wave, surface_type, rotated_paper_wave
-   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
-      wave_lattice
+   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, wave_lattice
    implicit none (type, external)
    private
 

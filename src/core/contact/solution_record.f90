@@ -25,7 +25,7 @@ module wavycon_solution_record
       integer :: iterations = 0               !! for a quadratic programme, exchanges of variables since the last load
       integer :: solver = no_solver           !! one of the names above
       integer :: status = not_found           !! one of wavycon_contact_status
-      integer :: padding = 0                  !! to a whole number of 8-byte words, so that no byte of these is undefined
+      integer :: padding = 0                  !! to a whole number of 8-byte words: no byte of these is undefined
    end type solution_record
 
    !> Words of 8 bytes that a record has when it is written to a file or sent to another process: `transfer` makes them,

@@ -147,8 +147,8 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: most_points_to_continue = 1.25_dp
 
    !> Difference of the loads that derivatives are from, in ln(P/(1 - P)) (C29). Half of it where spots are about to
-   !> merge; elsewhere the points that enter the contact one after another then show more: at 256 points a side errors of
-   !> G'' were 6e-2 and 3e-2 of it with .1 on the two lattices, 4e-3 and 2e-2 with .2.
+   !> merge; elsewhere the points that enter the contact one after another then show more: at 256 points a side errors
+   !> of G'' were 6e-2 and 3e-2 of it with .1 on the two lattices, 4e-3 and 2e-2 with .2.
    real(dp), parameter, public :: load_difference = 0.2_dp
 
    ! Expansions fitted to the edge.

@@ -277,8 +277,8 @@ contains
 
    !> These values, and estimates of their errors.
    !>
-   !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of the
-   !> integrals over near images from a second evaluation by finer rules.
+   !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of
+   !> the integrals over near images from a second evaluation by finer rules.
    subroutine find_fitted_details(lattice, answer, values, error)
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact

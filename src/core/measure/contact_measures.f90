@@ -35,8 +35,8 @@ module wavycon_contact_measures
       real(dp) :: load_at_hardness_fraction = 0.0_dp
       real(dp) :: area_at_hardness_error = 0.0_dp
       real(dp) :: load_at_hardness_error = 0.0_dp
-      !> On a grid: the points in contact over all points, and this area corrected by (C26) of src/core/contact/README.md,
-      !> which is for surfaces alone. Otherwise `unknown`.
+      !> On a grid: the points in contact over all points, and this area corrected by (C26) of
+      !> src/core/contact/README.md, which is for surfaces alone. Otherwise `unknown`.
       real(dp) :: contact_area_counted_fraction = unknown
       real(dp) :: contact_area_corrected_fraction = unknown
       !> Elastic energy per nominal area, the mean of p u/2 [p* Delta], and its error estimate, or `unknown`.

@@ -1,6 +1,7 @@
 !> The area of contact of a solution on the points of a grid, by the edge between the points: eqs. (C11), (C12) of
-!> src/core/contact/README.md; in 1-D also the edges. For comparison with other programs the number of points in contact, and
-!> its correction by the number of changes along the lines of the grid: (C26). How closely the load stands together.
+!> src/core/contact/README.md; in 1-D also the edges. For comparison with other programs the number of points in
+!> contact, and its correction by the number of changes along the lines of the grid: (C26). How closely the load stands
+!> together.
 module wavycon_grid_area
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert

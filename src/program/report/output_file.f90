@@ -1,5 +1,5 @@
-!> Result files, written as written_file.c says. A table may be written to memory in place of a file: it gets columns and rows, and
-!> lines by `put` are left out.
+!> Result files, written as written_file.c says. A table may be written to memory in place of a file:
+!> it gets columns and rows, and lines by `put` are left out.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.

@@ -26,8 +26,8 @@ module wavycon_methods
    !> All solvers, in the order of the key reference.
    character(*), parameter :: names = 'auto beale series fitted grid closed_form'
 
-   !> Largest values of the series accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run for
-   !> hours.
+   !> Largest values of the series accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run
+   !> for hours.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
    !> Most elements of its constraints' matrix. A few copies of it exist at a time, each of 160 MB.
    real(dp), parameter :: most_elements = 2.0e7_dp
@@ -46,8 +46,8 @@ contains
          key_type(choice_value, 'solver', "'auto'", '', &
             "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for "// &
             "loads at which these are not accurate enough, otherwise and with a hardness 'grid'. 'beale': the "// &
-            "paper's truncated Fourier series for its waves, with Beale's method as the minimiser of the energy, as "// &
-            "in the paper. 'series': the same with Goldfarb and Idnani's dual method, for many harmonics. "// &
+            "paper's truncated Fourier series for its waves, with Beale's method as the minimiser of the energy, "// &
+            "as in the paper. 'series': the same with Goldfarb and Idnani's dual method, for many harmonics. "// &
             "'fitted': collocation fitted to the edge of contact, of spots or of closed pools of gap. 'grid': ever "// &
             "finer grids until mean gap, area and peak pressure are accurate. 'closed_form': Westergaard's "// &
             "solution of the 1-D wave.", choices=names), &
