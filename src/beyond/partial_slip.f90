@@ -132,8 +132,7 @@ contains
 
       integer :: i
 
-      beta = sum([((-1)**(i - 1)*(1.0_dp + nu(i))*(1.0_dp - 2*nu(i))/e(i), i=1, size(e))]) &
-             /(2*sum((1.0_dp - nu**2)/e))
+      beta = sum([((-1)**(i - 1)*(1.0_dp + nu(i))*(1.0_dp - 2*nu(i))/e(i), i=1, size(e))])/(2*sum((1.0_dp - nu**2)/e))
    end function dundurs_beta
 
 end module wavycon_partial_slip

@@ -1,6 +1,6 @@
 /* Memory that a program keeps when arrays are deallocated, the first part of it in large pages: the system clears each
-   page that it gives, and what it takes back it gives anew for the next array. A map of 1024 x 1024 points takes 0.88 of
-   the processor time; without the large pages nothing is gained. */
+   page that it gives, and what it takes back it gives anew for the next array. A map of 1024 x 1024 points takes 0.88
+   of the processor time; without the large pages nothing is gained. */
 #define _DEFAULT_SOURCE
 #include <limits.h>
 #include <stdint.h>

@@ -39,8 +39,8 @@ int wavycon_make_directory(const char *path)
 /* The file to be removed if the program is interrupted; empty if there is none. */
 static char unfinished[4096];
 
-/* What a user is told if the program is interrupted: what is kept, and the command that goes on; empty: nothing. */
-static char kept[4096], command[8192];
+/* What a user is told if the program is interrupted: what is kept; empty: nothing. */
+static char kept[4096];
 
 static void tell(const char *words)
 {
@@ -52,12 +52,10 @@ static void remove_unfinished(int number)
 {
     if (unfinished[0] != '\0')
         unlink(unfinished);
-    if (kept[0] != '\0' && command[0] != '\0') {
+    if (kept[0] != '\0') {
         tell("\nwavycon: interrupted: ");
         tell(kept);
-        tell("; go on with\n   ");
-        tell(command);
-        tell("\n");
+        tell("; the same command with --resume goes on\n");
     }
     signal(number, SIG_DFL);
     raise(number);
@@ -78,11 +76,6 @@ static void note(char *text, size_t size, const char *words)
 void wavycon_note_kept(const char *words)
 {
     note(kept, sizeof kept, words);
-}
-
-void wavycon_note_command(const char *words)
-{
-    note(command, sizeof command, words);
 }
 
 /* Removes a file if the program is interrupted before it is renamed or removed; only the file of the last call. Signals
@@ -185,8 +178,8 @@ static long long memory_of_groups(void)
         return -1;
     line[strcspn(line, "\n")] = '\0';
     snprintf(directory, sizeof directory, "%s%s", top, line + strlen(mark));
-    /* Up to the top, which has no path. In a container the path may be one of the host that is not there, but the top is
-       that of the container. */
+    /* Up to the top, which has no path. In a container the path may be one of the host that is not there, but the top
+       is that of the container. */
     while (strlen(directory) >= strlen(top)) {
         long long left = wavycon_memory_of_group(directory);
         if (left >= 0 && (least < 0 || left < least))

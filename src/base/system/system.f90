@@ -10,7 +10,7 @@ module wavycon_system
    public :: end_written, error_text, note_input, open_written, print_text, print_trouble, put_bytes, put_text, &
       refusal_to_write, remove_leftovers, say
    public :: file_size, full_path, path_kind, make_directories, remove_file
-   public :: note_command, note_kept, outlive_file_size_limit, process_id, terminal_columns
+   public :: note_kept, outlive_file_size_limit, terminal_columns
 
    !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
@@ -37,27 +37,16 @@ module wavycon_system
       subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
       end subroutine outlive_file_size_limit
 
-      !> The number of this process, for file names that no other process uses.
-      integer(c_int) function process_id() bind(c, name='getpid')
-         import :: c_int
-      end function process_id
-
       !> The width of the terminal that standard output is; 0 if it is none, or not the one of this program.
       integer(c_int) function terminal_columns() bind(c, name='wavycon_terminal_columns')
          import :: c_int
       end function terminal_columns
 
-      !> What is told if the program is interrupted: what of the run is kept, '' for nothing; and the command that goes
-      !> on, without which nothing is told. Both end in a null character.
+      !> What is told if the program is interrupted: what of the run is kept, with a null character at its end.
       subroutine note_kept(words) bind(c, name='wavycon_note_kept')
          import :: c_char
          character(kind=c_char), intent(in) :: words(*)
       end subroutine note_kept
-
-      subroutine note_command(words) bind(c, name='wavycon_note_command')
-         import :: c_char
-         character(kind=c_char), intent(in) :: words(*)
-      end subroutine note_command
 
       !> Memory that this process may still allocate and use without swapping [byte]: memory of the machine that is free
       !> or can be freed, but at most what is left by the limits of a container or a batch job (control groups of Linux)

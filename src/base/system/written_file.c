@@ -72,8 +72,8 @@ void wavycon_note_input(const char *path)
    with all that is in it. */
 static const char standard_output[] = "/dev/stdout";
 
-/* Why a file cannot be written, as far as what has its name says: 0, an errno or one of the reasons above. Unless `mark`
-   is empty, only an empty file and one that begins with it may be replaced. */
+/* Why a file cannot be written, as far as what has its name says: 0, an errno or one of the reasons above. Unless
+   `mark` is empty, only an empty file and one that begins with it may be replaced. */
 int wavycon_refusal(const char *path, const char *mark)
 {
     char start[64] = "";
@@ -127,7 +127,8 @@ void wavycon_remove_leftovers(const char *directory)
     closedir(list);
 }
 
-/* Opens the part of a file, locked. One that another process takes for left behind, before it is locked, is made again. */
+/* Opens the part of a file, locked. One that another process takes for left behind, before it is locked, is made
+   again. */
 static FILE *open_part(struct written_file *file, const char *path)
 {
     struct stat info;
@@ -171,8 +172,8 @@ int wavycon_put_bytes(struct written_file *file, const void *bytes, size_t numbe
     return file == NULL ? ENOMEM : file->trouble;
 }
 
-/* Writes what is in the buffer and gives a complete file its name; one that is not complete, or had an error, is removed.
-   Then closes it, unless it stays open for more bytes. Returns the first error, 0 without one. */
+/* Writes what is in the buffer and gives a complete file its name; one that is not complete, or had an error, is
+   removed. Then closes it, unless it stays open for more bytes. Returns the first error, 0 without one. */
 int wavycon_end_written(struct written_file *file, int is_complete, int stays_open)
 {
     int trouble = wavycon_put_bytes(file, "", 0);

@@ -72,8 +72,7 @@ contains
       type(fitted_stress_fields), allocatable :: own
 
       allocate (own)
-      call start_fitted_stress_fields(own, surface, self%frame, self%answer, self%accuracy, &
-                                      record%pbar_over_pstar)
+      call start_fitted_stress_fields(own, surface, self%frame, self%answer, self%accuracy, record%pbar_over_pstar)
       call move_alloc(own, answer)
    end subroutine stresses
 

@@ -161,8 +161,7 @@ contains
       do k = 1, size(below)
          do i = 1, n
             associate (z => at_surface(i)*self%frame%side/self%frame%turn)
-               places(:, (k - 1)*n + i) = &
-                  2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
+               places(:, (k - 1)*n + i) = 2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
             end associate
             widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%frame%length(1)
          end do

@@ -25,8 +25,7 @@ module wavycon_free_level
 contains
 
    !> Solves (C1) on a grid. The gap outside the rectangle is h - approach, less than the true one: see complete_gap.
-   subroutine solve_free_level(surface, undeformed_gap, residual, most_iterations, state, transform_pairs, &
-      progress)
+   subroutine solve_free_level(surface, undeformed_gap, residual, most_iterations, state, transform_pairs, progress)
       type(surface_type), intent(in) :: surface      !! with free edges
       real(dp), intent(in) :: undeformed_gap(:, :), residual   !! these as of solve_on_grid
       integer, intent(in) :: most_iterations

@@ -88,8 +88,7 @@ contains
       type(grid_fields), allocatable :: own
 
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, &
-                             record%measures%approach_over_amplitude, self%rotated)
+      call start_grid_fields(own, surface, self%edge, record%measures%approach_over_amplitude, self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -161,8 +160,7 @@ contains
       call transform%series(values, pressure)
       deallocate (values)
       if (self%rotated) pressure = to_difference_angles(pressure)
-      call start_series_stress(own, surface, pressure, record%pbar_over_pstar, &
-                               pressure_error=error, is_sampled=.true.)
+      call start_series_stress(own, surface, pressure, record%pbar_over_pstar, pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)
    end subroutine stresses
 

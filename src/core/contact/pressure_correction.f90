@@ -277,8 +277,7 @@ contains
          allocate (change, source=state%change - real(step, dp)*direction)
          above = contact*(start + change)
          below = contact*(state%room - change)
-         shift = bounded_shift(state%slab, state%region%strip_places(), above, below, &
-                               -state%sum_of(change))
+         shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(change))
          change = min(max(change + contact*shift, -real(start, dp)), real(state%room, dp))
       end associate
       do c = 1, state%region%chunks

@@ -190,8 +190,7 @@ contains
       class(series_contact), intent(in) :: self
 
       associate (options => self%series%options)
-         continues = .not. options%by_beale .and. &
-                     options%constraint_points <= most_points_to_continue*options%harmonics
+         continues = .not. options%by_beale .and. options%constraint_points <= most_points_to_continue*options%harmonics
       end associate
    end function continues
 

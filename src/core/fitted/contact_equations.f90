@@ -65,8 +65,7 @@ contains
       associate (degree => like%basis%degree, b => like%shape%b)
          ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
          angles = int(chords_per_degree*degree) + 4
-         if (merging_ratio > sharp_quadrature_ratio) &
-            angles = int(sharp_chords_per_degree*degree) + min(20, degree)
+         if (merging_ratio > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + min(20, degree)
          ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
          if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
          call start_chord_rule(equations%chords, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)

@@ -2,8 +2,7 @@
 module wavycon_degree_history
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
-   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure, &
-      perimeter_measure
+   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure, perimeter_measure
    use wavycon_fitted_tuning, only: error_safety, fastest_decay, fastest_decay_at_point, first_error_factor, &
       least_relative_share, previous_difference_share
    use wavycon_kinds, only: dp

@@ -75,8 +75,7 @@ contains
       integer, intent(in) :: l
       real(dp), intent(in) :: a    !! power of the weight
 
-      norm = log_gamma(l + a + 1) + log_gamma(l + k + 1.0_dp) &
-         - log_gamma(l + 1.0_dp) - log_gamma(l + a + k + 1)
+      norm = log_gamma(l + a + 1) + log_gamma(l + k + 1.0_dp) - log_gamma(l + 1.0_dp) - log_gamma(l + a + k + 1)
       norm = sqrt(merge(pi, 0.5_dp*pi, k == 0)*exp(norm)/(2*l + a + k + 1))
    end function norm_over_disc
 

@@ -67,8 +67,7 @@ contains
       real(dp) :: values(1, self%basis%terms)
 
       call self%basis%evaluate(1, [w], values)
-      at = dot_product(values(1, :), self%c) &
-         *max((1.0_dp - abs(w))*(1.0_dp + abs(w)), 0.0_dp)**self%basis%power
+      at = dot_product(values(1, :), self%c)*max((1.0_dp - abs(w))*(1.0_dp + abs(w)), 0.0_dp)**self%basis%power
    end function at
 
 end module wavycon_expansion

@@ -66,8 +66,7 @@ contains
       logical :: half
 
       half = degree < first_degree
-      if (fold == 4) half = degree < full_step_degree &
-         .or. (degree < 12 .and. merging_ratio < round_shape_ratio)
+      if (fold == 4) half = degree < full_step_degree .or. (degree < 12 .and. merging_ratio < round_shape_ratio)
       next_degree = degree + merge(degree_step/2, degree_step, half)
    end function next_degree
 

@@ -6,8 +6,7 @@ module wavycon_load_continuation
    use wavycon_disc_polynomials, only: start_disc_polynomials
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
-   use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, &
-      start_degree
+   use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, start_degree
    use wavycon_gauss_newton, only: change_per_square, solve_equations
    use wavycon_kinds, only: dp
    use wavycon_expansion_size, only: merging_ratio

@@ -323,8 +323,7 @@ contains
       ratio = sum([((self%fold*k - 1)*abs(self%b(k)), k=1, ubound(self%b, 1))]) &
          /(self%b(0)*(1.0_dp - (self%fold + 1)*self%clustering))
       points = most_edge_points
-      if (ratio < 1.0_dp) &
-         points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_edge_points)
+      if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_edge_points)
       points = max(points, least_edge_points)
       perimeter = 0.0_dp
       do i = 1, points

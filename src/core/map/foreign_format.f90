@@ -36,8 +36,8 @@ contains
       ! No text has these bytes but one of two bytes a character, every other of which is 0.
       if (scan(head, char(0)//char(1)//char(2)//char(3)//char(4)//char(5)//char(6)//char(127)) == 0) return
       words = remedy_of_name(path)
-      if (words == '') words = 'this is no text in UTF-8 or ASCII, and neither .npy nor .gsf. If it is a text of two '// &
-                               'bytes a character (UTF-16) save it as UTF-8, otherwise '//by_gwyddion
+      if (words == '') words = 'this is no text in UTF-8 or ASCII, and neither .npy nor .gsf. If it is a text of '// &
+                               'two bytes a character (UTF-16) save it as UTF-8, otherwise '//by_gwyddion
    end function remedy_of_content
 
    !> The same by the name alone; empty without such an ending.

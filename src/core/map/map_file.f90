@@ -8,8 +8,7 @@ module wavycon_map_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, read_gsf_map, take_esri_head, &
-      take_text_head
+   use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, read_gsf_map, take_esri_head, take_text_head
    use wavycon_kinds, only: dp, sp
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: npy_magic, read_npy_map

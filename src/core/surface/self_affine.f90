@@ -29,7 +29,7 @@ module wavycon_self_affine
       real(dp) :: shortest = 1.0_dp           !! shortest wave [length], > 0, <= rolloff
       real(dp) :: rms = 1.0_dp                !! root mean square of the height [length] or of the slope, > 0
       logical :: by_slope = .false.           !! whether it is that of the slope
-      !> C of waves longer than the roll-off, (M26) or (M28) of src/core/map/README.md [length^4, length^3]; 0: rms decides.
+      !> C of waves longer than the roll-off, (M26) or (M28) of src/core/map/README.md [length^4, length^3]; 0: by rms.
       real(dp) :: density = 0.0_dp
       logical :: random_amplitudes = .false.  !! whether amplitudes are those of a Gaussian process, or of the spectrum
       integer :: seed = 1                     !! >= 1

@@ -1,5 +1,6 @@
 !> Reads the command line; the texts of --help.
 module wavycon_command_line
+   use wavycon_deck_text, only: at_end, is_comma, next_token, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_group_values, only: group_values
    use wavycon_key_reference, only: add_wrapped, key_reference
@@ -13,7 +14,7 @@ module wavycon_command_line
    implicit none (type, external)
    private
 
-   public :: command_line_type, command_to_resume, read_command_line, help_text
+   public :: command_line_type, read_command_line, help_text
 
    !> A deck, with keys set in place of its own.
    type :: run_type
@@ -153,27 +154,20 @@ contains
       type(setting_type), allocatable, intent(out) :: values(:)
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
-      character :: quote
       integer :: i
       integer, allocatable :: commas(:)
       type(setting_type) :: setting
+      type(token_type) :: token
 
       call read_setting(word, setting, trouble)
       if (allocated(trouble) .and. option == '--sweep') trouble = '--sweep needs group.key=value,value,..., '// &
          "such as surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'"
       if (allocated(trouble)) return
       commas = [0]
-      quote = ' '
-      do i = 1, len(setting%value)
-         associate (byte => setting%value(i:i))
-            if (quote == ' ' .and. scan(byte, '''"') == 1) then
-               quote = byte
-            else if (byte == quote) then
-               quote = ' '
-            else if (quote == ' ' .and. byte == ',' .and. option == '--sweep') then
-               commas = [commas, i]
-            end if
-         end associate
+      do while (option == '--sweep')
+         token = next_token(setting%value, token%last + 1)
+         if (token%kind == at_end) exit
+         if (token%kind == is_comma) commas = [commas, token%first]
       end do
       commas = [commas, len(setting%value) + 1]
       allocate (values(size(commas) - 1))
@@ -265,32 +259,5 @@ contains
       allocate (character(length) :: word)
       if (length > 0) call get_command_argument(i, word)
    end function argument
-
-   !> The command that continues this run, for a shell.
-   function command_to_resume() result(command)
-      character(:), allocatable :: command
-
-      character(*), parameter :: plain = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%'
-      character(:), allocatable :: word, words
-      integer :: i, k
-
-      command = ''
-      do i = 0, command_argument_count()
-         word = argument(i)
-         if (i > 0 .and. word == '--resume') cycle
-         if (verify(word, plain) > 0 .or. word == '') then
-            words = "'"
-            do k = 1, len(word)
-               words = words//word(k:k)
-               ! A quote ends the quoted text, stands escaped, and begins it again.
-               if (word(k:k) == "'") words = words//"\''"
-            end do
-            word = words//"'"
-         end if
-         command = command//word//' '
-         if (i == 0) command = command//'--resume '
-      end do
-      command = trim(command)
-   end function command_to_resume
 
 end module wavycon_command_line

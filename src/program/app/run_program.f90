@@ -6,16 +6,16 @@ module wavycon_run_program
    use, intrinsic :: iso_fortran_env, only: error_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
-   use wavycon_command_line, only: command_line_type, command_to_resume, help_text, read_command_line
+   use wavycon_command_line, only: command_line_type, help_text, read_command_line
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_notes, only: outcome
    use wavycon_plain_text, only: escaped, integer_text
-   use wavycon_ranks, only: comm, end_ranks, is_first_rank, rank_count, share_error
+   use wavycon_ranks, only: comm, end_ranks, is_first_rank, share_error
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: error_text, full_path, keep_memory, note_command, outlive_file_size_limit, &
+   use wavycon_system, only: error_text, full_path, keep_memory, outlive_file_size_limit, &
       print_trouble, remove_leftovers, say
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
@@ -58,7 +58,7 @@ contains
 
    !> Runs the program from its command line to its exit status, and ends it.
    subroutine run_program()
-      character(:), allocatable :: command, text
+      character(:), allocatable :: text
       type(command_line_type) :: command_line
       type(scene_item), allocatable :: scenes(:)
       type(error_type), allocatable :: error
@@ -94,9 +94,6 @@ contains
          end do
          call finish(worst)
       end if
-      command = command_to_resume()
-      if (rank_count() > 1) command = 'mpirun -n '//integer_text(rank_count())//' '//command
-      if (is_first_rank()) call note_command(command//c_null_char)
       call run_scenes(command_line, quiet, scenes, worst)
       call finish(worst)
    end subroutine run_program

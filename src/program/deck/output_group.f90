@@ -104,8 +104,7 @@ contains
       grid = grid/surface%parts()
       ! A multiple of the grid's points: lines on a square height map pass through its points and do not cut peaks.
       finest = max(1, maxval(grid))
-      call values%set_default('line_points', &
-         [real(finest*((max(usual_points, finest) + finest - 1)/finest), dp)])
+      call values%set_default('line_points', [real(finest*((max(usual_points, finest) + finest - 1)/finest), dp)])
       if (values%is_bad('map_points')) return
       points = real(grid, dp)
       if (all(grid == 0)) points = real(usual_points, dp)

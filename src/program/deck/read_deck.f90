@@ -212,8 +212,7 @@ contains
          allocate (scene%target(0), scene%mean_pressure(0))
       end if
       call make_stress_setting(scene%stress, scene%material, scene%p_star, scene%stress_setting)
-      call make_interface_setting(scene%interface, scene%material, scene%surface, scene%p_star, &
-                                  scene%interface_setting)
+      call make_interface_setting(scene%interface, scene%material, scene%surface, scene%p_star, scene%interface_setting)
       associate (labels => scene%scene_values, surface => scene%surface_values)
          scene%case = labels%text('case')
          scene%pressure_unit = labels%text('pressure_unit')

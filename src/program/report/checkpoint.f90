@@ -17,6 +17,7 @@ module wavycon_checkpoint
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
+   use wavycon_ranks, only: is_first_rank
    use wavycon_results, only: results_type
    use wavycon_system, only: end_written, file_size, note_kept, open_written, path_absent, path_file, path_kind, &
       put_bytes, put_text, remove_file
@@ -170,8 +171,8 @@ contains
       if (status /= 0) call close_file(self)
       if (status /= 0) return
       self%kept = self%kept + 1
-      call note_kept(integer_text(self%kept)//' of '//integer_text(self%loads)//' loads are kept in '//self%name// &
-                     c_null_char)
+      if (is_first_rank()) call note_kept(integer_text(self%kept)//' of '//integer_text(self%loads)// &
+                                          ' loads are kept in '//self%name//c_null_char)
    end subroutine put
 
    !> Reads the next record of a file.

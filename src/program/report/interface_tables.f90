@@ -112,8 +112,7 @@ contains
                      of_stick(3) = not_a_number()
                      displacement(2) = not_a_number()
                   end if
-                  if (slopes(2)%gap_slope < 0.0_dp) stiffness = &
-                     -p_star/(setting%kappa(1)*amplitude*slopes(2)%gap_slope)
+                  if (slopes(2)%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes(2)%gap_slope)
                end if
                call file%put_row([real(dp) :: load, i, results%mean_pressure(load), p_star*slip%tangential, &
                                   slip%tangential/(setting%friction*solution%pbar_over_pstar), of_stick(1), &

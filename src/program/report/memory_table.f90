@@ -70,8 +70,7 @@ contains
       is_word = self%kinds == of_words
       associate (row => self%values(:, self%rows))
          row = unpack(numbers, .not. is_word, 0.0_dp)
-         if (present(words)) &
-            row = unpack([(real(number_of_word(self, words(i)), dp), i=1, size(words))], is_word, row)
+         if (present(words)) row = unpack([(real(number_of_word(self, words(i)), dp), i=1, size(words))], is_word, row)
       end associate
    end subroutine add_row
 

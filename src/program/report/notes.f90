@@ -170,8 +170,7 @@ contains
             end do
             if (scene%gives_modulus .and. .not. surface%has_free_edges) &
                call line%add('peak['//scene%pressure_unit//']', results%peak_pressure(load))
-            if (load == 1) &
-               call log%say(line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)//'status')
+            if (load == 1) call log%say(line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)//'status')
             call log%say(line%words//' '//solver_names(results%loads(load)%solver)(:solver_width)//'  '// &
                          trim(status_name(results%loads(load)%status)))
          end do
@@ -309,8 +308,8 @@ contains
          call note_unresolved(surface, loads, log)
          is_series = loads%solver == by_beale .or. loads%solver == by_dual
          if (any(is_series)) call log%note( &
-            "the errors of the paper's truncated series are not estimated: with its harmonics and points they are up "// &
-            'to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
+            "the errors of the paper's truncated series are not estimated: with its harmonics and points they are "// &
+            'up to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
             ' in area/A0 and '//short_number(paper_errors(3))//' in peak/p* from 0.05 to 0.9 p*, more at other '// &
             "loads. solver = 'auto' gives digits, with error estimates")
          call note_some(count(is_series .and. loads%measures%mean_gap_over_amplitude < 0.0_dp), &
@@ -332,8 +331,8 @@ contains
                'contact reaches the border: up to '//percent(maxval(loads%measures%load_at_border))// &
                ' of the load is within '//percent(border)// &
                ' of the sides from it, where a larger map might carry more')
-            if (surface%has_steps) call log%note('a map of two heights at most is taken as blocks, the cells of its '// &
-               'points, as a punch is')
+            if (surface%has_steps) call log%note('a map of two heights at most is taken as blocks, the cells of '// &
+               'its points, as a punch is')
             if (.not. all(is_known(loads%measures%peak_pressure_over_pstar))) call log%note('where contact ends at '// &
                'a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
             if (surface%dimension == 1) call log%note('the approach of a profile with free edges is not '// &

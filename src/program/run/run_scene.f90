@@ -232,8 +232,7 @@ contains
          call log%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
                       ' loads are in '//escaped(name))
       else
-         call log%note('there is no '//escaped(checkpoint_name(results))// &
-                      ' to resume from: all loads are solved')
+         call log%note('there is no '//escaped(checkpoint_name(results))//' to resume from: all loads are solved')
       end if
       ! The digits of these loads depend on the load solved before.
       if (results%scene%loads_by /= by_pressure .and. results%traits%continues_last_load) known = .false.

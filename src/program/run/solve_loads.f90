@@ -81,8 +81,7 @@ contains
             if (known(load)) then
                call solver%skip_load(target(load))
             else
-               call solve_target(solver, loads_by, target(load), results%loads(load), &
-                                 results%scene%stress_setting)
+               call solve_target(solver, loads_by, target(load), results%loads(load), results%scene%stress_setting)
                call checkpoint%add(load, results%loads(load))
                progress%solved = progress%solved + 1
                progress%last = log%elapsed()
