@@ -21,7 +21,7 @@ set -euo pipefail
 # Slurm runs a copy of this file: the tree is where sbatch was called.
 cd "${SLURM_SUBMIT_DIR:-.}"
 threads=${SLURM_CPUS_PER_TASK:-1}
-export OPENBLAS_NUM_THREADS=1
+export OPENBLAS_NUM_THREADS=1 OMP_WAIT_POLICY=passive
 
 # If Slurm does not know the MPI library: mpirun --map-by "slot:PE=$threads" in place of srun.
 # --resume continues a job that was ended by its time limit, on any number of ranks; the first time it does nothing.

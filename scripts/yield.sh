@@ -2,7 +2,7 @@
 # Stresses below the crest of the two-dimensional wave, and its largest von Mises stress against the load.
 #
 # Asymptotes: on the axis of a Hertzian contact, K. L. Johnson, Contact Mechanics (1985), eqs (3.45); full contact by
-# src/stress/README.md.
+# src/core/stress/README.md.
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"

@@ -57,7 +57,7 @@ def summary(tables, beside, choice, folder):
     codes = [code for table in tables for code in table.column("status_code")]
     # The paper's series is shown beside converged values: its waves have one shape, whatever their size.
     reference = ""
-    if len(tables) == 1 and first.method == "beale":
+    if len(tables) == 1 and first.method in ("beale", "series"):
         reference = "table" if "cell_y" in first.numbers else "closed form"
     # gnuplot wants the file even if it plots nothing of it.
     os.symlink(os.path.realpath(REFERENCE), os.path.join(folder, "reference"))

@@ -224,7 +224,7 @@ def largest(tables, beside, choice, folder):
         entries += [(f"linespoints ls {30 + r}", name) for r, name in enumerate(names_of(tables), 1)]
     elif most > least:
         entries += [("linespoints ls 31", "first body"), ("linespoints ls 32", "second body")]
-    estimated = len(tables) == 1 and tables[0].method != "beale"
+    estimated = len(tables) == 1 and tables[0].method not in ("beale", "series")
     facts.append(f"estimated = {int(estimated)}")
     if estimated and any(not error < value for block in tables[0].blocks for value, error, code in zip(
             *(block.columns[name] for name in (SHEAR, SHEAR + "_error", "status_code"))) if 0 < value and code < 10):

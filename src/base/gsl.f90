@@ -25,8 +25,7 @@ module wavycon_gsl
 
    interface
       !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 on success.
-      integer(c_int) function gsl_sf_legendre_pl_array(lmax, x, values) &
-         bind(c, name='gsl_sf_legendre_Pl_array')
+      integer(c_int) function gsl_sf_legendre_pl_array(lmax, x, values) bind(c, name='gsl_sf_legendre_Pl_array')
          import :: c_double, c_int
          integer(c_int), value :: lmax
          real(c_double), value :: x

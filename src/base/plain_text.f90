@@ -215,25 +215,16 @@ contains
          length = 0
          return
       end do
-      if (code < least(length) .or. .not. is_visible(code)) length = 0
-   end function printable_length
-
-   !> Whether a character beyond ASCII is visible on a terminal and does nothing else: not a control character, a mark
-   !> of the direction of writing, an end of line, a blank other than ASCII's, or a code without a character.
-   pure logical function is_visible(code)
-      integer, intent(in) :: code   !! >= 128
-
-      integer, parameter :: plane = 65536
-
+      if (code < least(length)) length = 0
+      ! No character; and control characters, invisible blanks and marks of the direction of writing, which come along
+      ! with text that is copied from elsewhere: a message must show why a word is not the one that it looks like.
       select case (code)
-      case (128:160, int(z'AD'), int(z'61C'), int(z'180E'), int(z'200B'), int(z'200E'):int(z'200F'), &
-            int(z'2028'):int(z'202E'), int(z'2060'):int(z'206F'), int(z'D800'):int(z'DFFF'), int(z'FEFF'), &
-            int(z'FFF9'):int(z'FFFB'), int(z'E0000'):int(z'E0FFF'), int(z'110000'):)
-         is_visible = .false.
-      case default
-         is_visible = modulo(code, plane) < plane - 2
+      case (int(z'D800'):int(z'DFFF'), int(z'110000'):)
+         length = 0
+      case (128:160, int(z'2000'):int(z'200F'), int(z'2028'):int(z'202F'), int(z'FEFF'))
+         length = 0
       end select
-   end function is_visible
+   end function printable_length
 
    !> Whether a byte is the second or a later one of a UTF-8 character.
    elemental logical function is_continuation(byte)

@@ -1,6 +1,6 @@
-/* The lock that lets one thread at a time into the library: gfortran 12 keeps the lengths of texts that functions return
-   in static memory. The solvers have no such functions, so other threads come in while a load is solved, but not with the
-   same scene. A Fortran program that calls the module has no lock. */
+/* The lock that lets one thread at a time into the library: gfortran 12 keeps the lengths of texts that functions
+   return in static memory. The solvers have no such functions, so other threads come in while a load is solved, but not
+   with the same scene. A Fortran program that calls the module has no lock. */
 #include <pthread.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

@@ -36,8 +36,8 @@ module wavycon_session_fields
 
 contains
 
-   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for solver
-   !> 'beale', whose series is shown as it is.
+   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for the solvers
+   !> 'beale' and 'series', whose series is shown as it is.
    subroutine fields_at(session, solved, n, x, y, error, pressure, gap, displacement)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
@@ -79,8 +79,7 @@ contains
       real(dp), allocatable :: g(:, :), p(:, :), u(:, :)
 
       call prepare_fields(session, solved, error)
-      if (.not. allocated(error)) &
-         call check_points(session, points, offset, 0.0_dp, numbers_of_fields, first, error)
+      if (.not. allocated(error)) call check_points(session, points, offset, 0.0_dp, numbers_of_fields, first, error)
       if (allocated(error)) return
       if (session%scale%p_star > 0.0_dp) then
          call solved%fields%on_grid(points, first, p, u, g)
@@ -182,8 +181,7 @@ contains
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
-      if (.not. allocated(error)) &
-         call check_points(session, points, offset, depth, numbers_of_stresses, first, error)
+      if (.not. allocated(error)) call check_points(session, points, offset, depth, numbers_of_stresses, first, error)
       if (allocated(error)) return
       if (allocated(solved%stresses)) then
          call solved%stresses%on_plane(points, first, session%scale%depth_angle(depth), body, over_p_star, errors)

@@ -5,7 +5,7 @@
 !> `deck_session` takes and gives the deck's units.
 module wavycon
    use wavycon_auto_contact, only: auto_contact
-   use wavycon_beale_contact, only: beale_contact, qp_options
+   use wavycon_series_contact, only: series_contact, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_details, contact_measures
@@ -32,13 +32,14 @@ module wavycon
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
-   use wavycon_surface, only: surface_of_points, surface_of_series, surface_type
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_of_points, only: surface_of_points
    use wavycon_threads, only: set_threads
    use wavycon_unit_scale, only: scale_of, unit_scale
    use wavycon_version, only: revision, version
    use wavycon_wave_2d_limits
    use wavycon_westergaard
-   use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
+   use wavycon_wave_surfaces, only: crossed_1d, hexagonal, surface_of_series, wave_1d, wave_2d, wave_sum
    implicit none (type, external)
    public
 end module wavycon

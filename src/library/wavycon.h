@@ -117,8 +117,8 @@ wavycon_table wavycon_new_table(wavycon_error error, wavycon_solution solution, 
 int wavycon_get_column(wavycon_error error, wavycon_table table, const char *name, int rows, double *values);
 
 /* Fields at points: all arrays are [points]. An array for results may be NULL: not wanted. Pressure is exactly 0 outside
-   contact and the gap exactly 0 in contact, but for solver 'beale', whose series is shown as it is. displacement is
-   u - mean u. */
+   contact and the gap exactly 0 in contact, but for the solvers 'beale' and 'series', whose series is shown as it is.
+   displacement is u - mean u. */
 int wavycon_get_fields(wavycon_error error, wavycon_solution solution, int points, const double *x, const double *y,
                        double *pressure, double *gap, double *displacement);
 

@@ -26,7 +26,7 @@ import rough_surface  # noqa: E402
 
 AREAS = ("contact_area_counted_fraction", "contact_area_corrected_fraction", "contact_area_fraction")
 ERROR = "contact_area_fraction_error"
-CHANGE = (math.pi - 1 + math.log(2))/24   # (C26) of src/contact/README.md
+CHANGE = (math.pi - 1 + math.log(2))/24   # (C26) of src/core/contact/README.md
 WAVE_POINTS = (32, 64, 128, 256, 512)
 WAVE_LOADS = {"light": (0.01, 0.013, 0.017, 0.02, 0.025, 0.03, 0.04, 0.05),
               "medium": (0.1, 0.13, 0.17, 0.2, 0.35, 0.4, 0.5, 0.6), "heavy": (0.8, 0.83, 0.86, 0.9, 0.93, 0.95, 0.97)}

@@ -2,14 +2,14 @@
 !>
 !>    bench_programmes HARMONICS POINTS SYMMETRY WAY
 !>
-!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none',
-!> min 1/2 x'Dx - c'x subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m of C', and reads
-!> lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of the
-!> solves [ms], each from nothing; x. With 0 solves there is one, which starts from the last answer. With -1 the answer
-!> is the programme: D (n numbers a line), c, and the columns of C' (n numbers a line).
+!> takes the quadratic programme of the two-dimensional wave with a symmetry, 'full', 'diagonal' or 'none', min 1/2 x'Dx
+!> - c'x subject to  Cx >= -P, to be solved by 'dual' or by 'beale' from x = 0. It writes the shape n and m of C', and
+!> reads lines with a load P and a number of solves. Each is answered by three lines: status and pivots; the times of
+!> the solves [ms], each from nothing; x. With 0 solves there is one, which starts from the last answer. With -1 the
+!> answer is the programme: D (n numbers a line), c, and the columns of C' (n numbers a line).
 program bench_programmes
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
-   use wavycon_beale_contact, only: beale_contact, qp_options
+   use wavycon_series_contact, only: series_contact, qp_options
    use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
@@ -18,7 +18,7 @@ program bench_programmes
    implicit none (type, external)
 
    character(*), parameter :: numbers = '(*(es26.17e3))'
-   type(beale_contact) :: fresh, contact
+   type(series_contact) :: fresh, contact
    type(qp_solution) :: programme
    character(12) :: words(4)
    real(dp), allocatable :: times(:)

@@ -3,7 +3,7 @@
 !>    bench_rough HEIGHTS POINTS LOAD RESIDUAL PRESSURES
 !>
 !> HEIGHTS holds POINTS x POINTS heights, 8 bytes each, on a cell of side 1; LOAD is the mean pressure where E* = 1/pi,
-!> and RESIDUAL the tolerance (C9) of src/contact/README.md. PRESSURES gets the pressures in the format of HEIGHTS. The
+!> and RESIDUAL the tolerance (C9) of src/core/contact/README.md. PRESSURES gets the pressures in the format of HEIGHTS. The
 !> line of standard output: whether it converged (T or F), processor time [s] from the heights to the pressures,
 !> iterations on all grids and on the last, and transforms there and back in units of one on the last grid.
 program bench_rough
@@ -11,7 +11,8 @@ program bench_rough
    use wavycon_constants, only: pi
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
-   use wavycon_surface, only: surface_of_points, surface_type
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_of_points, only: surface_of_points
    use wavycon_system, only: keep_memory
    implicit none (type, external)
 

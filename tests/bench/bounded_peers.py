@@ -10,7 +10,7 @@ are mean pressures and hardnesses over E*.
 
 Each row has the points a side, the load, and of each program: the processor time of the solution [s], with wavycon that
 of the whole program, reading the map included; the largest difference of its pressures from wavycon's over the largest
-pressure; and, with a hardness, the residual (C9) of src/contact/README.md, computed in the same way for all. The last
+pressure; and, with a hardness, the residual (C9) of src/core/contact/README.md, computed in the same way for all. The last
 columns are the contact and, with a hardness, the area at it. All solve to a tolerance, each in its own measure. Grids
 of --others are solved by wavycon and ASPHER alone. Run it with a Python that has numpy.
 """

@@ -4,8 +4,8 @@
 usage: own_solvers.py BUILD
 
 The program from start to finish, with the deck of the paper's sweep. Expansions: a load of the two-dimensional and of
-the hexagonal wave to ever smaller accuracies, and 99 loads, each from the one before. Grids: a load of the 2-D wave to three accuracies, and how the errors of the 1-D and the 2-D wave fall
-with the step. Maps, and stresses, beside the solution that they show: a section of 128 x 64 points, the search for the
+the hexagonal wave to ever smaller accuracies, and 99 loads, each from the one before. Grids: a load of the 2-D wave to
+three accuracies, and how the errors of the 1-D and the 2-D wave fall with the step. Maps, and stresses, beside the solution that they show: a section of 128 x 64 points, the search for the
 largest stresses, a plane.
 """
 import ctypes

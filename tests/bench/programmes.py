@@ -23,6 +23,7 @@ import time
 from own import reference_loads
 
 SIZES = [(9, 27), (18, 53)]   # harmonics, points a side
+FEW = 9, 11   # so few points that loads start from the one before
 TOLERANCES = [1e-6, 1e-11]
 FLAGS = ['-O3', '-fassociative-math', '-fno-signed-zeros', '-fno-trapping-math']
 VERSION = '0.11.0'
@@ -157,6 +158,11 @@ def sweep(solver, loads):
                for _ in range(20))
 
 
+def alone(solver, loads):
+    """Time [ms] of the loads, each on its own."""
+    return sum(statistics.median(solver.solve(load, 20)[2]) for load in loads)
+
+
 def paper(build, loads, seconds):
     """The paper's discretisations, and points on as many intervals as there are harmonics. The paper: 49/378 take about
     20 times as long as 29/196."""
@@ -169,9 +175,9 @@ def paper(build, loads, seconds):
         good = compare([usual, Quadprog(usual)], loads, seconds) and good
     except ImportError:
         print('# quadprog (Goldfarb & Idnani 1983): SKIPPED, this Python does not have it\n\n')
-    alone = sum(statistics.median(usual.solve(load, 20)[2]) for load in loads)
-    print(f'# The sweep of all loads, 29/196 [ms]: from load to load {sweep(usual, loads):.3f}, '
-          f'each on its own {alone:.3f}')
+    beale, few = Wavycon(build, *SIZES[0], 'full', 'beale'), Wavycon(build, *FEW)
+    print(f'# The sweep of all loads [ms]: {beale.name} {alone(beale, loads):.3f}; {usual.name} '
+          f'{alone(usual, loads):.3f}; {few.name} {alone(few, loads):.3f}, from load to load {sweep(few, loads):.3f}')
     largest = Wavycon(build, *LARGEST)
     print(f'# {largest.n}/{largest.m}, mean of loads from 0.8 to 0.2, from load to load [ms]: '
           f'{sum(largest.solve(load, 0)[2][0] for load in LARGEST_LOADS)/len(LARGEST_LOADS):.1f}')

@@ -69,7 +69,7 @@ def pressure_for_contact(heights, fraction):
 class Judgement:
     """How well pressures meet the conditions of contact."""
     contact: float          # fraction of the points with pressure
-    residual: float         # (C9) of src/contact/README.md; NaN if a pressure is negative or no number
+    residual: float         # (C9) of src/core/contact/README.md; NaN if a pressure is negative or no number
     complementarity: float  # sum of p times the size of the gap, over sum p times mean gap
     load_error: float       # of the mean pressure, relative
     mean_gap: float

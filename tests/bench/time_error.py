@@ -28,7 +28,7 @@ LOADS = '0.05', '0.2', '0.5', '0.9'
 QUANTITIES = 'gap', 'area', 'peak'
 TARGETS = [10.0**-k for k in range(2, 9)]
 RATIO_TARGETS = 1e-5, 1e-3, 1e-3  # of the three quantities, for the ratios
-OWN = 'wavycon-grid', 'wavycon-fitted', 'wavycon-beale'
+OWN = 'wavycon-grid', 'wavycon-fitted', 'wavycon-series'
 RATED = 'wavycon-grid', 'wavycon-fitted'  # for the ratios
 HANG = 5  # a solver is ended after so many times its time
 GROWTH = 6  # largest ratio of the times of two runs of a solver
@@ -82,7 +82,7 @@ def methods():
     """wavycon's solvers, each with its methods from coarse to fine."""
     return zip(OWN, ([(k, f"solver = 'grid', accuracy = {0.1*0.5**k:g}") for k in range(36)],
                      [(k, f"solver = 'fitted', accuracy = 1e-{k}") for k in range(2, 13)],
-                     [(n, f"solver = 'beale', harmonics = {n}, constraint_points = {n + 1}") for n in HARMONICS]))
+                     [(n, f"solver = 'series', harmonics = {n}, constraint_points = {n + 1}") for n in HARMONICS]))
 
 
 def run_own(own, load, seconds):

@@ -55,7 +55,7 @@ def check_units(peer):
 
 
 def residual_of_wavycon(points, load):
-    """(C10) of src/contact/README.md."""
+    """(C10) of src/core/contact/README.md."""
     return 1e-3*points**-1.5*load**(1/3)
 
 

@@ -39,9 +39,9 @@ TABLES = "lines = t, map = t, contours = t, map_points = 16, line_points = 16"
 TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n `touch CANARY` $(touch CANARY)"
 DECKS = {
     "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", spots = t, theory = t, details = t /",
-    "paper": WAVE + "&output " + TABLES + ", theory = t, coefficients = t /",
-    "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&output " + TABLES +
-            ", spots = t, histograms = t, theory = t, coefficients = t /",
+    "paper": WAVE + "&method solver = 'beale' /\n&output " + TABLES + ", theory = t, coefficients = t /",
+    "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
+            "&method solver = 'beale' /\n&output " + TABLES + ", spots = t, histograms = t, theory = t, coefficients = t /",
     "oblong": "&surface kind = 'wave_2d', wavelength = 30, wavelength_y = 60 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
     "npy": WAVE + "&method solver = 'auto' /\n&output map = t, contours = t, map_points = 16, map_format = 'npy' /",
     "si": f"&scene title = \"{TITLE}\", pressure_unit = 'Pa', length_unit = 'm' /\n"

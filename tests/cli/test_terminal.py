@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a user sees of a long run: progress on a terminal alone, and after Ctrl-C the command that goes on.
+"""What a user sees of a long run: progress on a terminal alone, and after Ctrl-C how to go on.
 
 usage: test_terminal.py --program WAVYCON [unittest's options]
 """
@@ -70,8 +70,8 @@ class Terminal(ProgramTest):
         self.assertNotIn("\r", self.on_terminal(80, False))
 
     def test_an_interrupted_run_says_how_to_go_on(self):
-        process = subprocess.Popen([self.program, "a place/deck.nml", "--set", "scene.title=it's", "--output", "kept"],
-                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        command = [self.program, "a place/deck.nml", "--set", "scene.title=it's", "--output", "kept"]
+        process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         checkpoint = self.folder/"kept"/"deck.checkpoint"
         begun = time.monotonic()
         first = None
@@ -85,10 +85,9 @@ class Terminal(ProgramTest):
         _, said = process.communicate(timeout=PATIENCE)
         self.assertEqual(-signal.SIGINT, process.returncode)
         found = re.fullmatch(r"\nwavycon: interrupted: ([1-4]) of 4 loads are kept in kept/deck.checkpoint; "
-                             r"go on with\n   (.*)\n", said)
+                             r"the same command with --resume goes on\n", said)
         self.assertIsNotNone(found, said)
-        self.assertIn(" --resume 'a place/deck.nml' --set 'scene.title=it'\\''s' --output kept", found[2])
-        done = subprocess.run(found[2], shell=True, cwd=self.folder, capture_output=True, text=True, check=True)
+        done = subprocess.run([*command, "--resume"], cwd=self.folder, capture_output=True, text=True, check=True)
         self.assertIn(f"resumed: {found[1]} of 4 loads", done.stdout)
 
 

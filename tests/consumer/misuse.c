@@ -83,7 +83,8 @@ static void decks(void)
     REFUSED(wavycon_run_deck(error, "there is no such deck.nml", "", 1, NULL));
     REFUSED(wavycon_run_deck(error, "there is no such deck.nml", "", 1, &status));
     check(status == WAVYCON_FILE_TROUBLE, "a missing deck is file trouble", __LINE__);
-    const char loads[] = "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.2, 0.3 /\n&output directory = '.' /\n";
+    const char loads[] = "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.2, 0.3 /\n&method solver = 'beale' /\n"
+                         "&output directory = '.' /\n";
     FILE *deck = fopen("misuse.nml", "w");
     check(deck != NULL && fputs(loads, deck) >= 0 && fclose(deck) == 0, "the deck can be written", __LINE__);
     FINE(wavycon_run_deck(error, "misuse.nml", "", 1, &status));

@@ -21,8 +21,8 @@ NONE = 0.0
 # Heights of spread surfaces and their roughness are rounded in another order: some differ in their last digit.
 LAST_DIGIT = 1e-15
 # Loads that are distributed over the ranks are solved in blocks: the first load of each is not started from the one before.
-# The expansions end within some 1e-9 of their limit, Beale's method within the rounding of its matrices.
-OTHER_START_OF_EXPANSIONS, OTHER_START_OF_BEALE = 1e-8, 1e-11
+# The expansions end within some 1e-9 of their limit, the dual method within the rounding of its matrices.
+OTHER_START_OF_EXPANSIONS, OTHER_START_OF_SERIES = 1e-8, 1e-11
 OF_THE_START = "iterations|residual|.*_error"
 # What the log says of the ranks.
 GRIDS, LOADS, FIRST = "columns of large grids", "loads", "first"
@@ -72,13 +72,15 @@ CASES = {
     "expansions": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 3 /\n"
                        f"&method solver = 'fitted' /\n&output {TABLES}, details = t /\n", FIRST),
     "paper": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 5 /\n"
-                  f"&output {TABLES}, coefficients = t, theory = t /\n", FIRST),
+                  f"&method solver = 'beale' /\n&output {TABLES}, coefficients = t, theory = t /\n", FIRST),
     "line": Case(f"{SURFACE}'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n&method solver = 'auto' /\n"
                  "&output lines = t, map = t /\n&stress nu = 0.3, line = t /\n", FIRST),
     # Loads that are.
-    **{f"loads_of_{solver}": Case(f"{SURFACE}'wave_2d' /\n&method solver = '{solver}' /\n"
-                                  "&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 37 /\n", LOADS, SEVERAL_RANKS, rounding, OF_THE_START)
-       for solver, rounding in (("fitted", OTHER_START_OF_EXPANSIONS), ("beale", OTHER_START_OF_BEALE))},
+    **{f"loads_of_{solver}": Case(f"{SURFACE}'wave_2d' /\n&method solver = '{solver}'{keys} /\n"
+                                  "&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 37 /\n", LOADS,
+                                  SEVERAL_RANKS, rounding, "" if rounding == NONE else OF_THE_START)
+       for solver, keys, rounding in (("beale", "", NONE), ("fitted", "", OTHER_START_OF_EXPANSIONS),
+                                      ("series", ", harmonics = 9, constraint_points = 11", OTHER_START_OF_SERIES))},
     "loads_of_grids": Case(f"{SURFACE}'hexagonal' /\n&load sweep_from = 0.05, sweep_to = 0.9, sweep_steps = 20 /\n"
                            "&method solver = 'grid', grid_points = 64 /\n", LOADS, SEVERAL_RANKS),
 }

@@ -82,7 +82,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def read_page(name):
-    return (ROOT/"src"/"python"/name).read_text(encoding="utf-8")
+    return (ROOT/"src"/"library"/"python"/name).read_text(encoding="utf-8")
 
 
 def python_blocks(name):

@@ -13,8 +13,10 @@ HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n
 # Both dimensions, every solver and table, labels of units, loads without numbers, a single load, tables without rows.
 # The histograms of an expansion take seconds; grids have them too.
 DECKS = {
-    "line": f"&surface kind = 'wave_1d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
-    "plane": f"&surface kind = 'wave_2d' /\n{LOADS}&output {ALL}, coefficients = t, theory = t /\n",
+    "line": f"&surface kind = 'wave_1d' /\n{LOADS}&method solver = 'beale' /\n"
+            f"&output {ALL}, coefficients = t, theory = t /\n",
+    "plane": f"&surface kind = 'wave_2d' /\n{LOADS}&method solver = 'beale' /\n"
+             f"&output {ALL}, coefficients = t, theory = t /\n",
     "closed_form": f"&surface kind = 'wave_1d' /\n{LOADS}&method solver = 'auto' /\n&output {ALL}, theory = t /\n",
     "fitted": "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 2, amplitude2 = 1, wavelength2 = 1 /\n"
               "&load pbar_over_pstar = 0, 0.1, 0.3, 1 /\n"
@@ -22,7 +24,7 @@ DECKS = {
     "grid": f"&surface kind = 'hexagonal' /\n{LOADS}&method solver = 'grid', accuracy = 0.1 /\n&output {ALL} /\n",
     "file": f"&surface kind = 'file', file = 'heights.txt' /\n{LOADS}&output {ALL} /\n",
     "units": "&scene title = 'With [labels] # of units', pressure_unit = 'N/mm^2', length_unit = 'mm' /\n"
-             f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.3 /\n&output {ALL} /\n",
+             f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.3 /\n&method solver = 'beale' /\n&output {ALL} /\n",
     "stress": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0, 0.3 /\n&method solver = 'grid', grid_points = 16 /\n"
               "&stress nu = 0.3, 0.2, yield_stress = 1, line = t, section = 'diagonal', planes = t, depths = 0, 0.1 /\n"
               "&output line_points = 8, map_points = 8 /\n",

@@ -216,7 +216,7 @@ class Spots(ProgramTest):
                             self.assertTrue(low - 1e-9*width <= row[kind + "_mean"] <= (i + 1 + 1e-9)*width)
 
     def test_histograms_of_solutions_without_a_grid(self):
-        # Areas and means of the summary, to the sampling: src/measure/README.md, (A6).
+        # Areas and means of the summary, to the sampling: src/core/measure/README.md, (A6).
         for name, surface, method, area_error in (("wave", "wave_2d", "solver = 'auto', accuracy = 1e-5", 3e-4),
                                                   ("line", "wave_1d", "solver = 'auto'", 1e-5)):
             self.run_spots(name, f"&surface kind = '{surface}' /\n&method {method} /\n", (0.05, 0.5, 0.9))

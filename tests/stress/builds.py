@@ -23,8 +23,9 @@ TOLERANCES = {"series": 1e-11, "grid": 1e-9}
 OF_ESTIMATES = 1e-3
 DECKS = {
     "wave_1d": ("series", "&surface kind = 'wave_1d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
-                "&output lines = t, coefficients = t, theory = t /\n"),
+                "&method solver = 'beale' /\n&output lines = t, coefficients = t, theory = t /\n"),
     "wave_2d": ("series", "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 10 /\n"
+                "&method solver = 'beale' /\n"
                 "&output lines = t, map = t, coefficients = t, theory = t, line_points = 32, map_points = 32 /\n"),
     "closed_form": ("series", "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 1e-9, 0.3, 0.999 /\n"
                     "&method solver = 'auto' /\n&output lines = t, theory = t /\n"),

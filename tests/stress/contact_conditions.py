@@ -6,7 +6,7 @@ from rough_surfaces import made_surface
 from summaries import PATIENCE
 
 RESIDUALS = (1e-11, 1e-8, None)  # of grids [mean gap]; None: the default
-EDGE_TOLERANCE = 5e-4  # the default is this part of the gap at the edge: (C10) of src/contact/README.md
+EDGE_TOLERANCE = 5e-4  # the default is this part of the gap at the edge: (C10) of src/core/contact/README.md
 ROUNDING = 1e-13  # of the solver's own sums over some thousand points [P, the surface's depth; at least Delta]
 MADE = ((16, 16), (24, 12), (21, 30), (64, 1))  # points of made surfaces
 

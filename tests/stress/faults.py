@@ -11,7 +11,7 @@ import time
 from common import complaints_about, files_below, finish, result_complaints, run, start, write
 
 NOBODY = 65534
-DECK = ("&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
+DECK = ("&surface kind = 'wave_2d' /\n&method solver = 'beale' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
         "&output lines = t, map = t, contours = t, spots = t, histograms = t, theory = t, coefficients = t,\n"
         "spectrum = t, line_points = 64, map_points = 64 /\n")
 # Half a second of work, half of it writing.
@@ -19,10 +19,11 @@ LONG_DECK = DECK.replace("sweep_steps = 19", "sweep_steps = 150").replace("map =
 # To be resumed: solvers that solve each load by itself and solvers that start from the last load; with and without
 # fields.
 TO_RESUME = {
-    "series": LONG_DECK,
-    "grids": DECK.replace("theory = t, coefficients = t,\nspectrum = t, line_points = 64, map_points = 64",
-                          "line_points = 16, map_points = 16")
-    + "&method solver = 'grid', accuracy = 1e-3 /\n",
+    "beale": LONG_DECK,
+    "series": LONG_DECK.replace("solver = 'beale'", "solver = 'series', harmonics = 9, constraint_points = 11"),
+    "grids": DECK.replace("solver = 'beale'", "solver = 'grid', accuracy = 1e-3").replace(
+        "theory = t, coefficients = t,\nspectrum = t, line_points = 64, map_points = 64",
+        "line_points = 16, map_points = 16"),
     "expansions": "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 91 /\n"
                   "&method solver = 'auto', accuracy = 1e-3 /\n",
     "areas": "&surface kind = 'hexagonal' /\n&load contact_area_fraction = 0.1, 0.3, 0.5, 0.7, 0.9 /\n"

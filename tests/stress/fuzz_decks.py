@@ -21,7 +21,8 @@ SMALL = [
     "&method\n   solver = 'auto'\n/\n&output lines = .true., line_points = 16 /\n",
     "&surface kind = 'crossed_1d', amplitude1 = 1, wavelength1 = 2.0d0, amplitude2 = 1, wavelength2 = 2 /\n"
     "&load mean_pressure = 0, 0.5, 3 /\n&material e_star = 2.64 /\n&method solver = 'beale' /\n",
-    "&SURFACE KIND = \"wave_2d\" /\n&LOAD PBAR_OVER_PSTAR = 1.0 1.5 0 /\n&Output Contours = F, Theory = .TRUE. /\n",
+    "&SURFACE KIND = \"wave_2d\" /\n&LOAD PBAR_OVER_PSTAR = 1.0 1.5 0 /\n&METHOD SOLVER = 'series' /\n"
+    "&Output Contours = F, Theory = .TRUE. /\n",
     "&surface kind = 'wave_1d', amplitude = 0 /\n&load pbar_over_pstar = 3*0.5 /\n&output map = .true., map_points = 8 /\n",
     "&surface kind = 'wave_1d', amplitude = 2 /\n&material e_star = 3 /\n&load pbar_over_pstar = -0.01, 0.3, 0.9 /\n"
     "&interface friction = 0.4, tangential_over_normal = 0.1, 0.2, nu = 0.3, shear_direction = 'y', slip_loop = .true.,\n"

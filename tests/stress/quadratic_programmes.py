@@ -1,4 +1,5 @@
 """Random quadratic programmes with known solutions: a table of the lines of stress_qp.f90."""
+import itertools
 import math
 import re
 
@@ -9,6 +10,9 @@ SILENCE = 300.0  # time limit of a process [s]
 # Of so many programmes one with nearly parallel constraints may be refused: among hundreds of these, rounding may keep
 # the dual pass from an end, which the status tells. Of 10,000 programmes it was one.
 EACH_REFUSED = 5000
+# Below this load Beale's method may end without a minimum if all harmonics are free, which the status tells. Of 2,196
+# loads these were three of 1e-12 p*.
+LIGHT = 1e-11
 FIELDS = ("case", "kind", "n", "m", "pushing", "twist_bits", "status", "verdict", "condition", "stationarity",
           "feasibility", "sign", "complementarity", "error", "own_residual", "pivots", "seconds")
 RESIDUALS = FIELDS[9:13]
@@ -94,17 +98,22 @@ def discretisations(quick):
 
 def loads(settings, work):
     """The paper's programmes at loads from 1e-12 to 1 - 1e-12: see stress_loads.f90."""
-    part = settings.part("loads of 'beale'")
+    part = settings.part("loads of the series")
     write({}, work)
-    for discretisation in discretisations(settings.quick):
-        name = " ".join(str(word) for word in discretisation)
-        outcome = run([settings.programs/"stress_loads", *discretisation], work, patience=SILENCE)
+    refused = 0
+    for words in itertools.product(("beale", "series"), discretisations(settings.quick)):
+        words = words[0], *words[1]
+        name = " ".join(map(str, words))
+        outcome = run([settings.programs/"stress_loads", *words], work, patience=SILENCE)
         if outcome.status or RUNTIME_WORDS.search(outcome.stderr):
             part.count(name, [f"exit status {outcome.status}: {outcome.stderr.decode(errors='replace').strip()}"])
         for line in outcome.stdout.decode().splitlines():
             load, verdict, status, residual = re.split(r"\s*\|\s*", line.strip())
             if status == "converged":
                 part.limit("KKT", float(residual), 1.0, [], "")
+            is_known = words[0] == "beale" and words[-1] == "none" and float(load) < LIGHT and verdict == "refused"
+            refused += is_known
             part.count(f"stress_loads {name} at P = {float(load):.3g}",
-                       [] if verdict == "passed" else [f"{verdict}: {status}"])
+                       [] if verdict == "passed" or is_known else [f"{verdict}: {status}"])
+    part.notes.append(f"{refused} of the lightest loads refused by Beale's method")
     return part

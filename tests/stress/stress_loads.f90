@@ -1,11 +1,12 @@
-!> Solves the paper's quadratic programmes from full contact down to nearly no load, as the solver 'beale' does, and
-!> checks every solution in quadruple precision. Prints a line for each load: the load, the verdict, the status, the
-!> largest residual.
+!> Solves the paper's quadratic programmes from full contact down to nearly no load, as the solvers 'beale' and 'series'
+!> do, and checks every solution in quadruple precision. Prints a line for each load: the load, the verdict, the status,
+!> the largest residual.
 !>
-!> usage: stress_loads DIMENSION HARMONICS POINTS SYMMETRY
+!> usage: stress_loads SOLVER DIMENSION HARMONICS POINTS SYMMETRY
 program stress_loads
    use command_words, only: number, word
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
+   use wavycon_beale, only: solve_by_beale
    use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_dual_solver, only: dual_solver
@@ -27,13 +28,18 @@ program stress_loads
    type(qp_problem) :: problem
    type(qp_solution) :: solution
    character(7) :: verdict
+   character(:), allocatable :: solver_name
    integer :: dimension, harmonics, i, points, symmetry
+   logical :: by_beale
 
-   if (command_argument_count() /= 4) error stop 'usage: stress_loads DIMENSION HARMONICS POINTS SYMMETRY'
-   dimension = number(1)
-   harmonics = number(2)
-   points = number(3)
-   select case (word(4))
+   if (command_argument_count() /= 5) error stop 'usage: stress_loads SOLVER DIMENSION HARMONICS POINTS SYMMETRY'
+   solver_name = word(1)
+   by_beale = solver_name == 'beale'
+   if (.not. by_beale .and. solver_name /= 'series') error stop 'stress_loads: SOLVER is beale or series'
+   dimension = number(2)
+   harmonics = number(3)
+   points = number(4)
+   select case (word(5))
    case ('full')
       symmetry = symmetry_full
    case ('diagonal')
@@ -48,8 +54,10 @@ program stress_loads
    problem = energy_problem(terms, points, symmetry, has_hardness=.false.)
    do i = 1, size(loads)
       problem%bounds = -loads(i)
-      if (i == 1) then
-         call solver%solve(problem, solution, by_beale=.false.)
+      if (by_beale) then
+         call solve_by_beale(problem, solution)
+      else if (i == 1) then
+         call solver%solve(problem, solution)
       else
          call solver%pass_to(problem%bounds, solution)
       end if

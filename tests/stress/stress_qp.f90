@@ -1,5 +1,9 @@
-!> Solves random quadratic programmes with known solutions by Beale's method and by the dual method, and checks the
-!> results. Prints a line for each case, of the last method.
+!> Solves random quadratic programmes with known solutions by Beale's method, by the dual method, and by passing from
+!> the programme of Beale's method to the random one, and checks the results. Prints a line for each case, of the last
+!> way.
+!>
+!> N.B. Beale's method starts at x = 0, so that it needs b <= 0. It gets min(b, 0): another programme, whose solution is
+!> not known but checked all the same.
 !>
 !> usage: stress_qp SEED FIRST LAST LARGEST_N   the cases FIRST to LAST
 program stress_qp
@@ -9,6 +13,7 @@ program stress_qp
                                      random_recipe, recipe_type
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use stress_random_numbers, only: random_stream
+   use wavycon_beale, only: solve_by_beale
    use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_dual_solver, only: dual_solver
    use wavycon_kinds, only: dp
@@ -17,6 +22,8 @@ program stress_qp
 
    !> The library's tolerance for the status converged (kkt_tolerance), here for each constraint on its own scale.
    real(dp), parameter :: promised_residual = 1e-12_dp
+   !> The ways to solve.
+   integer, parameter :: by_beale = 1, by_dual = 2, by_passing = 3
 
    integer :: case
 
@@ -31,14 +38,15 @@ contains
    subroutine run_case(seed, case, largest_n)
       integer, intent(in) :: seed, case, largest_n
 
-      integer, parameter :: by_beale = 1, by_dual = 2
       type(kkt_type) :: kkt
       type(programme_type) :: programme
+      type(qp_problem) :: problem
       type(qp_solution) :: solution
       type(random_stream) :: stream
       type(recipe_type) :: recipe
       character(7) :: verdict
-      integer :: method
+      integer :: way
+      logical :: is_known
       real(dp) :: error, seconds
 
       call stream%start(seed, case)
@@ -51,11 +59,15 @@ contains
       end do
 
       verdict = 'passed'
-      do method = by_beale, by_dual
-         call solve(programme%problem, method == by_beale, solution, seconds)
-         kkt = check_in_quad(programme%problem, solution)
+      do way = by_beale, by_passing
+         problem = programme%problem
+         if (way == by_beale) problem%bounds = min(problem%bounds, 0.0_dp)
+         call solve(problem, way, solution, seconds)
+         kkt = check_in_quad(problem, solution)
          error = 0.0_dp
-         if (kkt%well_formed) error = maxval(abs(solution%x - programme%x))/max(1.0_dp, maxval(abs(programme%x)))
+         is_known = way /= by_beale .or. all(programme%problem%bounds <= 0.0_dp)
+         if (kkt%well_formed .and. is_known) &
+            error = maxval(abs(solution%x - programme%x))/max(1.0_dp, maxval(abs(programme%x)))
          if (solution%status /= qp_converged) then
             verdict = 'refused'
          else if (kkt%worst() > promised_residual) then
@@ -71,10 +83,10 @@ contains
       flush (6)
    end subroutine run_case
 
-   !> Solves, from bounds that allow x = 0.
-   subroutine solve(problem, by_beale, solution, seconds)
+   !> Solves in one of the ways.
+   subroutine solve(problem, way, solution, seconds)
       type(qp_problem), intent(in) :: problem
-      logical, intent(in) :: by_beale
+      integer, intent(in) :: way
       type(qp_solution), intent(out) :: solution
       real(dp), intent(out) :: seconds
 
@@ -83,15 +95,20 @@ contains
       integer :: pivots
       integer(int64) :: begun, ended, rate
 
-      first = problem
-      if (by_beale) first%bounds = min(problem%bounds, 0.0_dp)
       call system_clock(begun, rate)
-      call solver%solve(first, solution, by_beale)
-      if (any(abs(first%bounds - problem%bounds) > 0.0_dp)) then
+      select case (way)
+      case (by_beale)
+         call solve_by_beale(problem, solution)
+      case (by_dual)
+         call solver%solve(problem, solution)
+      case (by_passing)
+         first = problem
+         first%bounds = min(problem%bounds, 0.0_dp)
+         call solver%solve(first, solution)
          pivots = solution%pivots
          call solver%pass_to(problem%bounds, solution)
          solution%pivots = solution%pivots + pivots
-      end if
+      end select
       call system_clock(ended)
       seconds = real(ended - begun, dp)/real(rate, dp)
    end subroutine solve

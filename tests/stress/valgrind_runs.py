@@ -22,9 +22,11 @@ OF_THE_PAPER = TABLES.replace("map = t", "map = t, coefficients = t, theory = t"
 COARSE = "&method solver = 'grid', accuracy = 1e-2 /\n"
 # Name, deck, exit status.
 DECKS = (
-    ("beale 1-D", "&surface kind = 'wave_1d' /\n" + LOADS + OF_THE_PAPER, 0),
+    ("beale 1-D", "&surface kind = 'wave_1d' /\n" + LOADS + OF_THE_PAPER + "&method solver = 'beale' /\n", 0),
     ("beale 2-D", "&surface kind = 'wave_2d' /\n" + LOADS + OF_THE_PAPER
-     + "&method harmonics = 5, constraint_points = 9 /\n", 0),
+     + "&method solver = 'beale', harmonics = 5, constraint_points = 9 /\n", 0),
+    ("series", "&surface kind = 'wave_2d' /\n" + LOADS
+     + "&method solver = 'series', harmonics = 5, constraint_points = 6 /\n", 0),
     ("closed form", "&surface kind = 'wave_1d' /\n" + LOADS + TABLES.replace("map = t", "map = t, theory = t")
      + "&method solver = 'auto' /\n", 0),
     ("fitted", "&surface kind = 'wave_2d' /\n" + LOADS + "&method solver = 'fitted', accuracy = 1e-2 /\n"
@@ -85,7 +87,7 @@ def cases(settings, work):
     if settings.quick:
         return
     folder = work/"many decks"
-    decks = {f"{name.replace(' ', '-')}.nml": text for name, text, _ in DECKS[:4] + DECKS[-1:]}
+    decks = {f"{name.replace(' ', '-')}.nml": text for name, text, _ in DECKS[:5] + DECKS[-1:]}
     write(decks, folder)
     options = [*sorted(decks), "--keep-going", "--table", "all.dat", "--set", "surface.amplitude=2", "--set",
                "scene.title=it's"]

@@ -3,6 +3,7 @@
 !>
 !> What must be possible before a test has a question ends the program, and so the test, if it fails.
 module unit_support
+   use, intrinsic :: iso_c_binding, only: c_int
    use wavycon, only: dp, error_type, surface_type, wave_1d, wave_2d
    use wavycon_contact_measures, only: contact_measures
    use wavycon_scene, only: scene_type
@@ -12,9 +13,16 @@ module unit_support
    use wavycon_plain_text, only: integer_text
    use wavycon_read_deck, only: parse_deck
    use wavycon_roughness, only: roughness_type
-   use wavycon_system, only: process_id, remove_file
+   use wavycon_system, only: remove_file
    implicit none (type, external)
    private
+
+   interface
+      !> The number of this process, for file names that no other process uses.
+      integer(c_int) function process_id() bind(c, name='getpid')
+         import :: c_int
+      end function process_id
+   end interface
 
    abstract interface
       !> The parameters are an argument so that no internal procedure is passed, which would need an executable stack.
@@ -25,7 +33,7 @@ module unit_support
       end function integrand
    end interface
 
-   public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, read_map, rms_slope_of, &
+   public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, process_id, read_map, rms_slope_of, &
       spread_number, unit_wave, values_of, write_file
 
 contains

@@ -1,0 +1,232 @@
+/* Calls to the operating system for which Fortran has no statement. */
+#define _XOPEN_SOURCE 700
+#include <errno.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+/* What a path names: 0 nothing, 1 a directory, 2 a file, 3 a pipe or a device, 4 unknown, on an error. And the size of
+   the file in bytes, -1 if there is none. */
+int wavycon_path_kind(const char *path, int64_t *size)
+{
+    struct stat info;
+    *size = -1;
+    if (stat(path, &info) != 0)
+        return errno == ENOENT || errno == ENOTDIR ? 0 : 4;
+    *size = info.st_size;
+    if (S_ISDIR(info.st_mode))
+        return 1;
+    return S_ISREG(info.st_mode) ? 2 : 3;
+}
+
+/* Makes one directory, if it does not exist. Returns 0 on success, else errno. */
+int wavycon_make_directory(const char *path)
+{
+    int64_t size;
+    if (mkdir(path, 0777) == 0 || (errno == EEXIST && wavycon_path_kind(path, &size) == 1))
+        return 0;
+    return errno;
+}
+
+/* The file to be removed if the program is interrupted; empty if there is none. */
+static char unfinished[4096];
+
+/* What a user is told if the program is interrupted: what is kept; empty: nothing. */
+static char kept[4096];
+
+static void tell(const char *words)
+{
+    if (write(STDERR_FILENO, words, strlen(words)) < 0)
+        return;
+}
+
+static void remove_unfinished(int number)
+{
+    if (unfinished[0] != '\0')
+        unlink(unfinished);
+    if (kept[0] != '\0') {
+        tell("\nwavycon: interrupted: ");
+        tell(kept);
+        tell("; the same command with --resume goes on\n");
+    }
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* Sets a text that the handler of signals reads, with signals blocked; none if it is too long. */
+static void note(char *text, size_t size, const char *words)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
+    text[0] = '\0';
+    if (strlen(words) < size)
+        strcpy(text, words);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+}
+
+void wavycon_note_kept(const char *words)
+{
+    note(kept, sizeof kept, words);
+}
+
+/* Removes a file if the program is interrupted before it is renamed or removed; only the file of the last call. Signals
+   that are ignored (nohup) stay ignored. */
+void wavycon_remove_when_interrupted(const char *path)
+{
+    static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
+    note(unfinished, sizeof unfinished, path);
+    for (size_t i = 0; i < sizeof numbers/sizeof numbers[0]; i++) {
+        struct sigaction action;
+        if (sigaction(numbers[i], NULL, &action) != 0 || action.sa_handler != SIG_DFL)
+            continue;
+        action.sa_handler = remove_unfinished;
+        sigaction(numbers[i], &action, NULL);
+    }
+}
+
+int wavycon_rename(const char *from, const char *to)
+{
+    if (rename(from, to) != 0)
+        return errno;
+    if (strcmp(from, unfinished) == 0)
+        note(unfinished, sizeof unfinished, "");
+    return 0;
+}
+
+void wavycon_remove(const char *path)
+{
+    if (unlink(path) == 0 && strcmp(path, unfinished) == 0)
+        note(unfinished, sizeof unfinished, "");
+}
+
+/* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
+void wavycon_outlive_file_size_limit(void)
+{
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+/* The width of the terminal that standard output is; 0 if it is none, or not the one of a user who looks at it: that of
+   another process (mpirun makes one and may write to a file), or a program in the background. */
+int wavycon_terminal_columns(void)
+{
+    struct winsize size;
+    if (!isatty(STDOUT_FILENO) || tcgetpgrp(STDOUT_FILENO) != getpgrp())
+        return 0;
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+/* The message for an errno or a reason of written_file.c, cut to fit. */
+void wavycon_error_text(int number, char *text, size_t length)
+{
+    static const char *const reasons[] = {
+        "it is read by this run and is not replaced", "it is a disk, not a file", "it is a symbolic link to nothing",
+        "there is a file that is no such table; it is not replaced"};
+    snprintf(text, length, "%s", number < 0 ? reasons[-number - 1] : strerror(number));
+}
+
+/* The number behind a name such as "MemAvailable:" at the start of a line of a file; with an empty name the number at
+   its start. -1 if it is not there. */
+static long long number_in_file(const char *directory, const char *file, const char *name)
+{
+    char line[256], path[3*PATH_MAX];
+    long long number = -1;
+    snprintf(path, sizeof path, "%s/%s", directory, file);
+    FILE *lines = fopen(path, "r");
+    if (lines == NULL)
+        return -1;
+    while (number < 0 && fgets(line, sizeof line, lines) != NULL)
+        if (strncmp(line, name, strlen(name)) == 0 && sscanf(line + strlen(name), "%lld", &number) != 1)
+            number = -1;
+    fclose(lines);
+    return number;
+}
+
+/* Bytes of memory that a control group of Linux, given by its directory, leaves to its processes: limit less use, where
+   files that can be dropped from memory count as free. -1 if it has no limit. */
+long long wavycon_memory_of_group(const char *directory)
+{
+    long long limit = number_in_file(directory, "memory.max", "");
+    long long used = number_in_file(directory, "memory.current", "");
+    long long files = number_in_file(directory, "memory.stat", "inactive_file ");
+    if (limit < 0 || used < 0)
+        return -1;
+    long long left = limit - used + (files > 0 ? files : 0);
+    return left > 0 ? left : 0;
+}
+
+/* The least that the control groups of this process, its own and all above, leave to it. -1 if none has a limit. */
+static long long memory_of_groups(void)
+{
+    static const char top[] = "/sys/fs/cgroup", mark[] = "0::";
+    char line[PATH_MAX] = "", directory[2*PATH_MAX];
+    long long least = -1;
+    FILE *file = fopen("/proc/self/cgroup", "r");
+    while (file != NULL && fgets(line, sizeof line, file) != NULL && strncmp(line, mark, strlen(mark)) != 0)
+        ;
+    if (file != NULL)
+        fclose(file);
+    if (strncmp(line, mark, strlen(mark)) != 0)
+        return -1;
+    line[strcspn(line, "\n")] = '\0';
+    snprintf(directory, sizeof directory, "%s%s", top, line + strlen(mark));
+    /* Up to the top, which has no path. In a container the path may be one of the host that is not there, but the top
+       is that of the container. */
+    while (strlen(directory) >= strlen(top)) {
+        long long left = wavycon_memory_of_group(directory);
+        if (left >= 0 && (least < 0 || left < least))
+            least = left;
+        *strrchr(directory, '/') = '\0';
+    }
+    return least;
+}
+
+/* Bytes that the process may still allocate and use without swapping: what is free of the machine's memory or can be
+   freed, and at most what limits leave: those of a container or a batch job (control groups) and that on the address
+   space (ulimit -v). -1 where the system does not say. */
+int64_t wavycon_available_memory(void)
+{
+    struct rlimit limit;
+    long long kilobytes = number_in_file("/proc", "meminfo", "MemAvailable:");
+    long long available = kilobytes < 0 ? -1 : 1024*kilobytes;
+#ifdef _SC_AVPHYS_PAGES
+    if (available < 0 && sysconf(_SC_AVPHYS_PAGES) > 0)
+        available = (long long)sysconf(_SC_AVPHYS_PAGES)*sysconf(_SC_PAGESIZE);
+#endif
+    long long group = memory_of_groups();
+    if (group >= 0 && group < available)
+        available = group;
+    if (available < 0 || getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return available;
+    /* The pages of the process's address space; -1 where the system does not say. */
+    long long pages = number_in_file("/proc/self", "statm", "");
+    if (pages < 0)
+        return -1;
+    long long left = (long long)limit.rlim_cur - pages*sysconf(_SC_PAGESIZE);
+    if (left < 0)
+        left = 0;
+    return left < available ? left : available;
+}
+
+#ifdef WAVYCON_OPENBLAS
+void openblas_set_num_threads(int number);
+int blas_thread_shutdown_(void);
+#endif
+
+/* Makes BLAS and LAPACK use one thread, if they are OpenBLAS, and ends the threads that OpenBLAS started when it was
+   loaded: without work they try to get some for a tenth of a second, each on its processor. */
+void wavycon_use_one_thread_for_matrices(void)
+{
+#ifdef WAVYCON_OPENBLAS
+    openblas_set_num_threads(1);
+    blas_thread_shutdown_();
+#endif
+}

@@ -1,0 +1,195 @@
+!> Westergaard's solution of the 1-D wave.
+module wavycon_closed_form_contact
+   use wavycon_constants, only: pi
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: contact_measures, load_derivatives
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_status, only: closed_form
+   use wavycon_contact_contours, only: contact_contour, make_strips
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_field_source, only: field_source
+   use wavycon_kinds, only: dp
+   use wavycon_paper_wave, only: is_paper_wave
+   use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
+      westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
+      westergaard_pressure_over_pstar
+   use wavycon_westergaard_stress, only: westergaard_stress
+   use wavycon_solution_record, only: by_closed_form, solution_record
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: closed_form_contact, closed_form_exists, closed_form_stress
+
+   type, extends(contact_solver) :: closed_form_contact
+   contains
+      procedure :: start
+      procedure :: solve_partial_contact
+      procedure :: traits
+   end type closed_form_contact
+
+   type, extends(field_source) :: closed_form_source
+   contains
+      procedure :: fields
+      procedure :: contact_contours
+      procedure :: stresses
+      procedure :: derivatives
+   end type closed_form_source
+
+   type, extends(contact_fields) :: closed_form_fields
+      real(dp) :: pbar_over_pstar = 0.0_dp    !! P
+   contains
+      procedure :: at
+   end type closed_form_fields
+
+   type, extends(stress_fields) :: closed_form_stress
+   contains
+      procedure :: at => stress_at
+      procedure :: start_places
+   end type closed_form_stress
+
+contains
+
+   !> Whether a surface is the 1-D wave of the paper.
+   pure logical function closed_form_exists(surface)
+      type(surface_type), intent(in) :: surface
+
+      closed_form_exists = surface%dimension == 1 .and. is_paper_wave(surface)
+   end function closed_form_exists
+
+   !> Starts the solver.
+   subroutine start(self, surface)
+      class(closed_form_contact), intent(out) :: self
+      type(surface_type), intent(in) :: surface   !! the 1-D wave of the paper, without a hardness
+
+      self%surface = surface
+      self%is_started = closed_form_exists(surface) .and. .not. surface%has_hardness()
+   end subroutine start
+
+   type(solver_traits) function traits(self)
+      class(closed_form_contact), intent(in) :: self
+
+      associate (unused => self); end associate
+      traits = solver_traits(solver=by_closed_form)
+   end function traits
+
+   !> Westergaard's solution: eqs. (4), (7), and (20) of the paper.
+   subroutine solve_partial_contact(self, pbar_over_pstar, solution)
+      class(closed_form_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar
+      type(contact_solution), intent(out) :: solution
+
+      ! The elastic energy per nominal area [p* Delta] is the integral of P d(approach), -P ln P dP by (20).
+      associate (unused => self, gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
+                 energy => pbar_over_pstar**2*(0.25_dp - 0.5_dp*log(pbar_over_pstar)))
+         allocate (closed_form_source :: solution%source)
+         solution%pbar_over_pstar = pbar_over_pstar
+         solution%status = closed_form
+         solution%solver = by_closed_form
+         solution%measures = contact_measures( &
+                             mean_gap_over_amplitude=gap, approach_over_amplitude=1.0_dp - gap, &
+                             contact_area_fraction=westergaard_contact_area_fraction(pbar_over_pstar), &
+                             peak_pressure_over_pstar=westergaard_peak_pressure_over_pstar(pbar_over_pstar), &
+                             min_pressure_over_pstar=0.0_dp, elastic_energy=energy, elastic_energy_error=0.0_dp)
+      end associate
+   end subroutine solve_partial_contact
+
+   subroutine fields(self, record, surface, answer)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      associate (unused => self, unused_too => surface); end associate
+      allocate (answer, source=closed_form_fields(pbar_over_pstar=record%pbar_over_pstar))
+   end subroutine fields
+
+   !> Eqs. (4) and (5) of the paper. Its psi is half of X.
+   subroutine at(self, x, y, pressure, displacement, gap)
+      class(closed_form_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(out) :: pressure, displacement, gap
+
+      associate (unused => y); end associate
+      pressure = westergaard_pressure_over_pstar(x/2, self%pbar_over_pstar)
+      displacement = westergaard_displacement_over_amplitude(x/2, self%pbar_over_pstar)
+      gap = westergaard_gap_over_amplitude(x/2, self%pbar_over_pstar)
+   end subroutine at
+
+   subroutine contact_contours(self, record, surface, curves, loads)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(contact_contour), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      associate (unused => self, unused_too => surface); end associate
+      call make_strips([pi*record%measures%contact_area_fraction], .true., .true., curves)
+      loads = [1.0_dp]
+   end subroutine contact_contours
+
+   subroutine stresses(self, record, surface, answer)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      associate (unused => self, unused_too => surface); end associate
+      allocate (answer, source=closed_form_stress(pbar_over_pstar=record%pbar_over_pstar, dimension=1))
+   end subroutine stresses
+
+   !> The stresses under Westergaard's pressure.
+   subroutine stress_at(self, x, y, depth, parts, error)
+      class(closed_form_stress), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out), optional :: error
+
+      !> Error of the stresses over the peak pressure.
+      real(dp), parameter :: rounding = 1e-14_dp
+
+      associate (unused => y); end associate
+      call westergaard_stress(x, depth, self%pbar_over_pstar, parts)
+      if (present(error)) error = rounding*westergaard_peak_pressure_over_pstar(self%pbar_over_pstar)
+   end subroutine stress_at
+
+   !> Places across the contact, at depths from the surface to that of the longest wave.
+   subroutine start_places(self, body, places, widths, stresses)
+      class(closed_form_stress), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: places(:, :)
+      real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
+
+      !> Places over the half width of the contact.
+      real(dp), parameter :: across(*) = [0.0_dp, 0.3_dp, 0.6_dp, 0.9_dp, 1.0_dp, 1.1_dp], &
+                             below(*) = [0.0_dp, 0.1_dp, 0.2_dp, 0.4_dp, 0.8_dp, 1.2_dp]
+      real(dp) :: half_width
+      integer :: i, k
+
+      half_width = pi*westergaard_contact_area_fraction(self%pbar_over_pstar)
+      places = half_width*reshape([((across(i), 0.0_dp, below(k), i=1, size(across)), k=1, size(below))], &
+                                  [3, size(across)*size(below)])
+      allocate (widths(size(places, 2)), source=0.5_dp*half_width)
+      call self%at_places(body, places, stresses)
+   end subroutine start_places
+
+   !> Of (20) and of A = 2 psi/pi, P = sin^2 psi (7). Both ends of a strip are alike.
+   subroutine derivatives(self, record, surface, answer)
+      class(closed_form_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      associate (unused => self, unused_too => surface, p => record%pbar_over_pstar)
+         answer = load_derivatives(gap_slope=log(p), gap_slope_error=0.0_dp, &
+                                   area_slope=1.0_dp/(pi*sqrt(p*(1.0_dp - p))), area_slope_error=0.0_dp, &
+                                   gap_curvature=1.0_dp/p, gap_curvature_error=0.0_dp, &
+                                   intensity_range=1.0_dp)
+      end associate
+   end subroutine derivatives
+
+end module wavycon_closed_form_contact

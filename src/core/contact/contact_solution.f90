@@ -1,0 +1,275 @@
+!> The solution at one load: the record of its numbers, and the source of its fields, edge of contact and stresses.
+!>
+!> Callers use a solution without regard to its solver. Positions of fields and edges are the angles X, Y of the
+!> surface's cell.
+module wavycon_contact_solution
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_contact_measures, only: contact_details, load_derivatives
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_spots, only: contact_spots, find_spots, one_region
+   use wavycon_contact_status, only: full_contact, interrupted, is_good_status, no_load, no_memory
+   use wavycon_contact_contours, only: contact_contour
+   use wavycon_field_source, only: field_source
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_full_contact, only: full_contact_series
+   use wavycon_grid_source, only: grid_source
+   use wavycon_kinds, only: dp
+   use wavycon_series_fields, only: series_fields, start_edgeless_fields
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_solution_record, only: by_grids, record_words, solution_record
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: contact_solution
+
+   !> Error of the stresses under a series that is known exactly, over the peak pressure.
+   real(dp), parameter :: rounding = 1e-14_dp
+
+   type, extends(solution_record) :: contact_solution
+      !> The source of a partial contact. Not allocated if the solver was started without keep_fields, if another rank
+      !> has solved the load or has the collected fields, or if there is no solution. Full contact and no load need
+      !> none.
+      class(field_source), allocatable :: source
+   contains
+      procedure :: move_to
+      procedure :: is_good
+      procedure :: has_numbers
+      procedure :: largest_error
+      procedure :: fields
+      procedure :: contact_contours
+      procedure :: stresses
+      procedure :: spots
+      procedure :: coefficients
+      procedure :: details
+      procedure :: derivatives
+      procedure :: distributed_points
+      procedure :: collect_fields
+      procedure :: is_kept
+      procedure :: pack => pack_solution
+      procedure :: unpack => unpack_solution
+   end type contact_solution
+
+contains
+
+   !> Moves a solution without a copy of its fields.
+   subroutine move_to(self, to)
+      class(contact_solution), intent(inout) :: self   !! without a source afterwards
+      type(contact_solution), intent(inout) :: to
+
+      to%solution_record = self%solution_record
+      call move_alloc(self%source, to%source)
+   end subroutine move_to
+
+   !> Whether the numbers are as accurate as requested.
+   pure logical function is_good(self)
+      class(contact_solution), intent(in) :: self
+
+      is_good = is_good_status(self%status)
+   end function is_good
+
+   !> Whether there are numbers with their error estimates, if not as accurate as requested; of a solution with fields.
+   pure logical function has_numbers(self)
+      class(contact_solution), intent(in) :: self
+
+      has_numbers = self%is_good() .or. allocated(self%source)
+   end function has_numbers
+
+   !> The largest error estimate of mean gap [Delta], contact area fraction and peak pressure [p*].
+   pure real(dp) function largest_error(self)
+      class(contact_solution), intent(in) :: self
+
+      largest_error = maxval(self%measures%errors())
+   end function largest_error
+
+   !> Pressure, displacement and gap. NaN for a partial contact without a source.
+   subroutine fields(self, surface, answer)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface             !! that was solved
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(series_fields), allocatable :: own
+
+      if (allocated(self%source)) then
+         call self%source%fields(self%solution_record, surface, answer)
+      else
+         allocate (own)
+         call start_edgeless_fields(own, surface, self%pbar_over_pstar, self%status)
+         call move_alloc(own, answer)
+      end if
+   end subroutine fields
+
+   !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. There are no curves for full
+   !> contact, for no load, and without a source.
+   subroutine contact_contours(self, surface, curves, loads)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface             !! that was solved
+      type(contact_contour), allocatable, intent(out) :: curves(:)
+      !> The part of the load that each spot carries, by the numbers of the spots; of size 0 if not known.
+      real(dp), allocatable, intent(out), optional :: loads(:)
+
+      real(dp), allocatable :: loads_of_spots(:)
+
+      if (allocated(self%source)) then
+         call self%source%contact_contours(self%solution_record, surface, curves, loads_of_spots)
+      else
+         allocate (curves(0), loads_of_spots(0))
+      end if
+      if (present(loads)) call move_alloc(loads_of_spots, loads)
+   end subroutine contact_contours
+
+   !> The stresses below the surface: of full contact to rounding, zero without load. They do not exist for a partial
+   !> contact without a source.
+   subroutine stresses(self, surface, answer)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface             !! that was solved
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(series_stress), allocatable :: own
+
+      if (allocated(self%source)) then
+         call self%source%stresses(self%solution_record, surface, answer)
+      else
+         call self%coefficients(surface, pressure)
+         allocate (own)
+         call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
+                                  pressure_error=rounding*self%measures%peak_pressure_over_pstar, is_sampled=.false.)
+         own%exist = self%status == full_contact .or. self%status == no_load
+         call move_alloc(own, answer)
+      end if
+   end subroutine stresses
+
+   !> The spots of contact and the pools of gap; for a mirrored height map those of the map. Not allocated for a
+   !> partial contact without a source.
+   subroutine spots(self, surface, answer)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface      !! that was solved
+      type(contact_spots), intent(out) :: answer
+
+      type(contact_contour), allocatable :: curves(:)
+      real(dp), allocatable :: loads(:)
+      logical :: is_full
+
+      call self%contact_contours(surface, curves, loads)
+      is_full = self%measures%contact_area_fraction > 0.5_dp
+      if (size(curves) > 0) then
+         call find_spots(curves, self%measures%contact_area_fraction, surface%dimension, surface%length, loads, &
+                         surface%mirrored, answer)
+      else if (self%is_good() .or. is_full) then
+         call one_region(is_full, surface%dimension, answer)
+      end if
+   end subroutine spots
+
+   !> p/p* as the Fourier series in X and Y that the solver computed; series%c is not allocated if it computed none.
+   !> Without a source that of full contact, otherwise zeros.
+   subroutine coefficients(self, surface, series)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface      !! that was solved
+      type(fourier_series), intent(out) :: series
+
+      if (allocated(self%source)) then
+         call self%source%coefficients(self%solution_record, series)
+      else if (self%status == full_contact) then
+         series = full_contact_series(surface, self%pbar_over_pstar)
+      else
+         allocate (series%c, mold=surface%shape%c)
+         series%c = 0.0_dp
+      end if
+   end subroutine coefficients
+
+   !> Further numbers of the solution, such as the strain energy.
+   subroutine details(self, answer, found)
+      class(contact_solution), intent(in) :: self
+      type(contact_details), intent(out) :: answer   !! to be used only if found
+      logical, intent(out) :: found                  !! whether this solution has them
+
+      found = allocated(self%source)
+      if (found) call self%source%details(answer, found)
+   end subroutine details
+
+   !> How the solution changes with the load. In full contact the gap stays closed; without load and for a partial
+   !> contact without a source nothing is known.
+   subroutine derivatives(self, surface, answer)
+      class(contact_solution), intent(in) :: self
+      type(surface_type), intent(in) :: surface      !! that was solved
+      type(load_derivatives), intent(out) :: answer
+
+      if (allocated(self%source)) then
+         call self%source%derivatives(self%solution_record, surface, answer)
+      else if (self%status == full_contact) then
+         answer = load_derivatives(gap_slope=0.0_dp, gap_slope_error=0.0_dp, area_slope=0.0_dp, area_slope_error=0.0_dp)
+      end if
+   end subroutine derivatives
+
+   !> The points of the grid if its columns are distributed over the ranks, otherwise 0.
+   pure integer(int64) function distributed_points(self)
+      class(contact_solution), intent(in) :: self
+
+      distributed_points = 0
+      if (allocated(self%source)) distributed_points = self%source%distributed_points
+   end function distributed_points
+
+   !> Gathers fields whose columns are distributed over the ranks on rank 0; the others then have none. All ranks call
+   !> it.
+   subroutine collect_fields(self)
+      class(contact_solution), intent(inout) :: self
+
+      logical :: is_here
+
+      if (.not. allocated(self%source)) return
+      call self%source%collect(is_here)
+      if (.not. is_here) deallocate (self%source)
+   end subroutine collect_fields
+
+   !> Whether a solution is written to checkpoints: those on grids may take minutes, those of other solvers take
+   !> seconds. A load that lacked memory or was interrupted is solved again.
+   pure logical function is_kept(self)
+      class(contact_solution), intent(in) :: self
+
+      is_kept = self%solver == by_grids .and. .not. any(self%status == [interrupted, no_memory])
+   end function is_kept
+
+   !> What a checkpoint keeps, as 8-byte words, so that a resumed run need not compute the solution again: the record
+   !> and, if there is a source of fields, the numbers of that.
+   subroutine pack_solution(self, words)
+      class(contact_solution), intent(in) :: self            !! is_kept() is true
+      integer(int64), allocatable, intent(out) :: words(:)   !! not allocated if there is not enough memory
+
+      real(dp), allocatable :: values(:)
+
+      allocate (values(0))
+      if (allocated(self%source)) then
+         select type (source => self%source)
+         type is (grid_source)
+            call source%pack(values)
+         end select
+      end if
+      if (allocated(values)) words = [transfer(self%solution_record, [0_int64]), transfer(values, [0_int64])]
+   end subroutine pack_solution
+
+   !> Restores what pack_solution made. A grid that is distributed is restored by the words of all ranks that had
+   !> columns of it: called for one after the other, in any order.
+   subroutine unpack_solution(self, words, whole, complete, understood)
+      class(contact_solution), intent(inout) :: self     !! without a source at first
+      integer(int64), intent(in) :: words(:)
+      logical, intent(in) :: whole                       !! whether all columns of a distributed grid are needed
+      logical, intent(out) :: complete                   !! whether nothing is missing any more
+      logical, intent(out) :: understood                 !! .false. if these are not the words of a solution
+
+      complete = .false.
+      understood = size(words) >= record_words
+      if (.not. understood) return
+      self%solution_record = transfer(words(:record_words), self%solution_record)
+      complete = size(words) == record_words
+      if (complete) return
+      if (.not. allocated(self%source)) allocate (grid_source :: self%source)
+      select type (source => self%source)
+      type is (grid_source)
+         call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, understood)
+         if (understood) complete = source%has_all_columns()
+      end select
+   end subroutine unpack_solution
+
+end module wavycon_contact_solution

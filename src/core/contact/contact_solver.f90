@@ -1,0 +1,139 @@
+!> The type that all solvers extend. src/README.md describes how to add a solver, and README.md in this directory how
+!> solvers and solutions work together.
+module wavycon_contact_solver
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_contact_measures, only: full_contact_measures
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
+   use wavycon_full_contact, only: full_contact_energy
+   use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: no_solution, no_solver
+   use wavycon_solver_progress, only: solver_progress
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: contact_solver, solver_traits
+
+   !> Accuracy of the solvers that have one, unless another is asked for.
+   real(dp), parameter, public :: default_accuracy = 1e-3_dp
+
+   !> Properties of a solver and its solutions that need no load. Grids and levels are zero before the solver is
+   !> started.
+   type :: solver_traits
+      integer :: solver = no_solver            !! of its solutions without numbers
+      logical :: has_errors = .true.           !! whether the measures of its solutions have error estimates
+      logical :: has_coefficients = .false.    !! whether every solution has `coefficients`, those of a Fourier series
+      logical :: has_details = .false.         !! whether every partial contact has `details`
+      !> Whether a solution depends, if only in its last digits, on the load solved before.
+      logical :: continues_last_load = .false.
+      !> Levels of lower accuracy at which loads are solved faster; a search for a load begins at the coarsest.
+      integer :: coarser_levels = 0
+      !> Points along x and y, of the part of the cell that is solved, of the finest grid that may be solved, and of the
+      !> one grid that was given; zeros without.
+      integer :: finest_grid(2) = 0, given_grid(2) = 0
+      logical :: needs_whole_grids = .false.   !! whether no grid can be distributed over processes
+      integer :: choice = 0                    !! why 'auto' took its solvers, a name of wavycon_auto_contact
+   end type solver_traits
+
+   !> A solver of one surface. Some solvers start each load from the solution of the last one: solve the loads from the
+   !> highest to the lowest. Of the procedures below the deferred ones must be written; the others have defaults.
+   type, abstract :: contact_solver
+      type(surface_type) :: surface
+      logical :: is_started = .false.   !! on a surface that it can solve
+      !> The level at which the next loads are solved: 0, the accuracy requested, to traits%coarser_levels, the
+      !> coarsest.
+      integer :: level = 0
+      !> Whether the next loads are of use only if they are solved with their edge of contact: without grids.
+      logical :: without_grids = .false.
+      class(solver_progress), pointer :: progress => null()   !! called within each load, if associated
+   contains
+      procedure :: solve
+      procedure(solve_load), deferred :: solve_partial_contact
+      procedure(traits_of_solver), deferred :: traits
+      procedure :: forget_last_load
+      procedure :: skip_load
+   end type contact_solver
+
+   abstract interface
+      !> `solve_partial_contact`: solves one load between no load and full contact and measures the solution. With a
+      !> hardness P may exceed 1, where the pressure of full contact would exceed H.
+      subroutine solve_load(self, pbar_over_pstar, solution)
+         import :: contact_solution, contact_solver, dp
+         class(contact_solver), intent(inout) :: self
+         real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1, or 0 < P < H
+         type(contact_solution), intent(out) :: solution   !! with a status
+      end subroutine solve_load
+
+      !> `traits`: what is known without a load.
+      function traits_of_solver(self) result(traits)
+         import :: contact_solver, solver_traits
+         class(contact_solver), intent(in) :: self
+         type(solver_traits) :: traits
+      end function traits_of_solver
+   end interface
+
+contains
+
+   !> Solves one load and measures the solution. Some loads need no solver: there is no load for P <= 0; contact is full
+   !> for P >= 1 unless the surface has free edges or the largest pressure, P + full_contact_peak, exceeds the hardness
+   !> H; there is no solution for P >= H and for NaN. The status is not_found if the solver was not started on a surface
+   !> that it can solve, interrupted if self%progress asks it to stop.
+   subroutine solve(self, pbar_over_pstar, solution)
+      class(contact_solver), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar             !! P; the status is not_finite if it is no number
+      type(contact_solution), intent(out) :: solution     !! with a status
+
+      logical :: shall_stop
+      type(solver_traits) :: traits
+
+      traits = self%traits()
+      solution%pbar_over_pstar = pbar_over_pstar
+      associate (surface => self%surface)
+         ! Comparisons with a NaN raise an exception, which Debug builds trap.
+         if (.not. self%is_started) then
+            solution%solution_record = no_solution(pbar_over_pstar, traits%solver, not_found)
+         else if (ieee_is_nan(pbar_over_pstar)) then
+            solution%status = not_finite
+         else if (pbar_over_pstar <= 0.0_dp) then
+            solution%status = no_load
+            solution%measures%elastic_energy = 0.0_dp
+            solution%measures%elastic_energy_error = 0.0_dp
+         else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
+            solution%solution_record = no_solution(pbar_over_pstar, no_solver, above_hardness)
+         else if (pbar_over_pstar >= 1.0_dp .and. .not. surface%has_free_edges .and. &
+                  (.not. surface%has_hardness() .or. &
+                   pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
+            solution%status = full_contact
+            solution%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)
+            solution%measures%elastic_energy = full_contact_energy(surface)
+            solution%measures%elastic_energy_error = 0.0_dp
+         else
+            shall_stop = .false.
+            if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
+            if (shall_stop) then
+               solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
+            else
+               call self%solve_partial_contact(pbar_over_pstar, solution)
+            end if
+         end if
+      end associate
+   end subroutine solve
+
+   !> Forgets the last solution: the next load starts as the first one does.
+   subroutine forget_last_load(self)
+      class(contact_solver), intent(inout) :: self
+
+      associate (unused => self); end associate
+   end subroutine forget_last_load
+
+   !> Sets the state that the solver would have after solving a load. Called for loads whose solutions were read from
+   !> the checkpoint of an interrupted run.
+   subroutine skip_load(self, pbar_over_pstar)
+      class(contact_solver), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar        !! P
+
+      associate (unused => self, unused_too => pbar_over_pstar); end associate
+   end subroutine skip_load
+
+end module wavycon_contact_solver

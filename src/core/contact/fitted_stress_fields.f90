@@ -1,0 +1,172 @@
+!> The stresses under the pressure of an expansion, on the axes and in the units of the surface.
+module wavycon_fitted_stress_fields
+   use wavycon_constants, only: pi
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_equivalent_points, only: equivalent_points, point_image
+   use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_frame, only: fitted_frame
+   use wavycon_fitted_stress, only: fitted_stress, start_fitted_stress
+   use wavycon_kinds, only: dp
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tuning, only: depths_of_spot, depths_of_cell, edge_ratios
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: fitted_stress_fields, start_fitted_stress_fields
+
+   type, extends(stress_fields) :: fitted_stress_fields
+      private
+      type(fitted_frame) :: frame
+      type(fitted_answer) :: answer
+      type(fitted_stress) :: fitted
+   contains
+      procedure :: at
+      procedure :: on_plane
+      procedure :: start_places
+   end type fitted_stress_fields
+
+contains
+
+   subroutine start_fitted_stress_fields(fields, surface, frame, answer, accuracy, pbar_over_pstar)
+      type(fitted_stress_fields), intent(out) :: fields
+      type(surface_type), intent(in) :: surface
+      type(fitted_frame), intent(in) :: frame       !! of the surface
+      type(fitted_answer), intent(in) :: answer     !! with a solution
+      real(dp), intent(in) :: accuracy              !! that the solution was asked for
+      real(dp), intent(in) :: pbar_over_pstar       !! P
+
+      fields%pbar_over_pstar = pbar_over_pstar
+      fields%side_ratio = surface%length(2)/surface%length(1)
+      fields%frame = frame
+      fields%answer = answer
+      call start_fitted_stress(fields%fitted, frame%lattice, answer, accuracy)
+   end subroutine start_fitted_stress_fields
+
+   subroutine at(self, x, y, depth, parts, error)
+      class(fitted_stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out), optional :: error
+
+      integer :: i
+
+      call self%fitted%at(self%frame%place(x, y), self%frame%length(1)*depth/(2*pi*self%frame%side), parts, error)
+      do i = 1, 2
+         parts(:, i) = self%frame%pressure_unit*rotated(parts(:, i), conjg(self%frame%turn))
+      end do
+      if (present(error)) error = self%frame%pressure_unit*error
+   end subroutine at
+
+   !> Equivalent points are evaluated once.
+   subroutine on_plane(self, points, offset, depth, body, stress, error)
+      class(fitted_stress_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), intent(in) :: depth
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: stress(:, :, :)
+      real(dp), allocatable, intent(out) :: error(:, :)
+
+      type(equivalent_points) :: grid
+      type(point_image) :: first
+      real(dp) :: here(6), parts(6, 2)
+      integer :: k, l
+
+      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      call grid%start(points, offset, self%frame%lattice%square, self%frame%crests)
+      do l = 0, points(2) - 1
+         do k = 0, points(1) - 1
+            first = grid%first_of([k, l])
+            associate (i => first%point(1) + 1, j => first%point(2) + 1)
+               if (all(first%point == [k, l])) then
+                  associate (angles => 2*pi*([k, l] + offset)/points)
+                     call self%at(angles(1), angles(2), depth, parts, error(i, j))
+                  end associate
+                  stress(i, j, :) = body%stress(parts, self%pbar_over_pstar)
+               else
+                  here = stress(i, j, :)
+                  stress(k + 1, l + 1, :) = from_image(here, first)
+                  error(k + 1, l + 1) = error(i, j)
+               end if
+            end associate
+         end do
+      end do
+   end subroutine on_plane
+
+   !> The stress at a point from that at its image.
+   pure function from_image(stress, image) result(here)
+      real(dp), intent(in) :: stress(6)
+      type(point_image), intent(in) :: image
+      real(dp) :: here(6)
+
+      here = stress
+      if (image%exchanged) here = here([yy, xx, zz, xy, yz, xz])
+      if (image%mirrored(1)) here([xy, xz]) = -here([xy, xz])
+      if (image%mirrored(2)) here([xy, yz]) = -here([xy, yz])
+   end function from_image
+
+   !> A stress after a rotation about the z axis.
+   pure function rotated(stress, turn)
+      real(dp), intent(in) :: stress(6)
+      complex(dp), intent(in) :: turn     !! of modulus 1
+      real(dp) :: rotated(6)
+
+      complex(dp) :: deviator, shear
+      real(dp) :: mean
+
+      ! (xx - yy)/2 + i xy turns by twice the angle, xz + i yz by the angle.
+      mean = 0.5_dp*(stress(xx) + stress(yy))
+      deviator = cmplx(0.5_dp*(stress(xx) - stress(yy)), stress(xy), dp)*turn**2
+      shear = cmplx(stress(xz), stress(yz), dp)*turn
+      rotated = [mean + deviator%re, mean - deviator%re, stress(zz), deviator%im, shear%re, shear%im]
+   end function rotated
+
+   !> Places below the spot or, above merging, below the crest and about the pool, on the lines of symmetry of the
+   !> lattice.
+   subroutine start_places(self, body, places, widths, stresses)
+      class(fitted_stress_fields), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: places(:, :)
+      real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
+
+      complex(dp) :: centre
+      complex(dp), allocatable :: at_surface(:), edge(:)
+      real(dp), allocatable :: below(:), size_at(:)
+      real(dp) :: radius
+      integer :: directions, i, k, n
+
+      associate (shape => self%answer%solution%shape)
+         centre = merge(self%frame%lattice%trough, (0.0_dp, 0.0_dp), self%answer%pool)
+         directions = 2*shape%fold
+         allocate (edge(directions/2 + 1))
+         edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
+         radius = maxval(abs(edge))
+      end associate
+      allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])
+      if (self%answer%pool) then
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%frame%lattice%saddle, 0.5_dp*self%frame%lattice%saddle, &
+                       0.5_dp*self%frame%lattice%trough, 0.25_dp*self%frame%lattice%trough]
+         below = [radius*depths_of_spot, depths_of_cell]
+      else
+         at_surface = [at_surface, (0.0_dp, 0.0_dp), self%frame%lattice%saddle]
+         below = radius*depths_of_spot
+      end if
+      n = size(at_surface)
+      allocate (places(3, n*size(below)), widths(n*size(below)), size_at(size(below)))
+      size_at = max(below, 0.25_dp*radius)
+      do k = 1, size(below)
+         do i = 1, n
+            associate (z => at_surface(i)*self%frame%side/self%frame%turn)
+               places(:, (k - 1)*n + i) = 2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
+            end associate
+            widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%frame%length(1)
+         end do
+      end do
+      call self%at_places(body, places, stresses)
+   end subroutine start_places
+
+end module wavycon_fitted_stress_fields

@@ -1,0 +1,222 @@
+!> Contact on grids, refined to an accuracy or with a given number of points.
+!>
+!> An even surface is solved on a quarter of its cell. The wave (21), and any surface with the same symmetry, is also
+!> periodic on a square of half the area rotated by 45 degrees; a quarter of that square is then enough, unless
+!> the number of points, which refers to the user's cell, is given.
+module wavycon_grid_contact
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_assertion, only: assert
+   use wavycon_contact_measures, only: unknown
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
+   use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
+   use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
+   use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
+   use wavycon_grid_edge, only: grid_edge
+   use wavycon_grid_plan, only: grid_plan, plan_grids
+   use wavycon_grid_source, only: grid_source
+   use wavycon_kinds, only: dp
+   use wavycon_grid_area, only: load_concentration
+   use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
+   use wavycon_solution_record, only: by_grids, no_solution
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: grid_contact, grid_options
+
+   type :: grid_options
+      !> Largest error of mean gap [Delta], contact area fraction and peak pressure [p*], > 0; ignored with points.
+      real(dp) :: accuracy = default_accuracy
+      !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy: > 0, even numbers
+      !> for an even surface; the second is ignored in 1-D. Zeros: solve to the accuracy.
+      integer :: points(2) = 0
+      !> Largest residual (C9) on these points, >= 0; 0: that of (C10).
+      real(dp) :: residual = 0.0_dp
+   end type grid_options
+
+   type, extends(contact_solver) :: grid_contact
+      type(grid_options), private :: options
+      logical, private :: keep_fields = .true.
+      !> The surface on its smaller cell, if that is solved: rotated by 45 degrees.
+      type(surface_type), allocatable, private :: smaller
+   contains
+      procedure :: start
+      procedure :: solve_partial_contact
+      procedure :: traits
+   end type grid_contact
+
+contains
+
+   !> Starts the solver.
+   subroutine start(self, surface, options, keep_fields)
+      class(grid_contact), intent(out) :: self
+      type(surface_type), intent(in) :: surface
+      type(grid_options), intent(in) :: options
+      logical, intent(in) :: keep_fields    !! whether solutions keep their fields and edges
+
+      self%options = options
+      if (surface%dimension == 1) self%options%points(2) = min(options%points(2), 1)
+      if (any(options%points > 0)) self%options%accuracy = 0.0_dp
+      associate (points => self%options%points)
+         call assert(all(points > 0) .or. all(points == 0), 'points > 0')
+         call assert(all(points > 0) .or. options%accuracy > 0.0_dp, 'accuracy > 0')
+         call assert(all(mod(points(:surface%dimension), 2) == 0) .or. .not. surface%shape%is_even(), &
+                     'even points of an even surface')
+         call assert(options%residual >= 0.0_dp, 'residual >= 0')
+      end associate
+      self%surface = surface
+      self%is_started = allocated(surface%shape%c)
+      self%keep_fields = keep_fields
+      if (any(self%options%points > 0) .or. .not. has_smaller_cell(surface)) return
+      allocate (self%smaller)
+      self%smaller = smaller_cell(surface)
+   end subroutine start
+
+   !> Each level has ten times the error of the one before it or, if the points are given, half the points each way.
+   pure integer function coarser_levels(self) result(levels)
+      class(grid_contact), intent(in) :: self
+
+      levels = 0
+      if (all(self%options%points > 0)) then
+         do while (all(mod(self%options%points, 2**(levels + 2)) == 0 .or. self%options%points == 1) .and. &
+                   maxval(self%options%points)/2**(levels + 1) >= least_search_points)
+            levels = levels + 1
+         end do
+      else if (self%options%accuracy > 0.0_dp) then
+         do while (self%options%accuracy*10.0_dp**levels < worst_search_accuracy)
+            levels = levels + 1
+         end do
+      end if
+   end function coarser_levels
+
+   type(solver_traits) function traits(self)
+      class(grid_contact), intent(in) :: self
+
+      type(grid_plan) :: plan
+
+      traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
+      if (.not. self%is_started) return
+      traits%needs_whole_grids = self%surface%has_free_edges
+      if (allocated(self%smaller)) then
+         plan = plan_grids(self%smaller, self%options%points)
+      else
+         plan = plan_grids(self%surface, self%options%points)
+      end if
+      traits%finest_grid = plan%last
+      if (all(self%options%points > 0)) traits%given_grid = plan%last
+   end function traits
+
+   !> Solves one load by solve_by_sequence.
+   subroutine solve_partial_contact(self, pbar_over_pstar, solution)
+      class(grid_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar
+      type(contact_solution), intent(out) :: solution
+
+      type(sequence_answer) :: answer
+      type(grid_source), allocatable :: source
+
+      if (allocated(self%smaller)) then
+         call solve_cell(self, self%smaller, pbar_over_pstar, answer)
+      else
+         call solve_cell(self, self%surface, pbar_over_pstar, answer)
+      end if
+      if (.not. allocated(answer%edge)) then
+         solution%solution_record = no_solution(pbar_over_pstar, by_grids, &
+                                                merge(interrupted, no_memory, answer%state%interrupted))
+         return
+      end if
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%solver = by_grids
+      solution%measures = answer%measures
+      solution%measures%min_pressure_over_pstar = least_pressure(answer%edge)
+      if (self%surface%has_hardness()) then
+         associate (load_of_area => self%surface%hardness/pbar_over_pstar)
+            solution%measures%load_at_hardness_fraction = answer%measures%area_at_hardness_fraction*load_of_area
+            solution%measures%load_at_hardness_error = answer%measures%area_at_hardness_error*load_of_area
+         end associate
+         if (.not. solution%measures%load_at_hardness_error < 1.0_dp) solution%measures%load_at_hardness_error = unknown
+      end if
+      if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
+         solution%measures%load_concentration = load_concentration(answer%edge)
+      if (self%surface%has_free_edges) solution%measures%load_at_border = load_at_border(answer%edge)
+      solution%active_constraints = bound_points(answer%edge, self%surface%hardness)
+      solution%iterations = answer%iterations
+      solution%residual = answer%state%residual
+      if (.not. answer%state%converged) then
+         solution%status = iteration_limit
+      else if (answer%accurate) then
+         solution%status = converged
+      else if (answer%out_of_memory) then
+         solution%status = no_memory
+      else if (any(self%options%points == 0)) then
+         solution%status = not_accurate
+      else if (all(solution%measures%are_resolved(self%surface))) then
+         solution%status = converged
+      else
+         solution%status = unresolved
+      end if
+      if (.not. self%keep_fields) return
+      allocate (source)
+      source%rotated = allocated(self%smaller)
+      source%residual_indentation = answer%state%residual_indentation
+      call source%take_edge(answer%edge)
+      call move_alloc(source, solution%source)
+   end subroutine solve_partial_contact
+
+   !> Solves a load on the surface or its smaller cell.
+   subroutine solve_cell(self, surface, pbar_over_pstar, answer)
+      class(grid_contact), intent(in) :: self
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: pbar_over_pstar
+      type(sequence_answer), intent(out) :: answer
+
+      ! In 1-D the second number of points stays 1.
+      associate (accuracy => self%options%accuracy*10.0_dp**self%level, &
+                 points => max(self%options%points/2**self%level, min(self%options%points, 1)), &
+                 residual => self%options%residual)
+         ! A pointer that is not associated is an argument that is not present.
+         call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual, &
+                                self%keep_fields)
+      end associate
+   end subroutine solve_cell
+
+   !> The part of the load that lies within `border` sides of the border.
+   pure real(dp) function load_at_border(edge) result(part)
+      type(grid_edge), intent(in) :: edge   !! whole, of a surface with free edges
+
+      integer :: inner(2)
+
+      associate (p => edge%pressure_or_gap, points => edge%slab%points)
+         inner = ceiling(border*points)
+         if (points(2) == 1) inner(2) = 0
+         associate (middle => p(1 + inner(1):points(1) - inner(1), 1 + inner(2):points(2) - inner(2)))
+            part = 1.0_dp - sum(middle, middle > 0.0_dp)/sum(p, p > 0.0_dp)
+         end associate
+      end associate
+   end function load_at_border
+
+   !> The least pressure at the points of the grid.
+   real(dp) function least_pressure(edge) result(least)
+      type(grid_edge), intent(in) :: edge
+
+      real(dp) :: opposite(1)
+
+      opposite = -minval(edge%pressure_or_gap)
+      call edge%slab%largest(opposite)
+      least = max(-opposite(1), 0.0_dp)
+   end function least_pressure
+
+   !> The number of points of the grid where the pressure is zero or the hardness.
+   integer(int64) function bound_points(edge, hardness) result(number)
+      type(grid_edge), intent(in) :: edge
+      real(dp), intent(in) :: hardness
+
+      integer(int64) :: total(1)
+
+      total = count(edge%pressure_or_gap <= 0.0_dp, kind=int64) + count(edge%pressure_or_gap >= hardness, kind=int64)
+      call edge%slab%add(total)
+      number = total(1)
+   end function bound_points
+
+end module wavycon_grid_contact

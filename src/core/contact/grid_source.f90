@@ -1,0 +1,317 @@
+!> The source of fields, contact contours and stresses of a load that was solved on a grid: pressures and gaps at its
+!> points.
+module wavycon_grid_source
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
+   use wavycon_contact_measures, only: load_derivatives, or_nan
+   use wavycon_field_source, only: field_source
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_area, only: grid_strip_edges
+   use wavycon_grid_derivatives, only: differentiate_on_grid
+   use wavycon_grid_edge, only: grid_edge, make_grid_edge
+   use wavycon_grid_fields, only: grid_fields, start_grid_fields
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_region_numbers, only: region_numbers
+   use wavycon_rotated_series, only: to_difference_angles
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_paper_wave, only: smaller_cell
+   use wavycon_solution_record, only: solution_record
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_surface, only: surface_type
+   use wavycon_system, only: has_memory_for
+   implicit none (type, external)
+   private
+
+   public :: grid_source
+
+   type, extends(field_source) :: grid_source
+      type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
+      logical :: rotated = .false.            !! the grid's cell is the smaller one, rotated by 45 degrees
+      real(dp) :: residual_indentation = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
+   contains
+      procedure :: take_edge
+      procedure :: fields
+      procedure :: contact_contours
+      procedure :: stresses
+      procedure :: derivatives
+      procedure :: collect
+      procedure :: pack => pack_source
+      procedure :: unpack => unpack_source
+      procedure :: has_all_columns
+   end type grid_source
+
+   !> Numbers in the array of pack_source before the field.
+   integer, parameter :: own_values = 9
+
+contains
+
+   !> Sets the pressures and gaps.
+   pure subroutine take_edge(self, edge)
+      class(grid_source), intent(inout) :: self
+      type(grid_edge), allocatable, intent(inout) :: edge   !! not allocated afterwards
+
+      call move_alloc(edge, self%edge)
+      self%distributed_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, &
+                                      self%edge%slab%is_distributed)
+   end subroutine take_edge
+
+   !> Gathers the pressures and gaps of a distributed grid on the rank that writes the tables.
+   subroutine collect(self, is_here)
+      class(grid_source), intent(inout) :: self
+      logical, intent(out) :: is_here
+
+      type(grid_edge), allocatable :: whole
+      real(dp), allocatable :: values(:, :)
+
+      is_here = .true.
+      if (self%distributed_points == 0) return
+      associate (slab => self%edge%slab)
+         call slab%gather_to_first(self%edge%pressure_or_gap, values)
+      end associate
+      is_here = allocated(values)
+      if (.not. is_here) return
+      allocate (whole)
+      call make_grid_edge(whole, values, self%edge%even, self%edge%stiffness, of_cells=self%edge%of_cells)
+      call self%take_edge(whole)
+   end subroutine collect
+
+   subroutine fields(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(grid_fields), allocatable :: own
+
+      allocate (own)
+      call start_grid_fields(own, surface, self%edge, record%measures%approach_over_amplitude, self%rotated)
+      call move_alloc(own, answer)
+   end subroutine fields
+
+   subroutine contact_contours(self, record, surface, curves, loads)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(contact_contour), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      type(region_numbers) :: numbers
+      real(dp), allocatable :: edges(:)
+      integer :: i
+
+      associate (unused => record); end associate
+      if (surface%dimension == 2) then
+         if (self%rotated) then
+            ! The surface's cell consists of two cells of the grid.
+            call trace_edges(self%edge, curves, self%edge%period*[2, 1], self%edge%period(1), numbers)
+         else
+            call trace_edges(self%edge, curves, numbers=numbers, with_images=surface%mirrored)
+         end if
+         do i = 1, size(curves)
+            call shift_contour(curves(i), self%edge%period, self%edge%rule%offset)
+         end do
+         if (self%rotated) call rotate_contours(curves, factor=0.5_dp)
+         call spot_loads(self%edge, numbers, loads)
+      else
+         call grid_strip_edges(self%edge, edges)
+         call make_strips(edges, self%edge%in_contact(1, 1), self%edge%even, curves)
+         call strip_loads(self%edge, size(curves), loads)
+      end if
+   end subroutine contact_contours
+
+   !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
+   !> and the part of the series' last octave; it is unknown where that of the peak is. Without the memory for the
+   !> series there are no stresses.
+   subroutine stresses(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(grid_transform) :: transform
+      type(series_stress), allocatable :: own
+      !> Numbers on the whole cell: pressures, series, waves; twice as many from a rotated cell.
+      integer(int64), parameter :: numbers_a_point = 8
+      real(dp) :: error
+      real(dp), allocatable :: values(:, :)
+
+      allocate (own)
+      if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
+         own%exist = .false.
+         call move_alloc(own, answer)
+         return
+      end if
+      if (surface%has_free_edges) then
+         call stresses_with_free_edges(self, record, surface, answer)
+         return
+      end if
+      values = max(self%edge%pressure_or_gap, 0.0_dp)
+      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
+      ! be P - 1.
+      error = record%measures%peak_pressure_error
+      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
+      error = or_nan(error)
+      call transform%start(shape(values), self%edge%even, whole=.true.)
+      call transform%series(values, pressure)
+      deallocate (values)
+      if (self%rotated) pressure = to_difference_angles(pressure)
+      call start_series_stress(own, surface, pressure, record%pbar_over_pstar, pressure_error=error, is_sampled=.true.)
+      call move_alloc(own, answer)
+   end subroutine stresses
+
+   !> The stresses of the series that interpolates the pressures of the map and zeros beyond it, without its images.
+   subroutine stresses_with_free_edges(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: pressure
+      type(series_stress), allocatable :: own
+      type(grid_transform) :: transform
+      real(dp), allocatable :: values(:, :)
+
+      allocate (own)
+      associate (points => self%edge%slab%points)
+         allocate (values(2*points(1), 2*points(2)), source=0.0_dp)
+         values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
+         call transform%start(shape(values), .false., whole=.true.)
+         call transform%series(values, pressure)
+         call start_series_stress(own, surface, pressure, record%pbar_over_pstar/4, &
+                                  or_nan(record%measures%peak_pressure_error), is_sampled=.true.)
+         call transform%start(points, self%edge%even, whole=.true.)
+      end associate
+      call own%remove_images([transform%x_angle(1), transform%y_angle(1)])
+      call move_alloc(own, answer)
+   end subroutine stresses_with_free_edges
+
+   !> From solutions of the same grid at loads near by. Unknown with a hardness, and of a distributed grid.
+   subroutine derivatives(self, record, surface, answer)
+      class(grid_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      if (self%distributed_points > 0 .or. surface%has_hardness()) return
+      if (self%rotated) then
+         call differentiate_on_grid(smaller_cell(surface), self%edge%period, record, answer)
+      else
+         call differentiate_on_grid(surface, self%edge%period, record, answer)
+      end if
+   end subroutine derivatives
+
+   !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the first of
+   !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it, whether its pressures are
+   !> uniform on cells, and the pressures and gaps at the own columns.
+   pure subroutine pack_source(self, values)
+      class(grid_source), intent(in) :: self
+      real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
+
+      integer :: j, status
+      integer(int64) :: rows
+
+      associate (edge => self%edge, slab => self%edge%slab)
+         rows = size(edge%pressure_or_gap, 1)
+         allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
+         if (status /= 0) return
+         values(:own_values) = [self%residual_indentation, edge%stiffness, real([slab%points, slab%first], dp), &
+                                merge(1.0_dp, 0.0_dp, [self%rotated, edge%even, edge%of_cells])]
+         do j = 1, size(edge%pressure_or_gap, 2)
+            values(own_values + (j - 1)*rows + 1:own_values + j*rows) = edge%pressure_or_gap(:, j)
+         end do
+      end associate
+   end subroutine pack_source
+
+   !> Takes the columns that pack_source has put into an array on any rank, as far as they are own ones here. Called for
+   !> the arrays of all ranks, it restores the source: has_all_columns.
+   subroutine unpack_source(self, values, whole, understood)
+      class(grid_source), intent(inout) :: self   !! empty at first
+      real(dp), intent(in) :: values(:)
+      logical, intent(in) :: whole                !! whether the own columns are all columns
+      logical, intent(out) :: understood          !! .false. if these are not the numbers of a grid, or of another one
+
+      integer :: columns, first, j, points(2)
+      integer(int64) :: before, rows
+      real(dp), allocatable :: field(:, :)
+      type(grid_edge), allocatable :: edge
+      type(grid_slab) :: slab
+
+      understood = size(values) >= own_values
+      if (understood) understood = all(values(4:6) >= 1.0_dp .and. values(4:6) <= huge(points))
+      if (.not. understood) return
+      points = nint(values(4:5))
+      first = nint(values(6))
+      rows = points(1)
+      columns = int((size(values, kind=int64) - own_values)/rows)
+      understood = columns <= points(2) - first + 1 .and. rows*columns == size(values, kind=int64) - own_values
+      if (.not. understood) return
+      if (.not. allocated(self%edge)) then
+         self%residual_indentation = values(1)
+         self%rotated = values(7) > 0.0_dp
+         call slab%start(points, whole)
+         allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
+         allocate (edge)
+         call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab, values(9) > 0.0_dp)
+         call self%take_edge(edge)
+      end if
+      associate (own => self%edge%slab)
+         understood = all(own%points == points)
+         if (.not. understood) return
+         do j = max(first, own%first), min(first + columns - 1, own%last)
+            before = own_values + (j - first)*rows
+            self%edge%pressure_or_gap(:, j - own%first + 1) = values(before + 1:before + rows)
+         end do
+      end associate
+   end subroutine unpack_source
+
+   !> Whether unpack has found all own columns.
+   pure logical function has_all_columns(self)
+      class(grid_source), intent(in) :: self
+
+      has_all_columns = .not. any(ieee_is_nan(self%edge%pressure_or_gap(1, :)))
+   end function has_all_columns
+
+   !> What each spot carries of the load: the pressures at its points.
+   pure subroutine spot_loads(edge, numbers, loads)
+      type(grid_edge), intent(in) :: edge
+      type(region_numbers), intent(in) :: numbers   !! of the points
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      integer :: k, l
+
+      allocate (loads(numbers%spots), source=0.0_dp)
+      do l = 0, ubound(numbers%at, 2)
+         do k = 0, ubound(numbers%at, 1)
+            associate (spot => numbers%at(k, l))
+               if (spot > 0) loads(spot) = loads(spot) + edge%pressure_or_gap(edge%place(k, 1), edge%place(l, 2))
+            end associate
+         end do
+      end do
+      if (numbers%spots > 0) loads = loads/sum(loads)
+   end subroutine spot_loads
+
+   !> The part of the load that each strip of a 1-D contact carries; the first strip is that of the first point.
+   pure subroutine strip_loads(edge, strips, loads)
+      type(grid_edge), intent(in) :: edge
+      integer, intent(in) :: strips   !! their number
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      integer :: k, strip
+
+      allocate (loads(strips), source=0.0_dp)
+      if (strips == 0) return
+      strip = merge(1, 0, edge%in_contact(1, 1))
+      do k = 1, edge%period(1)
+         if (.not. edge%in_contact(k, 1)) cycle
+         if (k > 1 .and. .not. edge%in_contact(k - 1, 1)) strip = mod(strip, strips) + 1
+         loads(strip) = loads(strip) + edge%pressure_or_gap(edge%place(k, 1), 1)
+      end do
+      loads = loads/sum(loads)
+   end subroutine strip_loads
+
+end module wavycon_grid_source

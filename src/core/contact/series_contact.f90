@@ -1,0 +1,341 @@
+!> The method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series whose coefficients
+!> minimise the complementary energy, a quadratic programme. Beale's method finds its minimum, as in the paper, or
+!> Goldfarb & Idnani's dual method, which is faster with many harmonics.
+module wavycon_series_contact
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_assertion, only: assert
+   use wavycon_beale, only: solve_by_beale
+   use wavycon_complementary_energy, only: bounds_at, energy_problem
+   use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, trace_edges
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: load_derivatives, measure_series, measuring_intervals
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_status, only: status_of_programme
+   use wavycon_contact_tuning, only: lightest_start, most_points_to_continue
+   use wavycon_cosine_rows, only: add_cosine_rows
+   use wavycon_dual_solver, only: dual_solver
+   use wavycon_field_source, only: field_source
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_full
+   use wavycon_full_contact, only: displacement_of
+   use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
+   use wavycon_kinds, only: dp
+   use wavycon_line_zeros, only: line_zeros
+   use wavycon_paper_wave, only: is_paper_wave, paper_wave, rotated_paper_wave
+   use wavycon_qp_problem, only: qp_problem, qp_solution
+   use wavycon_rotated_series, only: to_sum_angles
+   use wavycon_series_fields, only: series_fields
+   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_solution_record, only: by_beale, by_dual, solution_record
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_surface, only: surface_type
+   use wavycon_working_set, only: working_set
+   implicit none (type, external)
+   private
+
+   public :: paper_constraint_points, paper_errors, paper_harmonics, qp_options, series_contact, series_source
+
+   !> Harmonics of the paper's series, for 1-D and 2-D waves.
+   integer, parameter :: paper_harmonics(2) = [10, 9]
+
+   !> Largest errors of mean gap [Delta], contact area fraction and peak pressure [p*] of the paper's harmonics and
+   !> points, from 0.05 to 0.9 p*: of loads 0.001 p* apart those of the 1-D wave are 0.0218, 0.0276 and 0.128, those of
+   !> the 2-D wave 0.0244, 0.0306 and 0.103. At lighter loads they reach 0.056 and 0.26, at heavier ones 0.09 in area.
+   real(dp), parameter :: paper_errors(3) = [0.025_dp, 0.031_dp, 0.13_dp]
+
+   type :: qp_options
+      integer :: harmonics = paper_harmonics(2)    !! n >= 1
+      integer :: constraint_points = 27            !! on [0, pi] in each direction, >= 2
+      integer :: symmetry = symmetry_full          !! one of the names of wavycon_fourier_terms
+      real(dp) :: edge_level = 0.1_dp              !! isobar taken as the edge of contact [p*], > 0
+      logical :: by_beale = .true.                 !! by Beale's method; otherwise by the dual method
+   end type qp_options
+
+   !> The source of fields, edge and stresses of a pressure that is a truncated Fourier series.
+   type, extends(field_source) :: series_source
+      type(qp_options) :: options
+      type(fourier_terms) :: terms
+      logical :: rotated = .false.         !! phi and theta are the cell's angles rotated by 45 degrees
+      real(dp), allocatable :: x(:)        !! amplitudes of the terms of (p - pbar)/p*
+   contains
+      procedure :: pressure
+      procedure :: displacement
+      procedure :: fields
+      procedure :: contact_contours
+      procedure :: stresses
+      procedure :: coefficients
+      procedure :: derivatives
+   end type series_source
+
+   type, extends(contact_solver) :: series_contact
+      type(series_source) :: series                    !! without amplitudes
+      type(qp_problem) :: problem                      !! at zero load, or that of the last cold start
+      type(dual_solver), allocatable, private :: dual   !! after the first load
+   contains
+      procedure :: start
+      procedure :: solve_partial_contact
+      procedure :: solve_programme
+      procedure :: traits
+      procedure :: forget_last_load
+   end type series_contact
+
+contains
+
+   !> The number of points, in the paper's proportion to harmonics: 27 for 9 harmonics of the 2-D wave, 26 (25
+   !> intervals) for 10 of the 1-D wave. Always more than harmonics.
+   pure integer function paper_constraint_points(dimension, harmonics) result(points)
+      integer, intent(in) :: dimension   !! 1 or 2
+      integer, intent(in) :: harmonics   !! >= 1
+
+      points = 3*harmonics
+      if (dimension == 1) points = (5*harmonics + 1)/2 + 1
+   end function paper_constraint_points
+
+   !> Chooses the terms of the series and the points of the constraints. Solutions always keep their fields.
+   subroutine start(self, surface, options)
+      class(series_contact), intent(out) :: self
+      type(surface_type), intent(in) :: surface  !! a wave of the paper
+      type(qp_options), intent(in) :: options
+
+      call assert(options%harmonics >= 1, 'harmonics >= 1')
+      call assert(options%constraint_points >= 2, 'constraint_points >= 2')
+      call assert(options%edge_level > 0.0_dp, 'edge_level > 0')
+      self%surface = surface
+      self%is_started = is_paper_wave(surface)
+      self%series%options = options
+      self%series%rotated = paper_wave(surface) == rotated_paper_wave
+      self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
+      self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
+                                    surface%has_hardness())
+      call add_cosine_rows(self%problem, self%series%terms, options%constraint_points, options%symmetry)
+   end subroutine start
+
+   subroutine solve_partial_contact(self, pbar_over_pstar, solution)
+      class(series_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar
+      type(contact_solution), intent(out) :: solution
+
+      type(qp_solution) :: programme
+      type(series_source), allocatable :: source
+      real(dp) :: residual_indentation, open_gap
+
+      call self%solve_programme(pbar_over_pstar, programme)
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%solver = solver_of(self)
+      solution%status = status_of_programme(programme%status)
+      solution%iterations = programme%pivots
+      solution%residual = programme%kkt_residual
+      open_gap = 0.0_dp
+      residual_indentation = 0.0_dp
+      solution%active_constraints = size(programme%active)
+      if (self%surface%has_hardness()) then
+         ! The energy per area is P plus the programme's objective times the mean square of the surface's wave.
+         associate (at_hardness => programme%active > size(self%problem%bounds)/2, &
+                    gaps => programme%multipliers/2**self%surface%dimension)
+            open_gap = sum(gaps, .not. at_hardness)
+            residual_indentation = sum(gaps, at_hardness)
+         end associate
+      end if
+      allocate (source, source=self%series)
+      call move_alloc(programme%x, source%x)
+      ! Without residual indentation no point is at H, although a peak between the points may come close.
+      call measure_series(source%pressure(pbar_over_pstar), source%displacement(), source%options%edge_level, &
+                          solution%measures, merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
+      associate (x => source%x, n => self%surface%dimension)
+         ! The mean square of the surface's own wave is 2^-n.
+         solution%measures%elastic_energy = 0.5_dp*dot_product(x, self%problem%hessian*x)/2**n
+      end associate
+      ! The crest, from which the approach follows otherwise, is then not in elastic contact.
+      if (residual_indentation > 0.0_dp) then
+         solution%measures%mean_gap_over_amplitude = open_gap
+         solution%measures%approach_over_amplitude = 1.0_dp - open_gap + residual_indentation
+      end if
+      call move_alloc(source, solution%source)
+   end subroutine solve_partial_contact
+
+   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with p <= H where the surface has a
+   !> hardness. Its pivots are those since the last load; its x are the amplitudes of the Fourier terms of
+   !> (p - pbar)/p*.
+   subroutine solve_programme(self, pbar_over_pstar, programme)
+      class(series_contact), intent(inout) :: self
+      real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H
+      type(qp_solution), intent(out) :: programme
+
+      real(dp) :: start
+      integer :: pivots
+
+      if (self%series%options%by_beale) then
+         self%problem%bounds = bounds_at(self%problem, pbar_over_pstar, self%surface%hardness)
+         call solve_by_beale(self%problem, programme)
+         return
+      end if
+      pivots = 0
+      start = max(pbar_over_pstar, min(lightest_start, 0.5_dp*self%surface%hardness))
+      if (.not. continues(self)) call self%forget_last_load()
+      if (.not. allocated(self%dual)) then
+         allocate (self%dual)
+         self%problem%bounds = bounds_at(self%problem, start, self%surface%hardness)
+         call self%dual%solve(self%problem, programme)
+         pivots = programme%pivots
+         if (pbar_over_pstar >= start) return
+      end if
+      call self%dual%pass_to(bounds_at(self%problem, pbar_over_pstar, self%surface%hardness), programme)
+      programme%pivots = programme%pivots + pivots
+   end subroutine solve_programme
+
+   !> Whether a load starts from the active constraints of the last one. With few more points than harmonics two loads
+   !> have most of these in common.
+   pure logical function continues(self)
+      class(series_contact), intent(in) :: self
+
+      associate (options => self%series%options)
+         continues = .not. options%by_beale .and. options%constraint_points <= most_points_to_continue*options%harmonics
+      end associate
+   end function continues
+
+   type(solver_traits) function traits(self)
+      class(series_contact), intent(in) :: self
+
+      traits = solver_traits(solver=solver_of(self), has_errors=.false., has_coefficients=.true., &
+                             continues_last_load=continues(self))
+   end function traits
+
+   pure integer function solver_of(self)
+      class(series_contact), intent(in) :: self
+
+      solver_of = by_dual
+      if (self%series%options%by_beale) solver_of = by_beale
+   end function solver_of
+
+   subroutine forget_last_load(self)
+      class(series_contact), intent(inout) :: self
+
+      if (allocated(self%dual)) deallocate (self%dual)
+   end subroutine forget_last_load
+
+   !> p/p* as a series in phi and theta.
+   type(fourier_series) function pressure(self, pbar_over_pstar) result(series)
+      class(series_source), intent(in) :: self
+      real(dp), intent(in) :: pbar_over_pstar    !! P
+
+      call self%terms%coefficients(self%x, series%c)
+      series%c(0, 0) = pbar_over_pstar
+   end function pressure
+
+   !> (u - ubar)/Delta as a series in phi and theta: eqs. (13), (A10).
+   type(fourier_series) function displacement(self) result(series)
+      class(series_source), intent(in) :: self
+
+      call self%terms%coefficients(self%terms%compliance*self%x, series%c)
+   end function displacement
+
+   subroutine fields(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      type(series_fields), allocatable :: own
+
+      allocate (own)
+      call self%coefficients(record, own%pressure)
+      own%displacement = displacement_of(surface, own%pressure)
+      own%surface = surface
+      own%mean_gap = 1.0_dp - record%measures%approach_over_amplitude
+      call move_alloc(own, answer)
+   end subroutine fields
+
+   !> The error of a truncated series is not estimated.
+   subroutine stresses(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(fourier_series) :: series
+      type(series_stress), allocatable :: own
+
+      call self%coefficients(record, series)
+      allocate (own)
+      call start_series_stress(own, surface, series, record%pbar_over_pstar, &
+                               pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+      call move_alloc(own, answer)
+   end subroutine stresses
+
+   subroutine coefficients(self, record, series)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(fourier_series), intent(out) :: series
+
+      series = self%pressure(record%pbar_over_pstar)
+      if (self%rotated) series = to_sum_angles(series)
+   end subroutine coefficients
+
+   !> The isobar p = edge_level p*.
+   subroutine contact_contours(self, record, surface, curves, loads)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(contact_contour), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      type(fourier_series) :: series
+      type(isobar_grid) :: grid
+      real(dp), allocatable :: zeros(:)
+
+      series = self%pressure(record%pbar_over_pstar)
+      associate (level => self%options%edge_level, harmonics => self%terms%harmonics)
+         if (surface%dimension == 2) then
+            call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
+            if (self%rotated) then
+               ! A period of phi and theta is two cells.
+               call trace_edges(grid, curves, cell=grid%period/[1, 2], skew=grid%period(1)/2)
+               call rotate_contours(curves, factor=1.0_dp)
+            else
+               call trace_edges(grid, curves)
+            end if
+         else
+            series%c(0, 0) = series%c(0, 0) - level
+            call line_zeros(series%c(:, 0), measuring_intervals(harmonics), zeros)
+            call make_strips(zeros, sum(series%c) >= 0.0_dp, .true., curves)
+         end if
+         ! The part outside the isobar is not known.
+         allocate (loads(0))
+      end associate
+   end subroutine contact_contours
+
+   !> The slope of the mean gap at fixed active constraints, from the least energy of pressures of mean 1 that vanish at
+   !> these: (C30) of README.md in this directory. Unknown with a hardness, or if the constraints depend on each other.
+   subroutine derivatives(self, record, surface, answer)
+      class(series_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      !> Pressures below this part of the peak pressure are rounding: the constraint is active.
+      real(dp), parameter :: active = 1e-9_dp
+      type(qp_problem) :: problem
+      type(working_set) :: set
+      integer, allocatable :: constraints(:)
+      integer :: i
+      real(dp), allocatable :: multipliers(:), x(:)
+
+      if (surface%has_hardness()) return
+      problem = energy_problem(self%terms, self%options%constraint_points, self%options%symmetry, has_hardness=.false.)
+      associate (pressure => record%pbar_over_pstar + matmul(self%x, problem%normals), &
+                 least => active*record%measures%peak_pressure_over_pstar)
+         constraints = pack([(i, i=1, size(pressure))], pressure < least)
+      end associate
+      problem%linear = 0.0_dp
+      problem%bounds = -1.0_dp
+      call set%start(problem)
+      call set%assign_active(problem, constraints)
+      if (set%count < size(constraints)) return
+      allocate (multipliers(set%count), x(size(self%x)))
+      call set%solve(problem, x, multipliers)
+      ! The energy is in units of the mean square of the surface's own wave.
+      answer%gap_slope = -sum(problem%hessian*x**2)/2**surface%dimension
+   end subroutine derivatives
+
+end module wavycon_series_contact

@@ -1,0 +1,82 @@
+!> Pressure and displacement as Fourier series: truncated ones, shown as they are, whose pressure is a little negative
+!> between the points at which it is constrained and whose gap is nowhere exactly zero; and those of a contact without
+!> an edge, which is full contact or no load. For a load without a solution the fields are NaN.
+module wavycon_series_fields
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_status, only: full_contact, no_load
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_full_contact, only: full_contact_series
+   use wavycon_kinds, only: dp
+   use wavycon_series_samples, only: sample_series
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: series_fields, start_edgeless_fields
+
+   type, extends(contact_fields) :: series_fields
+      type(fourier_series) :: pressure       !! p/p*
+      type(fourier_series) :: displacement   !! (u - ubar)/Delta
+      type(surface_type) :: surface
+      real(dp) :: mean_gap = 1.0_dp          !! G
+      !> Whether the true pressure and gap are nowhere negative: what the series have below zero is rounding, or lies
+      !> between the points of a height map.
+      logical, private :: is_edgeless = .false.
+   contains
+      procedure :: at
+      procedure :: on_grid
+   end type series_fields
+
+contains
+
+   !> The fields of full contact, of no load, or of a load without a solution.
+   subroutine start_edgeless_fields(fields, surface, pbar_over_pstar, status)
+      type(series_fields), intent(out) :: fields
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: pbar_over_pstar   !! P
+      integer, intent(in) :: status             !! full_contact, no_load, or that of a load without a solution
+
+      fields%surface = surface
+      fields%is_edgeless = status == full_contact .or. status == no_load
+      if (status == full_contact) then
+         fields%pressure = full_contact_series(surface, pbar_over_pstar)
+         fields%displacement = surface%shape
+         fields%mean_gap = 0.0_dp
+      else
+         allocate (fields%pressure%c, mold=surface%shape%c)
+         fields%pressure%c = 0.0_dp
+         if (.not. fields%is_edgeless) fields%pressure%c = ieee_value(pbar_over_pstar, ieee_quiet_nan)
+         fields%displacement = fields%pressure
+      end if
+   end subroutine start_edgeless_fields
+
+   subroutine at(self, x, y, pressure, displacement, gap)
+      class(series_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(out) :: pressure, displacement, gap
+
+      pressure = self%pressure%at(x, y)
+      displacement = self%displacement%at(x, y)
+      gap = self%mean_gap + displacement - self%surface%shape_at(x, y)
+      if (.not. self%is_edgeless) return
+      pressure = max(pressure, 0.0_dp)
+      gap = max(gap, 0.0_dp)
+   end subroutine at
+
+   subroutine on_grid(self, points, offset, pressure, displacement, gap)
+      class(series_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
+
+      call sample_series(self%pressure, points, offset, pressure, self%surface%parts())
+      call sample_series(self%displacement, points, offset, displacement, self%surface%parts())
+      call self%surface%sample_shape(points, offset, gap)
+      gap = self%mean_gap + displacement - gap
+      if (.not. self%is_edgeless) return
+      pressure = max(pressure, 0.0_dp)
+      gap = max(gap, 0.0_dp)
+   end subroutine on_grid
+
+end module wavycon_series_fields

@@ -1,0 +1,151 @@
+!> The equations of contact of one spot below merging, or of one open pool above, at points of the mapped disc.
+!>
+!> Spot: its pressure p and that of all its images displace the surface by u, and u + h = delta in contact. The pressure
+!> bears the load, P times the area of a cell: README.md (F8) and (F9). Pool: its gap g makes the pressure vanish in
+!> it. In full contact the pressure is P + the sum of a_i |k_i| cos 2 pi k_i.x; a gap changes it by -(1/4 pi^2) times
+!> the finite part of the integral of g and the Laplacian of Gp. Therefore
+!>
+!>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).   (F12)
+!>
+!> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations
+!> can only be met with the right edge. They are more than the unknowns, which are the coefficients, a spot's approach
+!> and the shape.
+module wavycon_contact_equations
+   use wavycon_chord_rule, only: chord_rule, start_chord_rule
+   use wavycon_constants, only: pi
+   use wavycon_gauss_rules, only: disc_rule, start_disc_rule
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
+      pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
+      sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemv
+   use wavycon_lattice_images, only: lattice_images
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: contact_equations, start_equations
+
+   type :: contact_equations
+      integer :: unknowns = 0                    !! N coefficients, a spot's approach, 1+K of the shape
+      integer :: before_shape = 0                !! unknowns before those of the shape
+      type(chord_rule) :: chords                 !! for the spot or pool itself
+      type(disc_rule) :: rule                    !! for its images and for integrals over it
+      complex(dp), allocatable :: target(:)      !! points of collocation in the disc, shape (m)
+      real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
+      real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m, unknowns)
+      real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], a pool's [p*]
+      !> Derivatives of the integral of p, the left side of README.md (F9), or of g, shape (unknowns).
+      real(dp), allocatable :: load_row(:)
+      type(lattice_images) :: images             !! kept by start_equations: prepared for the shape, or sums only
+   contains
+      procedure :: linearise
+      procedure :: integral
+   end type contact_equations
+
+contains
+
+   !> Chooses points of collocation and rules for expansions like the one given.
+   subroutine start_equations(equations, like, merging_ratio)
+      type(contact_equations), intent(inout) :: equations
+      type(expansion), intent(in) :: like
+      real(dp), intent(in) :: merging_ratio   !! of the shape: 0 for a point, 1 where it touches its neighbours
+
+      type(contact_equations) :: new
+      real(dp) :: phi
+      integer :: angles, finer, fold, i, j, n, radii
+
+      new%images = equations%images
+      equations = new
+      fold = like%basis%fold
+      equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
+      equations%unknowns = equations%before_shape + size(like%shape%b)
+      ! The rule of chords for the singular integral and the rule over the disc for the images.
+      associate (degree => like%basis%degree, b => like%shape%b)
+         ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
+         angles = int(chords_per_degree*degree) + 4
+         if (merging_ratio > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + min(20, degree)
+         ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
+         if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
+         call start_chord_rule(equations%chords, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)
+         finer = merge(1, 0, merging_ratio > sharp_quadrature_ratio)
+         ! Low degrees are not accurate enough to need many more.
+         if (merging_ratio > near_images_ratio) finer = min(6, degree/4)
+         call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, &
+                              degree/fold + extra_disc_angles + finer)
+      end associate
+      n = size(equations%rule%point)
+      allocate (equations%values(n, like%basis%terms))
+      call like%basis%evaluate(n, equations%rule%point, equations%values)
+      ! Points of collocation, README.md, section 8: on rays at the midpoints of equal angles, clustered towards the
+      ! edge along each. At least two more radii than round functions have unknowns: with as many the size of the shape
+      ! is not determined.
+      radii = like%basis%degree/2 + merge(pool_extra_radii, spot_extra_radii, like%pool)
+      angles = like%basis%degree/fold + merge(pool_extra_angles, spot_extra_angles, like%pool)
+      if (merging_ratio > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
+      ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of
+      ! them.
+      angles = max(angles, ubound(like%shape%b, 1) + 1)
+      n = radii*angles
+      allocate (equations%target(n), equations%matrix(n, equations%unknowns), equations%residual(n), &
+                equations%load_row(equations%unknowns))
+      do j = 1, angles
+         phi = pi*(j - 0.5_dp)/(fold*angles)
+         equations%target((j - 1)*radii + 1:j*radii) = &
+            [(sin(0.5_dp*pi*(i - 0.5_dp)/radii)*exp(cmplx(0.0_dp, phi, dp)), i=1, radii)]
+      end do
+   end subroutine start_equations
+
+   !> Sets the matrix, the residual, README.md (F37) or (F38), and the load's derivatives at an expansion.
+   subroutine linearise(self, lattice, load, now)
+      class(contact_equations), intent(inout) :: self
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load            !! P
+      type(expansion), intent(in) :: now      !! like the one the equations were started for
+
+      complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
+      real(dp) :: known, shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
+      integer :: i, m
+
+      m = size(self%target)
+      associate (terms => now%basis%terms, first => self%before_shape + 1)
+         do i = 1, m
+            call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, shape_row)
+            self%matrix(i, :terms) = row
+            self%matrix(i, first:) = shape_row
+         end do
+         self%load_row = 0.0_dp
+         call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:, :terms), &
+                                   self%matrix(:, first:), self%load_row(:terms), self%load_row(first:))
+         if (now%pool) self%matrix = self%matrix/(4*pi**2)
+         call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%residual, 1)
+         ! What does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that a pool
+         ! would have in full contact; and how they change with the targets' places.
+         known = now%approach
+         if (now%pool) known = load - lattice%closing_pressure
+         if (.not. now%pool) self%matrix(:, self%before_shape) = -1.0_dp
+         do i = 1, m
+            z = now%shape%place(self%target(i))
+            self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
+            slope = -lattice%rise_slope(now%pool, z)
+            call now%shape%linearise_place(self%target(i), place_slope)
+            self%matrix(i, first:) = self%matrix(i, first:) + slope%re*place_slope%re + slope%im*place_slope%im
+         end do
+      end associate
+   end subroutine linearise
+
+   !> Integral over the spot or pool of an expansion, p or g, times a function of the place.
+   real(dp) function integral(self, now, factor)
+      class(contact_equations), intent(in) :: self
+      type(expansion), intent(in) :: now            !! like the one the equations were started for
+      real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
+
+      real(dp) :: product(size(self%rule%point))
+
+      product = self%rule%weight*now%shape%jacobian(self%rule%point)*matmul(self%values, now%c)
+      if (present(factor)) product = product*factor
+      integral = sum(product)
+   end function integral
+
+end module wavycon_contact_equations

@@ -1,0 +1,319 @@
+!> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
+!>
+!> Places are from a crest, in s. Inside the spot or pool the fields are the expansion and the condition of contact.
+!> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). Those over near images
+!> are taken by fine rules or along rays, and those over all others by one coarse rule: README.md, section 12.
+module wavycon_fitted_fields
+   use wavycon_constants, only: pi
+   use wavycon_degree_history, only: error_estimate
+   use wavycon_disc_sources, only: disc_sources, start_disc_sources
+   use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
+   use wavycon_exterior_series, only: exterior_series, start_exterior_series
+   use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_tuning, only: fastest_decay_at_point, field_accuracy, least_map
+   use wavycon_kinds, only: dp
+   use wavycon_shape_search, only: find_preimage
+   use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
+   use wavycon_stress_kernel, only: stress_fields, surface_field
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: find_fitted_details, fitted_fields, start_fitted_fields, fitted_separations
+
+   type :: fitted_fields
+      type(wave_lattice) :: lattice
+      type(fitted_answer) :: answer
+      complex(dp) :: centre = 0.0_dp                     !! of the spot or the pool [s]
+      integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
+      complex(dp), allocatable, private :: image(:)
+         !! centres of the spot or pool, 0, and its near images; for maps those that take the series [s]
+      type(spot_integral), private :: spot
+      type(disc_sources), private :: sources             !! those of its rule at far_level
+      complex(dp), allocatable, private :: preimage(:, :, :)
+         !! of the last two places under each image and centre if it was asked for, 0 if there is none
+      ! For maps.
+      type(exterior_series), allocatable :: series       !! of the spot or pool
+      type(even_polynomial), private :: far(2)           !! of all others: even in x, and odd over x
+   contains
+      procedure :: at
+      procedure :: prepare_map
+      procedure, private :: find_preimages
+      procedure, private :: sum_over_images
+      procedure, private :: coarse_sum
+   end type fitted_fields
+
+contains
+
+   !> Prepares to evaluate an answer.
+   subroutine start_fitted_fields(fields, lattice, answer, accuracy)
+      type(fitted_fields), intent(out) :: fields
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      real(dp), intent(in), optional :: accuracy   !! of the integrals over the fields' scale; field_accuracy if absent
+
+      real(dp) :: asked
+
+      asked = field_accuracy
+      if (present(accuracy)) asked = accuracy
+      fields%lattice = lattice
+      fields%answer = answer
+      fields%centre = merge(lattice%trough, (0.0_dp, 0.0_dp), answer%pool)
+      fields%places = merge(lattice%troughs, 1, answer%pool)
+      call start_spot_integral(fields%spot, answer%solution, asked, surface_field)
+      call start_disc_sources(fields%sources, answer%solution, .false., fields%spot%radii(far_level), &
+                              fields%spot%angles(far_level))
+      call find_images(fields, fields%spot%radius)
+   end subroutine start_fitted_fields
+
+   !> Lists the images that come within a distance of the rectangle that places are reduced to, and all others that the
+   !> coarse rule may not resolve there.
+   subroutine find_images(fields, least)
+      type(fitted_fields), intent(inout) :: fields
+      real(dp), intent(in) :: least                !! distance of their centres [s]
+
+      real(dp) :: reach
+
+      reach = least
+      do while (.not. fields%spot%is_resolved(cmplx(reach, 0.0_dp, dp)))
+         reach = 1.1_dp*reach
+      end do
+      fields%image = fields%lattice%rows%points_about(reach, (0.0_dp, 0.0_dp))
+      fields%preimage = reshape([(0.0_dp, 0.0_dp)], [2, size(fields%image), fields%places], pad=[(0.0_dp, 0.0_dp)])
+   end subroutine find_images
+
+   !> The fields at a place.
+   subroutine at(self, place, pressure, displacement, gap)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: place             !! x + i y from a crest [s]
+      real(dp), intent(out) :: pressure            !! [p*], 0 where the gap is open
+      real(dp), intent(out) :: displacement        !! u less its mean [Delta]
+      real(dp), intent(out) :: gap                 !! [Delta], 0 in contact
+
+      complex(dp) :: w, z(self%places)
+      real(dp) :: without_gap
+      logical :: inside
+      integer :: i
+
+      pressure = 0.0_dp
+      gap = 0.0_dp
+      without_gap = 1.0_dp - self%answer%mean_gap + self%lattice%rise(.false., place)
+      displacement = without_gap
+      ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
+      do i = 1, self%places
+         z(i) = self%lattice%rows%reduced(merge(place, -place, i == 1) - self%centre)
+         call self%find_preimages(z(i), i, w, inside)
+         if (.not. inside) cycle
+         if (self%answer%pool) then
+            gap = self%answer%solution%at(w)
+            displacement = gap + without_gap
+         else
+            pressure = self%answer%solution%at(w)
+         end if
+         return
+      end do
+      if (self%answer%pool) then
+         pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
+            + self%lattice%rise(.true., place - self%lattice%trough)
+         do i = 1, self%places
+            pressure = pressure + self%sum_over_images(z(i), i)
+         end do
+      else
+         displacement = self%sum_over_images(z(1), 1)
+         gap = displacement - without_gap
+      end if
+   end subroutine at
+
+   !> Finds the preimages of a place under the spot or pool and its near images as far as they are needed: where it may
+   !> be inside, and for the series.
+   subroutine find_preimages(self, z, centre, w, inside)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: z          !! from the centre, reduced [s]
+      integer, intent(in) :: centre         !! which one, 1 to places
+      complex(dp), intent(out) :: w         !! the preimage if the place is inside one of them
+      logical, intent(out) :: inside
+
+      logical :: found
+      integer :: k
+
+      inside = .false.
+      ! Long spots and pools of a rhombic lattice reach beyond the rectangle that places are reduced to.
+      do k = 1, size(self%image)
+         if (.not. allocated(self%series) .and. abs(z - self%image(k)) > self%spot%radius) cycle
+         associate (last => self%preimage(:, k, centre))
+            ! Most places follow at equal distances.
+            call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, 2*last(1) - last(2))
+            last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
+         end associate
+         inside = found .and. w%re**2 + w%im**2 <= 1.0_dp
+         if (inside) return
+      end do
+   end subroutine find_preimages
+
+   !> What one spot or pool and all its images add to the displacement [Delta] or the pressure [pi E* Delta/s] at a
+   !> place outside of all.
+   real(dp) function sum_over_images(self, z, centre) result(total)
+      class(fitted_fields), intent(inout) :: self
+      complex(dp), intent(in) :: z      !! from the centre, reduced [s]
+      integer, intent(in) :: centre     !! that find_preimages was called for
+
+      real(dp) :: even(1), exact(stress_fields), odd(1)
+      logical :: far(size(self%image))
+      integer :: k
+
+      far = .false.
+      if (allocated(self%series)) then
+         associate (along => [merge(z%im, z%re, self%lattice%rows%along_y)], &
+                    across => [merge(z%re, z%im, self%lattice%rows%along_y)])
+            call self%far(1)%evaluate(1, along, across, even)
+            call self%far(2)%evaluate(1, along, across, odd)
+         end associate
+         total = even(1) + z%re*odd(1)
+      else
+         far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
+         total = self%coarse_sum(z, pack(self%image, .not. far))
+      end if
+      exact = 0.0_dp
+      do k = 1, size(far)
+         if (far(k)) cycle
+         if (allocated(self%series) .and. abs(self%preimage(1, k, centre)) > 0.0_dp) then
+            total = total + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
+         else
+            call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+         end if
+      end do
+      total = total + exact(1)
+   end function sum_over_images
+
+   !> The sum over all images but some near ones, by the coarse rule.
+   real(dp) function coarse_sum(self, z, near) result(total)
+      class(fitted_fields), intent(in) :: self
+      complex(dp), intent(in) :: z                           !! from the centre, reduced [s]
+      complex(dp), intent(in) :: near(:)                     !! centres of those that are not part of it [s]
+
+      real(dp) :: of_centre(stress_fields), removed(stress_fields), value(size(self%sources%x))
+      integer :: k
+
+      associate (x => z%re - self%sources%x, y => z%im - self%sources%y)
+         call self%lattice%kernel(merge(2, 1, self%answer%pool))%evaluate(size(x), x, y, value)
+         if (self%answer%pool) value = -value/(4*pi**2)
+      end associate
+      ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
+      of_centre = 0.0_dp
+      removed = 0.0_dp
+      if (all(abs(near) > 0.0_dp)) call self%sources%add_at(surface_field, z, 0.0_dp, of_centre)
+      do k = 1, size(near)
+         if (abs(near(k)) > 0.0_dp) call self%sources%add_at(surface_field, z - near(k), 0.0_dp, removed)
+      end do
+      total = dot_product(self%sources%strength(:, 1), value) + of_centre(1) - removed(1)
+   end function coarse_sum
+
+   !> Prepares for many places: a series of the spot or pool and of the images that are too near to the cell for the
+   !> polynomial of the others. Without such a series, or for few places, each place is evaluated for itself.
+   subroutine prepare_map(self, accuracy, places)
+      class(fitted_fields), intent(inout) :: self
+      real(dp), intent(in) :: accuracy            !! that the solution was asked for, relative
+      integer, intent(in) :: places               !! distributed over the cell, >= 0
+
+      !> Error over the accuracy that was asked for, and the least one over the fields' scale.
+      real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
+      !> Most values of a series over the places outside: it takes them much faster.
+      real(dp), parameter :: most_terms = 3.0_dp
+      real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
+      type(exterior_series), allocatable :: series
+      complex(dp) :: z
+      real(dp) :: other, outside, tolerance
+      logical :: found
+      integer :: i, j
+
+      outside = places*merge(self%answer%area_fraction, 1.0_dp - self%answer%area_fraction, self%answer%pool)
+      if (outside < least_map) return
+      tolerance = max(share*accuracy, least)
+      allocate (series)
+      call start_exterior_series(series, self%answer%solution, tolerance, nint(most_terms*outside), found)
+      if (.not. found) return
+      call move_alloc(series, self%series)
+      tolerance = 0.01_dp*tolerance
+      ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of the
+      ! coordinate along that side, where terms fall by exp(-2 asinh(c/a)).
+      call find_images(self, self%spot%radius + 0.5_dp*max(self%lattice%rows%spacing, 1.0_dp) &
+                       *sinh(-0.5_dp*log(tolerance)/(fit_degree + 1)))
+      ! Displacements are of order 1, pressures of the order of their peak.
+      if (self%answer%pool) tolerance = tolerance*self%answer%peak_pressure
+      associate (rows => self%lattice%rows)
+         call fit_nodes(rows%spacing, x, y)
+         do j = 0, fit_degree
+            do i = 0, fit_degree
+               z = cmplx(x(i, j), y(i, j), dp)
+               if (rows%along_y) z = cmplx(y(i, j), x(i, j), dp)
+               even(i, j) = self%coarse_sum(z, self%image)
+               odd(i, j) = 0.0_dp
+               if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
+               other = self%coarse_sum(-conjg(z), self%image)
+               odd(i, j) = 0.5_dp*(even(i, j) - other)/z%re
+               even(i, j) = 0.5_dp*(even(i, j) + other)
+            end do
+         end do
+         call start_even_polynomial(self%far(1), rows%spacing, even, tolerance)
+         call start_even_polynomial(self%far(2), rows%spacing, odd, tolerance)
+      end associate
+   end subroutine prepare_map
+
+   !> Gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. Above
+   !> merging the gap at the saddle is 0, below the pressure there.
+   function fitted_separations(lattice, answer, accuracy) result(values)
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      real(dp), intent(in), optional :: accuracy   !! as of start_fitted_fields
+      real(dp) :: values(3)
+
+      type(fitted_fields) :: fields
+      real(dp) :: displacement, pressure
+
+      call start_fitted_fields(fields, lattice, answer, accuracy)
+      call fields%at(lattice%trough, pressure, displacement, values(1))
+      call fields%at(lattice%saddle, values(3), displacement, values(2))
+   end function fitted_separations
+
+   !> These values, and estimates of their errors.
+   !>
+   !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of
+   !> the integrals over near images from a second evaluation by finer rules.
+   subroutine find_fitted_details(lattice, answer, values, error)
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      real(dp), intent(out) :: values(3)           !! as of fitted_separations: trough gap, saddle gap, saddle pressure
+      real(dp), intent(out) :: error(3)            !! estimates of their errors
+
+      !> Accuracy of the second evaluation.
+      real(dp), parameter :: finer = 1e-15_dp
+      real(dp) :: at(3, 0:size(answer%previous)), decay(2), scale(3)
+      type(fitted_answer) :: older
+      integer :: i, k
+
+      values = fitted_separations(lattice, answer)
+      at(:, 0) = values
+      older = answer
+      do k = 1, size(answer%previous)
+         older%solution = answer%previous(k)
+         if (.not. answer%pool) older%mean_gap = 1.0_dp - older%solution%approach
+         at(:, k) = fitted_separations(lattice, older)
+      end do
+      ! All but the gap inside a pool are differences of numbers of order 1: their rounding is absolute.
+      scale = 1.0_dp
+      if (answer%pool) scale(1) = at(1, 0)
+      ! One by one: the saddle may be about to close while the trough is wide open.
+      do i = 1, size(values)
+         decay = answer%misfit_decay
+         ! The gap inside a pool is a value of the expansion, where the others are integrals of it.
+         if (answer%pool .and. i == 1) decay = max(decay, fastest_decay_at_point)
+         error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
+      end do
+      ! A spot's approach is part of both gaps.
+      if (.not. answer%pool) error(:2) = max(error(:2), answer%mean_gap_error)
+      error = error + abs(fitted_separations(lattice, answer, finer) - values)
+      ! A gap in contact and a pressure outside of it are 0 by definition.
+      error(merge(2, 3, answer%pool)) = 0.0_dp
+   end subroutine find_fitted_details
+
+end module wavycon_fitted_fields

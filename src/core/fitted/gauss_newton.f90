@@ -1,0 +1,206 @@
+!> Gauss-Newton's method for the coefficients and the shape of an expansion.
+module wavycon_gauss_newton
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use wavycon_contact_equations, only: contact_equations
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_tuning, only: longest_shape_change
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgglse
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: changes_with_load, gauss_newton_step, solve_equations
+
+   !> Change of a step over the square of the one before, while convergence is quadratic.
+   real(dp), parameter, public :: change_per_square = 10.0_dp
+
+   !> Safety limit: most steps at one degree. The loads of scripts/constants take at most half as many. At the limit the
+   !> change of the last step is above the tolerance, and the caller decides whether the solution is of use.
+   integer, parameter :: most_newton_steps = 12
+   !> Guard: Jacobian at the centre over b_0^2 below which a shape is rejected and the iteration fails. An ellipse of
+   !> 100 to 1 has 0.04, longer ones are not solved for. Only spots far past merging, which would fold, come that low
+   !> (a_spot_that_folds_ends_the_search in tests/exact); the quadrature of folding maps grows without end.
+   real(dp), parameter :: least_centre_jacobian = 0.04_dp
+
+contains
+
+   !> Steps until what the next ones would change of the shape is within a tolerance, or until there have been too many.
+   !>
+   !> A step leaves about its own change times the contraction, the ratio of the changes of two successive steps. After
+   !> a first step the contraction is that of the last degree. It is at least what quadratic convergence has.
+   subroutine solve_equations(equations, lattice, load, now, tolerance, contraction, change, remaining, residual, &
+                              misfit, iterations, valid)
+      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load                         !! P
+      type(expansion), intent(inout) :: now
+      real(dp), intent(in) :: tolerance                    !! of what remains, relative to the shape's size, > 0
+      real(dp), intent(inout) :: contraction               !! before, of the last degree; after, of this one
+      real(dp), intent(out) :: change                      !! of the last step, as of gauss_newton_step
+      real(dp), intent(out) :: remaining                   !! what it leaves; above the tolerance without convergence
+      real(dp), intent(out) :: residual, misfit            !! as of gauss_newton_step
+      integer, intent(inout) :: iterations                 !! the steps are added
+      logical, intent(out) :: valid                        !! as of gauss_newton_step; if not, the steps end
+
+      real(dp) :: change_before
+      integer :: i
+
+      change = huge(change)
+      do i = 1, most_newton_steps
+         change_before = change
+         call gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
+         iterations = iterations + 1
+         remaining = huge(remaining)
+         if (.not. valid) return
+         if (i > 1) contraction = min(change/max(change_before, tiny(change)), 1.0_dp)
+         remaining = change*max(contraction, min(change, 1.0_dp)*change_per_square)
+         if (remaining <= tolerance) return
+      end do
+   end subroutine solve_equations
+
+   !> One step, README.md (F40): minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing
+   !> load.
+   !>
+   !> The step is shortened to a change of the shape of `longest_shape_change`.
+   subroutine gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
+      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load                         !! P
+      type(expansion), intent(inout) :: now
+      real(dp), intent(out) :: change
+         !! largest change of a coefficient of the shape, before shortening, over the former size b_0
+      real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta, p*]
+      real(dp), intent(out) :: misfit                      !! as of least_squares_step
+      logical, intent(out) :: valid
+         !! whether the step is finite and the new shape is not about to fold; where it is not finite `now` is as before
+
+      real(dp) :: missing_load, step(equations%unknowns), part
+      logical :: finite
+
+      call equations%linearise(lattice, load, now)
+      residual = huge(residual)
+      misfit = huge(misfit)
+      change = huge(change)
+      valid = .false.
+      ! LAPACK may loop for ever on NaN or infinity.
+      if (.not. (all(ieee_is_finite(equations%residual)) .and. all(ieee_is_finite(equations%matrix)))) return
+      residual = maxval(abs(equations%residual))
+      missing_load = load*lattice%area - equations%integral(now)
+      call least_squares_step(equations, now%pool, missing_load, step, misfit, finite)
+      if (.not. finite) return
+      associate (before_shape => equations%before_shape)
+         change = maxval(abs(step(before_shape + 1:)))/now%shape%b(0)
+         part = min(1.0_dp, longest_shape_change/max(change, tiny(change)))
+         call add_step(now, part*step, equations)
+      end associate
+      valid = now%shape%b(0) > 0.0_dp &
+         .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
+   end subroutine gauss_newton_step
+
+   !> The first and second derivatives of the unknowns with respect to the load, at a solution: (I7a), (I7b) of
+   !> src/beyond/README.md.
+   subroutine changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, finite)
+      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load                         !! P
+      type(expansion), intent(in) :: now                   !! the solution
+      real(dp), intent(out) :: change(:), change_of_change(:)   !! per P and P^2, shape (unknowns)
+      real(dp), intent(out) :: load_change(2)   !! of the integral of p or g, per P and P^2
+      logical, intent(out) :: finite            !! otherwise the changes are of no use
+
+      !> Step of P over its distance from 0 and from the closing pressure: the differences' error of fourth order and
+      !> the rounding are some 1e-11.
+      real(dp), parameter :: part = 1e-3_dp
+      !> Weights of the solutions at one and two steps.
+      real(dp), parameter :: weight(2) = [2.0_dp/3, -1.0_dp/12]
+      real(dp) :: load_row(size(change)), matrix(size(equations%matrix, 1), size(equations%matrix, 2)), misfit, &
+         right(size(equations%residual)), row_change, step
+      integer :: i
+
+      call linearise_at(0)
+      matrix = equations%matrix
+      load_row = equations%load_row
+      finite = all(ieee_is_finite(matrix))
+      if (.not. finite) return
+      equations%residual = merge(1.0_dp, 0.0_dp, now%pool)
+      call least_squares_step(equations, now%pool, lattice%area, change, misfit, finite)
+      if (.not. finite) return
+      step = part*min(load, lattice%closing_pressure - load)
+      right = 0.0_dp
+      row_change = 0.0_dp
+      do i = -2, 2
+         if (i == 0) cycle
+         call linearise_at(i)
+         associate (factor => sign(weight(abs(i)), weight(abs(i))*i)/step)
+            right = right - factor*matmul(equations%matrix, change)
+            row_change = row_change + factor*dot_product(equations%load_row, change)
+         end associate
+      end do
+      finite = all(ieee_is_finite(right))
+      if (.not. finite) return
+      equations%matrix = matrix
+      equations%residual = right
+      equations%load_row = load_row
+      call least_squares_step(equations, now%pool, -row_change, change_of_change, misfit, finite)
+      load_change = [dot_product(load_row, change), dot_product(load_row, change_of_change) + row_change]
+
+   contains
+
+      !> Linearises at the solution, or at the one that a change of the load by some steps makes of it.
+      subroutine linearise_at(steps)
+         integer, intent(in) :: steps
+
+         type(expansion) :: other
+
+         other = now
+         if (steps /= 0) call add_step(other, steps*step*change, equations)
+         call equations%linearise(lattice, load, other)
+      end subroutine linearise_at
+
+   end subroutine changes_with_load
+
+   !> Adds a step to coefficients, approach and shape.
+   subroutine add_step(now, step, equations)
+      type(expansion), intent(inout) :: now
+      real(dp), intent(in) :: step(:)                      !! shape (unknowns)
+      type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
+
+      associate (terms => now%basis%terms)
+         now%c = now%c + step(:terms)
+         if (.not. now%pool) now%approach = now%approach + step(terms + 1)
+         now%shape%b = now%shape%b + step(equations%before_shape + 1:)
+      end associate
+   end subroutine add_step
+
+   !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
+   subroutine least_squares_step(equations, pool, missing_load, step, misfit, finite)
+      type(contact_equations), intent(inout) :: equations
+      logical, intent(in) :: pool                !! a spot's load is a constraint
+      real(dp), intent(in) :: missing_load       !! that the step must add to a spot, times the cell's area
+      real(dp), intent(out) :: step(:)           !! shape (unknowns)
+      real(dp), intent(out) :: misfit
+         !! root of the sum of squares that the step leaves, over the equations beyond the unknowns [Delta, p*]
+      logical, intent(out) :: finite             !! whether there is a solution; otherwise the step is of no use
+
+      !> Columns that LAPACK treats at once; as many times the sizes is enough work space.
+      integer, parameter :: block = 64
+      real(dp) :: constraint(1, size(step)), right(1)
+      real(dp) :: work(block*(size(equations%residual) + size(step) + 1))
+      integer :: beyond, constraints, info, m, n
+
+      m = size(equations%residual)
+      n = size(step)
+      constraints = merge(0, 1, pool)
+      beyond = m - n + constraints
+      constraint(1, :) = equations%load_row
+      right = missing_load
+      call dgglse(m, n, constraints, equations%matrix, m, constraint, 1, equations%residual, right, step, work, &
+                  size(work), info)
+      ! LAPACK leaves the components that no step can remove at the end of the right side.
+      misfit = norm2(equations%residual(m - beyond + 1:))/sqrt(real(beyond, dp))
+      finite = info == 0
+      if (finite) finite = maxval(abs(step)) < huge(1.0_dp)
+   end subroutine least_squares_step
+
+end module wavycon_gauss_newton

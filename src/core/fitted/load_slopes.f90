@@ -1,0 +1,98 @@
+!> How an expansion changes with the load: the derivatives of mean gap and contact area, and the stress intensity of the
+!> change along the edge. Equations (I..) are those of src/beyond/README.md.
+module wavycon_load_slopes
+   use wavycon_constants, only: pi
+   use wavycon_contact_equations, only: contact_equations, start_equations
+   use wavycon_degree_history, only: error_estimate
+   use wavycon_expansion, only: expansion
+   use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_tuning, only: series_growth
+   use wavycon_gauss_newton, only: changes_with_load
+   use wavycon_kinds, only: dp
+   use wavycon_expansion_size, only: merging_ratio
+   use wavycon_wave_lattice, only: wave_lattice
+   implicit none (type, external)
+   private
+
+   public :: find_load_slopes
+
+   !> Numbers in an array of slopes: G', A' of the contact area fraction, G''.
+   integer, parameter :: number_of_slopes = 3
+   !> Points of half a sector of the edge, beyond the degree: the integrals along it converge exponentially.
+   integer, parameter :: least_edge_points = 32, edge_points_per_degree = 4
+
+contains
+
+   !> The derivatives of a solution, with errors estimated from those of the lower degrees.
+   subroutine find_load_slopes(lattice, answer, slopes, errors, intensity_range, found)
+      type(wave_lattice), intent(in) :: lattice    !! the answer's
+      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      real(dp), intent(out) :: slopes(number_of_slopes)
+         !! G', A', G'' [Delta, 1, Delta over the pressure, for G'' its square; pressures in pi E* Delta/s]
+      real(dp), intent(out) :: errors(number_of_slopes)   !! estimates of their errors
+      real(dp), intent(out) :: intensity_range(2)         !! as of `load_derivatives`
+      logical, intent(out) :: found                       !! otherwise the equations have no finite solution
+
+      !> Relative error of the differences of Newton's matrix.
+      real(dp), parameter :: of_differences = 1e-10_dp
+      real(dp) :: at(number_of_slopes, 0:size(answer%previous)), range(2)
+      logical :: found_too
+      integer :: k
+
+      call slopes_of(lattice, answer%pbar_over_pstar, answer%solution, slopes, intensity_range, found)
+      at(:, 0) = slopes
+      do k = 1, size(answer%previous)
+         call slopes_of(lattice, answer%pbar_over_pstar, answer%previous(k), at(:, k), range, found_too)
+         found = found .and. found_too
+      end do
+      if (.not. found) return
+      errors = error_estimate(at, answer%misfit_decay, abs(slopes))
+      errors(3) = max(errors(3), of_differences*abs(slopes(3)))
+   end subroutine find_load_slopes
+
+   !> The derivatives of one expansion, and the least and the largest k^2 along its edge: (I4) to (I7).
+   subroutine slopes_of(lattice, load, now, slopes, intensity_range, found)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: load            !! P
+      type(expansion), intent(in) :: now
+      real(dp), intent(out) :: slopes(number_of_slopes), intensity_range(2)
+      logical, intent(out) :: found
+
+      type(contact_equations) :: equations
+      complex(dp), allocatable :: w(:)
+      complex(dp) :: normal, place_change(0:ubound(now%shape%b, 1))
+      real(dp), allocatable :: change(:), change_of_change(:)
+      real(dp), allocatable :: intensity(:), values(:, :), velocity(:)   ! k, and the edge's velocity times ds/dphi
+      real(dp) :: load_change(2), root
+      integer :: i, n
+
+      call equations%images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
+      call start_equations(equations, now, merging_ratio(lattice, now))
+      allocate (change(equations%unknowns), change_of_change(equations%unknowns))
+      call changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, found)
+      if (.not. found) return
+      n = least_edge_points + edge_points_per_degree*now%basis%degree
+      allocate (intensity(n), values(n, now%basis%terms), velocity(n), w(n))
+      w = exp(cmplx(0.0_dp, [(pi*(i - 0.5_dp)/(now%basis%fold*n), i=1, n)], dp))
+      call now%basis%evaluate(n, w, values)
+      do i = 1, n
+         normal = now%shape%tangent(w(i))
+         call now%shape%linearise_place(w(i), place_change)
+         velocity(i) = real(conjg(normal)*dot_product(change(equations%before_shape + 1:), place_change), dp)
+         ! 1 - |w|^2 = root^2 times the distance from the edge, next to it.
+         root = sqrt(2*abs(normal)/now%shape%jacobian(w(i)))
+         intensity(i) = dot_product(values(i, :), now%c)*root*velocity(i)/(2*abs(normal))
+         if (now%pool) intensity(i) = 3/(4*pi)*intensity(i)*root**2
+      end do
+      slopes(2) = 2*pi/n*sum(velocity)/lattice%area
+      if (now%pool) then
+         slopes([1, 3]) = lattice%troughs*load_change/lattice%area
+         slopes(2) = -lattice%troughs*slopes(2)
+      else
+         slopes([1, 3]) = -[change(now%basis%terms + 1), change_of_change(now%basis%terms + 1)]
+      end if
+      ! (I5) is its mean.
+      intensity_range = [minval(intensity**2), maxval(intensity**2)]*2*pi**2*slopes(2)/slopes(3)
+   end subroutine slopes_of
+
+end module wavycon_load_slopes

@@ -1,0 +1,335 @@
+!> The map of the unit disc to a contact spot or an open pool,
+!>
+!>     z(w) = b_0 (w - tau w^(fold+1)) + sum over k = 1..K of b_k conj(w)^(fold k - 1),   README.md (F15).
+!>
+!> With tau = 0 and one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) one with cusps such as the astroid.
+!> Spots and pools are very nearly such curves up to the load at which they merge, so that a few terms suffice. A
+!> small tau, with b_1 larger by tau b_0, leaves the edge nearly as it is and clusters the images of the disc's points
+!> towards the tips, which become sharp near merging.
+!>
+!> Outside of the disc a map of its own, README.md (F48), continues it from the circle. It does not fold where (F15)
+!> does: with tau = 0 it is conformal.
+module wavycon_shape_map
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: shape_map
+
+   !> Intervals of a half sector in which a shape's radius is looked for, and least points for the length of an edge.
+   integer, parameter :: radius_points = 8, least_edge_points = 16
+   !> Safety limit: most points of a half sector for the length of an edge. Only an edge that is within some 7 % of
+   !> cusps needs more; its length is less exact.
+   integer, parameter :: most_edge_points = 512
+
+   type :: shape_map
+      integer :: fold = 4               !! of the symmetry, >= 2
+      real(dp) :: clustering = 0.0_dp   !! tau, 0 <= tau < 1/(fold+1)
+      real(dp), allocatable :: b(:)     !! coefficients [s], shape (0:K)
+   contains
+      procedure :: place
+      procedure :: linearise_place
+      procedure :: find_differences
+      procedure :: linearise_slopes
+      procedure :: analytic_part
+      procedure :: slopes
+      procedure :: jacobian
+      procedure :: linearise_jacobian
+      procedure :: tangent
+      procedure :: area
+      procedure :: radius
+      procedure :: place_outside
+      procedure :: linearise_outside
+      procedure :: perimeter
+   end type shape_map
+
+contains
+
+   !> z(w) [s], README.md (F15).
+   elemental complex(dp) function place(self, w) result(z)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+
+      complex(dp) :: power, step
+      integer :: k
+
+      z = self%b(0)*self%analytic_part(w)
+      step = conjg(w)**self%fold
+      power = conjg(w)**(self%fold - 1)
+      do k = 1, ubound(self%b, 1)
+         z = z + self%b(k)*power
+         power = power*step
+      end do
+   end function place
+
+   !> Derivatives of z(w) with respect to the coefficients.
+   pure subroutine linearise_place(self, w, derivative)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+      complex(dp), intent(out) :: derivative(0:)   !! dz/d b_k, shape (0:K)
+
+      complex(dp) :: power, step
+      integer :: k
+
+      derivative(0) = self%analytic_part(w)
+      power = conjg(w)**(self%fold - 1)
+      step = power*conjg(w)
+      do k = 1, ubound(derivative, 1)
+         derivative(k) = power
+         power = power*step
+      end do
+   end subroutine linearise_place
+
+   !> Divided differences of the map between a point and others, without cancellation where they are near:
+   !>
+   !>     z(w) - z(v) = b_0 (w - v) A + conj( (w - v) sum over k of b_k D_k ),   README.md (F26),
+   !>
+   !> A = 1 - tau (w^(m+1) - v^(m+1))/(w - v) and D_k = (w^j - v^j)/(w - v), j = m k - 1, m the fold. They follow from
+   !> w^(j+m) - v^(j+m) = w^m (w^j - v^j) + v^j (w^m - v^m).
+   pure subroutine find_differences(self, n, v, w, analytic, terms)
+      class(shape_map), intent(in) :: self
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: v, w(n)
+      real(dp), intent(out) :: analytic(n, 2)     !! A, real and imaginary part: loops over points vectorise
+      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))    !! D_k
+
+      complex(dp) :: power
+      real(dp), dimension(n, 2) :: of_fold, point, step
+      integer :: i, k
+
+      point = reshape([w%re, w%im], [n, 2])
+      step = point
+      terms(:, 1, 1) = 1.0_dp
+      terms(:, 2, 1) = 0.0_dp
+      do k = 1, self%fold - 2
+         call multiply_add(n, terms(:, :, 1), point, v**k)
+         call multiply_add(n, step, point, (0.0_dp, 0.0_dp))
+      end do
+      call multiply_add(n, step, point, (0.0_dp, 0.0_dp))
+      of_fold = terms(:, :, 1)
+      call multiply_add(n, of_fold, point, v**(self%fold - 1))
+      do k = 2, ubound(self%b, 1)
+         power = v**(self%fold*(k - 1) - 1)
+         do i = 1, n
+            terms(i, 1, k) = terms(i, 1, k - 1)*step(i, 1) - terms(i, 2, k - 1)*step(i, 2) &
+               + (power%re*of_fold(i, 1) - power%im*of_fold(i, 2))
+            terms(i, 2, k) = terms(i, 1, k - 1)*step(i, 2) + terms(i, 2, k - 1)*step(i, 1) &
+               + (power%re*of_fold(i, 2) + power%im*of_fold(i, 1))
+         end do
+      end do
+      analytic(:, 1) = 1.0_dp
+      analytic(:, 2) = 0.0_dp
+      if (self%clustering > 0.0_dp) then
+         call multiply_add(n, of_fold, point, v**self%fold)
+         analytic = analytic - self%clustering*of_fold
+      end if
+   end subroutine find_differences
+
+   !> Derivatives of the conjugate of dz/d conj(w) with respect to b_k, (m k - 1) w^(m k - 2), and w^m, m the fold.
+   pure subroutine linearise_slopes(self, n, w, terms, step)
+      class(shape_map), intent(in) :: self
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: w(n)
+      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))
+      real(dp), intent(out) :: step(n, 2)         !! w^m
+
+      real(dp) :: factor, point(n, 2)
+      integer :: i, k
+
+      point = reshape([w%re, w%im], [n, 2])
+      step(:, 1) = 1.0_dp
+      step(:, 2) = 0.0_dp
+      do k = 1, self%fold
+         if (k == self%fold - 1) terms(:, :, 1) = (self%fold - 1)*step
+         call multiply_add(n, step, point, (0.0_dp, 0.0_dp))
+      end do
+      do k = 2, ubound(self%b, 1)
+         factor = (self%fold*k - 1.0_dp)/(self%fold*(k - 1) - 1.0_dp)
+         do i = 1, n
+            terms(i, 1, k) = factor*(terms(i, 1, k - 1)*step(i, 1) - terms(i, 2, k - 1)*step(i, 2))
+            terms(i, 2, k) = factor*(terms(i, 1, k - 1)*step(i, 2) + terms(i, 2, k - 1)*step(i, 1))
+         end do
+      end do
+   end subroutine linearise_slopes
+
+   !> a b + c of complex numbers by real and imaginary part, into a.
+   pure subroutine multiply_add(n, a, b, c)
+      integer, intent(in) :: n
+      real(dp), intent(inout) :: a(n, 2)
+      real(dp), intent(in) :: b(n, 2)
+      complex(dp), intent(in) :: c
+
+      real(dp) :: re
+      integer :: i
+
+      do i = 1, n
+         re = a(i, 1)*b(i, 1) - a(i, 2)*b(i, 2) + c%re
+         a(i, 2) = a(i, 1)*b(i, 2) + a(i, 2)*b(i, 1) + c%im
+         a(i, 1) = re
+      end do
+   end subroutine multiply_add
+
+   !> w - tau w^(fold+1): the analytic part of the map over b_0.
+   elemental complex(dp) function analytic_part(self, w)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+
+      analytic_part = w
+      if (self%clustering > 0.0_dp) analytic_part = w*(1.0_dp - self%clustering*w**self%fold)
+   end function analytic_part
+
+   !> dz/dw and dz/d conj(w) [s] at n points.
+   pure subroutine slopes(self, n, w, slope, conjugate_slope)
+      class(shape_map), intent(in) :: self
+      integer, intent(in) :: n
+      complex(dp), intent(in) :: w(n)
+      complex(dp), intent(out) :: slope(n), conjugate_slope(n)
+
+      complex(dp), dimension(n) :: lower, step
+      integer :: k
+
+      lower = 1.0_dp
+      do k = 1, self%fold - 2
+         lower = lower*conjg(w)
+      end do
+      ! Horner's scheme in conj(w)^fold.
+      step = lower*conjg(w)**2
+      conjugate_slope = 0.0_dp
+      do k = ubound(self%b, 1), 1, -1
+         conjugate_slope = conjugate_slope*step + (self%fold*k - 1)*self%b(k)
+      end do
+      conjugate_slope = conjugate_slope*lower
+      slope = self%b(0)
+      if (self%clustering > 0.0_dp) slope = self%b(0)*(1.0_dp - (self%fold + 1)*self%clustering*conjg(step))
+   end subroutine slopes
+
+   !> The Jacobian |dz/dw|^2 - |dz/d conj(w)|^2, README.md (F16): the area of the image over that of the disc [s^2].
+   elemental real(dp) function jacobian(self, w)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+
+      complex(dp) :: slope(1), conjugate_slope(1)
+
+      call self%slopes(1, [w], slope, conjugate_slope)
+      jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
+   end function jacobian
+
+   !> The Jacobian and its derivatives with respect to the coefficients.
+   pure subroutine linearise_jacobian(self, w, jacobian, derivative)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w
+      real(dp), intent(out) :: jacobian         !! [s^2]
+      real(dp), intent(out) :: derivative(0:)   !! d jacobian/d b_k [s], shape (0:K)
+
+      complex(dp) :: conjugate_slope(1), power, slope(1), step
+      integer :: k
+
+      call self%slopes(1, [w], slope, conjugate_slope)
+      derivative(0) = 2*(slope(1)%re**2 + slope(1)%im**2)/self%b(0)
+      jacobian = 0.5_dp*self%b(0)*derivative(0) - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
+      power = conjg(w)**(self%fold - 2)
+      step = power*conjg(w)**2
+      do k = 1, ubound(self%b, 1)
+         derivative(k) = -2*(self%fold*k - 1)*(conjugate_slope(1)%re*power%re + conjugate_slope(1)%im*power%im)
+         power = power*step
+      end do
+   end subroutine linearise_jacobian
+
+   !> -i dz/dphi at w = e^(i phi): the edge's tangent, turned to the outward normal [s].
+   elemental complex(dp) function tangent(self, w)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w         !! |w| = 1
+
+      complex(dp) :: slope(1), conjugate_slope(1)
+
+      call self%slopes(1, [w], slope, conjugate_slope)
+      tangent = w*slope(1) - conjg(w)*conjugate_slope(1)
+   end function tangent
+
+   !> z(v) [s] outside of the disc, README.md (F48):
+   !>
+   !>     z(v) = b_0 v (1 - tau/conj(v)^fold) + sum over k = 1..K of b_k v^(1 - fold k),   |v| >= 1.
+   pure complex(dp) function place_outside(self, v) result(z)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: v         !! |v| >= 1
+
+      complex(dp) :: slope, conjugate_slope
+
+      call self%linearise_outside(v, z, slope, conjugate_slope)
+   end function place_outside
+
+   !> The same, and its derivatives dz/dv and dz/d conj(v) [s].
+   pure subroutine linearise_outside(self, v, z, slope, conjugate_slope)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: v         !! |v| >= 1
+      complex(dp), intent(out) :: z, slope, conjugate_slope
+
+      complex(dp) :: inverse, power
+      integer :: k
+
+      inverse = conjg(v)/(v%re**2 + v%im**2)
+      power = inverse
+      do k = 2, self%fold
+         power = power*inverse
+      end do
+      ! By Horner's scheme: b_0 + b_1 v^-fold + ..., and the same with the factors 1 - fold k.
+      z = 0.0_dp
+      slope = 0.0_dp
+      do k = ubound(self%b, 1), 0, -1
+         z = z*power + self%b(k)
+         slope = slope*power + (1 - self%fold*k)*self%b(k)
+      end do
+      z = v*z
+      conjugate_slope = 0.0_dp
+      if (self%clustering > 0.0_dp) then
+         power = self%clustering*self%b(0)*conjg(power)
+         z = z - v*power
+         slope = slope - power
+         conjugate_slope = self%fold*v*power/conjg(v)
+      end if
+   end subroutine linearise_outside
+
+   !> Area enclosed [s^2], README.md (F17).
+   pure real(dp) function area(self)
+      class(shape_map), intent(in) :: self
+
+      integer :: k
+
+      area = pi*(self%b(0)**2*(1.0_dp + (self%fold + 1)*self%clustering**2) &
+                 - sum([((self%fold*k - 1)*self%b(k)**2, k=1, ubound(self%b, 1))]))
+   end function area
+
+   !> Largest distance from the centre of some points of the edge [s], from one axis of symmetry to the next. The
+   !> farthest point is an axis' or one of a broad tip, so that little is missed.
+   pure real(dp) function radius(self)
+      class(shape_map), intent(in) :: self
+
+      integer :: i
+
+      radius = maxval(abs(self%place([(exp(cmplx(0.0_dp, pi*i/(self%fold*radius_points), dp)), i=0, radius_points)])))
+   end function radius
+
+   !> Length of the edge [s], by the midpoint rule in the angle, which converges exponentially: README.md, section 11.
+   pure real(dp) function perimeter(self)
+      class(shape_map), intent(in) :: self
+
+      real(dp) :: ratio
+      integer :: i, k, points
+
+      ! The tangent is the one of a circle plus terms that turn against it, smaller by at least this ratio. The Fourier
+      ! coefficients of its length fall about as the ratio's powers if most of these terms turn once between two tips.
+      ! As many points as bring the powers down to rounding have a factor of 2 to spare.
+      ratio = sum([((self%fold*k - 1)*abs(self%b(k)), k=1, ubound(self%b, 1))]) &
+         /(self%b(0)*(1.0_dp - (self%fold + 1)*self%clustering))
+      points = most_edge_points
+      if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_edge_points)
+      points = max(points, least_edge_points)
+      perimeter = 0.0_dp
+      do i = 1, points
+         perimeter = perimeter + abs(self%tangent(exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp))))
+      end do
+      perimeter = perimeter*2*pi/points
+   end function perimeter
+
+end module wavycon_shape_map

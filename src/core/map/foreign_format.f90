@@ -1,0 +1,57 @@
+!> Formats that are not read, by the endings of their names, and how their files can be converted.
+module wavycon_foreign_format
+   use wavycon_plain_text, only: lower_case
+   implicit none (type, external)
+   private
+
+   public :: remedy_of_content, remedy_of_name
+
+   character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As), or read it '// &
+      'in Python with SurfaceTopography and write numpy.save(file, z.T), z = numpy.ma.filled(topography.heights(), '// &
+      'numpy.nan), of a profile numpy.savetxt(file, numpy.c_[topography.positions(), z])'
+
+   !> Endings of names, what such a file is, and how to convert it.
+   character(*), parameter :: endings(*) = [character(160) :: &
+      ' png jpg jpeg tif tiff bmp gif ', &
+      ' sdf x3p plux al3d plu opd opdx sur vk4 vk6 gwy spm ibw nid mi mnt zmg os3d stp xyzgz gxyzf nms tmd frt '// &
+      'bcrf hfm top grd ', &
+      ' mat h5 hdf5 nc ', ' zip gz bz2 xz ', ' xls xlsx ods ', ' npz ']
+   character(*), parameter :: remedies(*) = [character(400) :: &
+      'a picture, whose colours are no lengths: '//by_gwyddion, &
+      'a file of an instrument or of Gwyddion: '//by_gwyddion, &
+      'a file of HDF5, NetCDF or MATLAB: read it in Python and write its heights by numpy.save', &
+      'a compressed file: expand it first', &
+      'a spreadsheet: save the heights as text (.csv)', &
+      'an archive of arrays: write the heights alone, by numpy.save']
+
+contains
+
+   !> What a file that is no text is by its name, and how to convert it; empty for a text.
+   pure function remedy_of_content(head, path) result(words)
+      character(*), intent(in) :: head   !! the first bytes of the file
+      character(*), intent(in) :: path
+      character(:), allocatable :: words
+
+      words = ''
+      ! No text has these bytes but one of two bytes a character, every other of which is 0.
+      if (scan(head, char(0)//char(1)//char(2)//char(3)//char(4)//char(5)//char(6)//char(127)) == 0) return
+      words = remedy_of_name(path)
+      if (words == '') words = 'this is no text in UTF-8 or ASCII, and neither .npy nor .gsf. If it is a text of '// &
+                               'two bytes a character (UTF-16) save it as UTF-8, otherwise '//by_gwyddion
+   end function remedy_of_content
+
+   !> The same by the name alone; empty without such an ending.
+   pure function remedy_of_name(path) result(words)
+      character(*), intent(in) :: path
+      character(:), allocatable :: words
+
+      integer :: i
+
+      words = ''
+      do i = 1, size(endings)
+         if (index(endings(i), ' '//lower_case(path(index(path, '.', back=.true.) + 1:))//' ') > 0) &
+            words = 'by its name this is '//trim(remedies(i))
+      end do
+   end function remedy_of_name
+
+end module wavycon_foreign_format

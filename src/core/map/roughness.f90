@@ -1,0 +1,200 @@
+!> Root mean squares of height, slope and curvature of a surface, and its power spectra, from its Fourier series. The
+!> equations are those of src/core/map/README.md.
+module wavycon_roughness
+   use wavycon_constants, only: pi
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_kinds, only: dp
+   use wavycon_own_waves, only: wave_slab
+   implicit none (type, external)
+   private
+
+   public :: roughness_type, roughness_of, power_spectrum, line_spectrum, radial_spectrum
+
+   type :: roughness_type
+      real(dp) :: height = 0.0_dp      !! of the height over its mean, eq. (M22) [length]
+      real(dp) :: slope = 0.0_dp       !! of the size of the gradient, eq. (M23)
+      real(dp) :: curvature = 0.0_dp   !! of half the Laplacian, of a profile of h'', eq. (M24) [1/length]
+      !> Sum of the mean squares of all waves, each over its wavelength, eq. (M25a) [length].
+      real(dp) :: frequency_moment = 0.0_dp
+   end type roughness_type
+
+   !> A spectrum in bins of rising wave number; all arrays have one element a bin.
+   type :: power_spectrum
+      real(dp), allocatable :: wave_number(:)    !! mean of its waves [rad/length]
+      integer, allocatable :: waves(:)           !! how many there are, >= 1
+      !> Mean of the power spectral densities of its waves: [length^4] of a radial spectrum, [length^3] along a line.
+      real(dp), allocatable :: density(:)
+      !> Root mean squares of the waves up to this bin: height [length], slope, curvature [1/length].
+      real(dp), allocatable :: height(:), slope(:), curvature(:)
+   end type power_spectrum
+
+   !> Most bins of a radial spectrum, more than those of the largest square map with its mirror images, 11584.
+   integer, parameter :: most_bins = 12000
+
+contains
+
+   !> The roughness of a surface.
+   type(roughness_type) function roughness_of(series, amplitude, length, points) result(roughness)
+      type(fourier_series), intent(in) :: series   !! of the height over `amplitude`; its mean is ignored
+      real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
+      real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
+      integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
+
+      !> (M22) to (M25a), in the order of roughness_type, of the waves of each wave number in X.
+      real(dp) :: moments(4, lbound(series%c, 1):ubound(series%c, 1))
+      real(dp), dimension(lbound(series%c, 1):ubound(series%c, 1)) :: powers, q_squared, x_squared
+      real(dp) :: sums(4), unit
+      integer :: k, l
+      type(grid_slab) :: rows
+
+      ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
+      unit = minval(length)
+      x_squared = [((k*(unit/length(1)))**2, k=lbound(series%c, 1), ubound(series%c, 1))]
+      moments = 0.0_dp
+      do l = 0, ubound(series%c, 2)
+         powers = wave_powers(series, points, l)
+         q_squared = x_squared + (l*(unit/length(2)))**2
+         moments(1, :) = moments(1, :) + powers
+         moments(2, :) = moments(2, :) + powers*q_squared
+         moments(3, :) = moments(3, :) + powers*q_squared**2
+         moments(4, :) = moments(4, :) + powers*sqrt(q_squared)
+      end do
+      rows = wave_slab(series)
+      sums = rows%column_totals(moments)
+      sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))
+      if (ubound(series%c, 2) > 0) sums(3) = 0.5_dp*sums(3)
+      roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit)
+   end function roughness_of
+
+   !> The isotropic spectrum of a surface, eqs (M26) and (M27). Bin b has the wave numbers from (b - 1/2) dq to
+   !> (b + 1/2) dq, where dq is 2 pi over the longer side, or the largest wave number over most_bins if that is more;
+   !> bin 1 also has those below. Bins without waves are left out.
+   pure function radial_spectrum(series, amplitude, length, points) result(spectrum)
+      type(fourier_series), intent(in) :: series   !! of the height over `amplitude`, in 2-D; its mean is ignored
+      real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
+      real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
+      integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
+      type(power_spectrum) :: spectrum
+
+      real(dp), allocatable :: bins(:, :)
+      real(dp) :: highest, powers(0:ubound(series%c, 1)), unit, width
+      integer :: bin, k, l
+
+      unit = minval(length)
+      highest = number(ubound(series%c, 1), ubound(series%c, 2))
+      width = max(unit/maxval(length), highest/most_bins)
+      allocate (bins(5, nint(highest/width)), source=0.0_dp)
+      do l = 0, ubound(series%c, 2)
+         powers = wave_powers(series, points, l)
+         do k = merge(1, 0, l == 0), ubound(series%c, 1)
+            bin = max(1, nint(number(k, l)/width))
+            bins(:, bin) = bins(:, bin) + sums_of(number(k, l), waves_of_number(k, points(1))* &
+                                                  waves_of_number(l, points(2)), powers(k))
+         end do
+      end do
+      spectrum = spectrum_of(bins, amplitude, unit, length(1)*length(2))
+      spectrum%curvature = 0.5_dp*spectrum%curvature
+
+   contains
+
+      pure real(dp) function number(k, l)
+         integer, intent(in) :: k, l
+
+         number = hypot(k*(unit/length(1)), l*(unit/length(2)))
+      end function number
+
+   end function radial_spectrum
+
+   !> The spectrum of the lines along x or y, the mean of all lines, eq. (M28). There is a bin for each wave number; the
+   !> first, of a surface in 2-D, is 0: the means of the lines. Slope and curvature are those along the line.
+   pure function line_spectrum(series, amplitude, length, points, direction) result(spectrum)
+      type(fourier_series), intent(in) :: series   !! as of radial_spectrum, also in 1-D
+      real(dp), intent(in) :: amplitude            !! [length]
+      real(dp), intent(in) :: length(2)            !! [length]
+      integer, intent(in) :: points(2)
+      integer, intent(in) :: direction             !! 1 or 2: along x or y
+      type(power_spectrum) :: spectrum
+
+      real(dp) :: bins(5, 0:ubound(series%c, direction))
+      real(dp) :: of_lines(0:ubound(series%c, direction)), powers(0:ubound(series%c, 1))
+      integer :: first, k, l
+
+      of_lines = 0.0_dp
+      do l = 0, ubound(series%c, 2)
+         powers = wave_powers(series, points, l)
+         if (direction == 1) of_lines = of_lines + powers
+         if (direction == 2) of_lines(l) = sum(powers)
+      end do
+      do k = 0, ubound(bins, 2)
+         bins(:, k) = sums_of(real(k, dp), waves_of_number(k, points(direction)), of_lines(k))
+      end do
+      first = merge(1, 0, ubound(series%c, 2) == 0)
+      spectrum = spectrum_of(bins(:, first:), amplitude, length(direction), length(direction))
+   end function line_spectrum
+
+   !> What waves of one wave number add to the sums of a bin: their number, the wave numbers, the mean squares, and
+   !> these times q^2 and q^4.
+   pure function sums_of(number, waves, power) result(sums)
+      real(dp), intent(in) :: number     !! wave number over 2 pi/unit
+      integer, intent(in) :: waves       !! how many
+      real(dp), intent(in) :: power      !! their mean square
+      real(dp) :: sums(5)
+
+      sums = [real(waves, dp), waves*number, power*[1.0_dp, number**2, number**4]]
+   end function sums_of
+
+   !> The spectrum of the bins that have waves.
+   pure function spectrum_of(bins, amplitude, unit, size_of_cell) result(spectrum)
+      real(dp), intent(in) :: bins(:, :)       !! sums of each
+      real(dp), intent(in) :: amplitude        !! unit of the heights [length]
+      real(dp), intent(in) :: unit             !! of the wave numbers, which are over 2 pi/unit [length]
+      real(dp), intent(in) :: size_of_cell     !! area of the cell [length^2], of lines their length [length]
+      type(power_spectrum) :: spectrum
+
+      real(dp), allocatable :: kept(:, :), rms(:, :)   ! rms of the waves up to each bin
+      real(dp) :: up_to(3)
+      integer :: b
+
+      kept = reshape(pack(bins, spread(bins(1, :) > 0.0_dp, 1, 5)), [5, count(bins(1, :) > 0.0_dp)])
+      allocate (rms(size(kept, 2), 3))
+      up_to = 0.0_dp
+      do b = 1, size(kept, 2)
+         up_to = up_to + kept(3:, b)
+         rms(b, :) = [1.0_dp, 2*pi/unit, (2*pi/unit)**2]*(amplitude*sqrt(up_to))
+      end do
+      allocate (spectrum%wave_number, source=2*pi/unit*(kept(2, :)/kept(1, :)))
+      allocate (spectrum%waves, source=nint(kept(1, :)))
+      allocate (spectrum%density, source=amplitude*size_of_cell*(amplitude*(kept(3, :)/kept(1, :))))
+      allocate (spectrum%height, source=rms(:, 1))
+      allocate (spectrum%slope, source=rms(:, 2))
+      allocate (spectrum%curvature, source=rms(:, 3))
+   end function spectrum_of
+
+   !> The mean square of all waves of wave numbers +-k and +-l in X and Y, for all k of the series, eq. (M21); 0 for the
+   !> mean.
+   pure function wave_powers(series, points, l) result(powers)
+      type(fourier_series), intent(in) :: series
+      integer, intent(in) :: points(2)             !! as of roughness_of
+      integer, intent(in) :: l                     !! 0 to ubound(series%c, 2)
+      real(dp) :: powers(lbound(series%c, 1):ubound(series%c, 1))
+
+      integer :: k
+
+      powers = series%c(:, l)**2
+      if (.not. series%is_even()) powers = powers + series%cs(:, l)**2 + series%sc(:, l)**2 + series%ss(:, l)**2
+      powers = powers/(waves_of_number([(k, k=lbound(powers, 1), ubound(powers, 1))], points(1))* &
+                       waves_of_number(l, points(2)))
+      if (l == 0 .and. lbound(powers, 1) == 0) powers(0) = 0.0_dp
+   end function wave_powers
+
+   !> How many different waves have the wave numbers k and -k: one for the mean and, on an even number of points, for
+   !> the highest wave, which equals its opposite at the points; otherwise two.
+   elemental integer function waves_of_number(k, points) result(waves)
+      integer, intent(in) :: k        !! >= 0
+      integer, intent(in) :: points   !! of the grid in this direction; 0 if there is none
+
+      waves = merge(1, 2, k == 0 .or. 2*k == points)
+   end function waves_of_number
+
+end module wavycon_roughness

@@ -1,0 +1,132 @@
+!> The isobar p = level of a pressure series as the edge of contact.
+!>
+!> The grid has N intervals on [0, pi] in phi and theta. The series is even and periodic, so every cell of the plane is
+!> the image of one of these. Where the isobar crosses a grid line the point is solved for to rounding, and the gradient
+!> of the pressure is computed there. Between two crossings the curve is the cubic through both with its tangents. The
+!> error of areas then falls as the fourth power of the step; with a polygon it would fall as the second.
+module wavycon_isobar_grid
+   use wavycon_constants, only: pi
+   use wavycon_contact_edge, only: contact_edge, edge_point
+   use wavycon_cosine_table, only: cosine_table, folded
+   use wavycon_fourier_series, only: evaluate_line, fourier_series
+   use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
+   use wavycon_line_zeros, only: zero_between
+   implicit none (type, external)
+   private
+
+   public :: isobar_grid, start_isobar_grid
+
+   type, extends(contact_edge) :: isobar_grid
+      integer :: intervals = 0                           !! N
+      real(dp), allocatable :: pressure(:, :)            !! p - level at the nodes, shape (0:N, 0:N)
+      !> The series along the lines theta_l and phi_k of the grid, and its derivative across them, shape (0:n, 0:N, 2).
+      real(dp), allocatable :: along(:, :, :), across(:, :, :)
+   contains
+      procedure :: in_contact
+      procedure :: place_edge
+      procedure :: area_fraction
+      procedure, private :: node
+   end type isobar_grid
+
+contains
+
+   !> Evaluates a pressure series on the grid.
+   subroutine start_isobar_grid(grid, pressure, level, intervals)
+      type(isobar_grid), intent(out) :: grid
+      type(fourier_series), intent(in) :: pressure   !! p/p* in 2-D
+      real(dp), intent(in) :: level                 !! over p*
+      integer, intent(in) :: intervals              !! N >= 1
+
+      real(dp), dimension(0:intervals, 0:ubound(pressure%c, 1)) :: cosines, sines
+      real(dp) :: sine(0:2*intervals - 1)
+      integer :: i, k, n
+
+      n = ubound(pressure%c, 1)
+      grid%intervals = intervals
+      grid%period = 2*intervals
+      grid%step = pi/intervals
+      call pressure%evaluate_on_grid(intervals, grid%pressure)
+      grid%pressure = grid%pressure - level
+      cosines = cosine_table(intervals, n)
+      sine = [(sin(pi*k/intervals), k=0, 2*intervals - 1)]
+      do i = 0, n
+         sines(:, i) = [(-i*sine(modulo(i*k, 2*intervals)), k=0, intervals)]
+      end do
+      allocate (grid%along(0:n, 0:intervals, 2), grid%across(0:n, 0:intervals, 2))
+      call line_series('N', cosines, grid%along(:, :, 1))
+      call line_series('N', sines, grid%across(:, :, 1))
+      call line_series('T', cosines, grid%along(:, :, 2))
+      call line_series('T', sines, grid%across(:, :, 2))
+      grid%along(0, :, :) = grid%along(0, :, :) - level
+
+   contains
+
+      subroutine line_series(trans, table, series)
+         character, intent(in) :: trans
+         real(dp), intent(in) :: table(0:intervals, 0:n)
+         real(dp), intent(out) :: series(0:n, 0:intervals)
+
+         call dgemm(trans, 'T', n + 1, intervals + 1, n + 1, 1.0_dp, pressure%c, n + 1, table, intervals + 1, &
+                    0.0_dp, series, n + 1)
+      end subroutine line_series
+
+   end subroutine start_isobar_grid
+
+   pure logical function in_contact(self, k, l)
+      class(isobar_grid), intent(in) :: self
+      integer, intent(in) :: k, l
+
+      in_contact = self%node(k, l) >= 0.0_dp
+   end function in_contact
+
+   !> p - level at any node of the plane.
+   pure real(dp) function node(self, k, l)
+      class(isobar_grid), intent(in) :: self
+      integer, intent(in) :: k, l   !! any: phi = pi k/N, theta = pi l/N
+
+      node = self%pressure(folded(k, self%intervals), folded(l, self%intervals))
+   end function node
+
+   !> The zero of p - level between two nodes, and the gradient there.
+   pure subroutine place_edge(self, point)
+      class(isobar_grid), intent(in) :: self
+      type(edge_point), intent(inout) :: point
+
+      integer :: along, across, low(2), high(2), line
+      real(dp) :: unused
+
+      along = merge(1, 2, point%inner(2) == point%outer(2))
+      across = 3 - along
+      low = min(point%inner, point%outer)
+      high = max(point%inner, point%outer)
+      line = folded(low(across), self%intervals)
+      call zero_between(self%along(:, line, along), low(along)*self%step(along), self%step(along), &
+                        self%node(low(1), low(2)), self%node(high(1), high(2)), point%angle(along), point%slope(along))
+      point%angle(across) = low(across)*self%step(across)
+      call evaluate_line(self%across(:, line, along), point%angle(along), point%slope(across), unused)
+      ! `folded` mirrors the line.
+      if (modulo(low(across), self%period(1)) > self%intervals) point%slope(across) = -point%slope(across)
+   end subroutine place_edge
+
+   !> The part of the surface with p >= level.
+   pure real(dp) function area_fraction(self)
+      class(isobar_grid), intent(in) :: self
+
+      integer :: inside, k, l, whole
+      real(dp) :: area
+
+      area = 0.0_dp
+      whole = 0
+      do l = 0, self%intervals - 1
+         do k = 0, self%intervals - 1
+            ! Most cells are whole or empty: the general formula is for those of the edge.
+            inside = count(self%pressure(k:k + 1, l:l + 1) >= 0.0_dp)
+            if (inside == 4) whole = whole + 1
+            if (mod(inside, 4) > 0) area = area + self%cell_area(k, l)
+         end do
+      end do
+      area_fraction = area/pi**2 + whole/real(self%intervals, dp)**2
+   end function area_fraction
+
+end module wavycon_isobar_grid

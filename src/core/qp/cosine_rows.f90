@@ -1,0 +1,59 @@
+!> The pressures at the constraint points by sums over one direction after the other. For n harmonics and N points a
+!> side these take of the order of n N^2 operations, the product with the matrix of the constraints n^2 N^2.
+module wavycon_cosine_rows
+   use wavycon_constraint_points, only: choose_points
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_terms, only: fourier_terms
+   use wavycon_kinds, only: dp
+   use wavycon_qp_problem, only: qp_problem, row_products
+   implicit none (type, external)
+   private
+
+   public :: add_cosine_rows, cosine_rows
+
+   !> With more elements the products with the matrix of the constraints take longer than these sums.
+   integer, parameter :: largest_matrix = 500000
+
+   type, extends(row_products) :: cosine_rows
+      type(fourier_terms) :: terms
+      integer :: points_per_side = 0          !! N
+      integer, allocatable :: k(:), l(:)      !! the points as chosen by `choose_points`, shape (m)
+   contains
+      procedure :: of
+   end type cosine_rows
+
+contains
+
+   !> Gives a programme of many terms and points these sums as its way to Cx.
+   pure subroutine add_cosine_rows(problem, terms, points_per_side, symmetry)
+      type(qp_problem), intent(inout) :: problem   !! of energy_problem
+      type(fourier_terms), intent(in) :: terms
+      integer, intent(in) :: points_per_side       !! N >= 2 constraint points on [0, pi]
+      integer, intent(in) :: symmetry              !! that of the terms
+
+      integer, allocatable :: k(:), l(:)
+
+      call choose_points(terms%dimension, points_per_side, symmetry, k, l)
+      if (terms%dimension == 2 .and. terms%count*size(k) > largest_matrix) &
+         allocate (problem%rows, source=cosine_rows(terms, points_per_side, k, l))
+   end subroutine add_cosine_rows
+
+   !> sum_k x_k t_k at the points; the same with the opposite sign follows if `values` is twice as long.
+   subroutine of(self, x, values)
+      class(cosine_rows), intent(in) :: self
+      real(dp), intent(in) :: x(:)         !! amplitudes of the terms
+      real(dp), intent(out) :: values(:)   !! shape (m) or (2 m)
+
+      type(fourier_series) :: series
+      real(dp), allocatable :: grid(:, :)
+      integer :: p
+
+      call self%terms%coefficients(x, series%c)
+      call series%evaluate_on_grid(self%points_per_side - 1, grid)
+      do p = 1, size(self%k)
+         values(p) = grid(self%k(p), self%l(p))
+      end do
+      if (size(values) > size(self%k)) values(size(self%k) + 1:) = -values(:size(self%k))
+   end subroutine of
+
+end module wavycon_cosine_rows

@@ -1,0 +1,64 @@
+!> Surfaces with free edges, which nothing repeats: their units, and the ball below a map. The ball is a paraboloid, as
+!> a sphere is near its lowest point.
+module wavycon_free_edges
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_paraboloid, only: paraboloid
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: ball_radii, form_of_radii, is_ball, set_units_without_closure, surface_of_ball
+
+contains
+
+   !> A paraboloid with free edges, about the middle of a rectangle: a ball near its lowest point.
+   type(surface_type) function surface_of_ball(sides, radii) result(surface)
+      real(dp), intent(in) :: sides(2)       !! of the rectangle along x and y [length], > 0
+      real(dp), intent(in) :: radii(2)       !! along x and y [length], > 0
+
+      surface%mirrored = .true.
+      surface%has_free_edges = .true.
+      surface%length = surface%parts()*sides
+      allocate (surface%shape%c(0:0, 0:0), source=0.0_dp)
+      surface%form = form_of_radii(surface, radii)
+      surface%amplitude = sum(surface%form%c)*pi**2/12
+      surface%form%c = surface%form%c/surface%amplitude
+      surface%crest = 0.5_dp*pi
+      call set_units_without_closure(surface)
+   end function surface_of_ball
+
+   !> Whether the surface is a paraboloid without roughness.
+   pure logical function is_ball(surface)
+      type(surface_type), intent(in) :: surface
+
+      is_ball = surface%has_free_edges .and. .not. surface%form%is_flat() .and. all(abs(surface%shape%c) <= 0.0_dp)
+   end function is_ball
+
+   !> The paraboloid [length]: half its curvatures over the square of an angle.
+   pure type(paraboloid) function form_of_radii(surface, radii) result(form)
+      type(surface_type), intent(in) :: surface   !! with its sides
+      real(dp), intent(in) :: radii(2)            !! along x and y [length], > 0, huge where there is none
+
+      where (radii < huge(radii)) form%c = 0.5_dp*(surface%length/(2*pi))**2/radii
+      if (surface%dimension == 1) form%c(2) = 0.0_dp
+   end function form_of_radii
+
+   !> The radii of the paraboloid along x and y [length]; infinite where there is none.
+   pure function ball_radii(surface) result(radii)
+      type(surface_type), intent(in) :: surface
+      real(dp) :: radii(2)
+
+      radii = huge(radii)
+      where (surface%form%c > 0.0_dp) radii = 0.5_dp*(surface%length/(2*pi))**2/(surface%amplitude*surface%form%c)
+   end function ball_radii
+
+   !> Sets what of a surface with free edges does not follow from its shape alone.
+   pure subroutine set_units_without_closure(surface)
+      type(surface_type), intent(inout) :: surface
+
+      surface%stiffness = surface%nominal_area()**(1.0_dp/surface%dimension)
+      surface%full_contact_peak = huge(1.0_dp)
+   end subroutine set_units_without_closure
+
+end module wavycon_free_edges

@@ -1,0 +1,87 @@
+!> The surface of a height map.
+module wavycon_height_map
+   use wavycon_constants, only: largest_number, smallest_number
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_kinds, only: dp
+   use wavycon_map_filters, only: find_spikes, leave_out_short_waves
+   use wavycon_map_statistics, only: map_statistics, statistics_of
+   use wavycon_map_tuning, only: spiky_kurtosis
+   use wavycon_measured_map, only: measured_map
+   use wavycon_plain_text, only: escaped, short_number
+   use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_of_points, only: surface_of_points
+   implicit none (type, external)
+   private
+
+   public :: surface_of_map
+
+contains
+
+   !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing
+   !> ones that are not to be filled, and for too few to determine a trend; exit_file_trouble without memory.
+   subroutine surface_of_map(source, preparation, scale, sides, map, surface, statistics, error, radii)
+      character(*), intent(in) :: source            !! of the heights, for messages
+      type(map_preparation), intent(in) :: preparation
+      real(dp), intent(in) :: scale                 !! length of one unit of the heights, > 0
+      real(dp), intent(in) :: sides(2)              !! of the map along x and y [length], > 0
+      !> Heights upwards to the other body; then those of the surface over their mean [length], without holes.
+      type(measured_map), intent(inout) :: map
+      type(surface_type), intent(inout) :: surface
+      type(map_statistics), allocatable, intent(out) :: statistics   !! without the path
+      type(error_type), allocatable, intent(out) :: error
+      real(dp), intent(in), optional :: radii(2)    !! of the ball that the map lies on, as of surface_of_points
+
+      type(grid_slab) :: slab
+      type(map_changes) :: changes
+      logical :: repeats
+      real(dp) :: extremes(2), largest(1), length(2), mean(1)
+
+      slab = map%columns()
+      length = sides/slab%points
+      largest = maxval(abs(map%height))
+      call slab%largest(largest)
+      if (largest(1) > largest_number) &
+         call fatal_error(error, exit_bad_input, escaped(source)//': heights are up to '//short_number(largest(1))// &
+                          ' in size: they may be up to '//short_number(largest_number))
+      if (.not. allocated(error)) call prepare_map(source, preparation, sides, map, changes, error)
+      call slab%share_error(error)
+      if (allocated(error)) return
+      call map%keep_own_columns()
+      slab = map%columns()
+      ! Steps stay if the map is cropped.
+      length = length*slab%points
+      ! The points of a map with free edges are those of a mirrored one: its opposite borders are no neighbours.
+      repeats = all(preparation%edges /= ['mirror', 'free  '])
+      if (preparation%short_wavelength > 0.0_dp) &
+         call leave_out_short_waves(slab%points, length, .not. repeats, preparation%short_wavelength, map%height, &
+                                    changes%rms_of_short)
+      extremes = [maxval(map%height), -minval(map%height)]
+      call slab%largest(extremes)
+      if (sum(extremes) <= 0.0_dp) then
+         ! Equal heights less their rounded mean would not be zero.
+         map%height = 0.0_dp
+      else
+         mean = slab%column_totals(reshape(sum(map%height, dim=1), [1, slab%columns()]))/product(real(slab%points, dp))
+         map%height = scale*(map%height - mean(1))
+      end if
+      largest = maxval(abs(map%height))
+      call slab%largest(largest)
+      if (largest(1) > largest_number .or. (largest(1) < smallest_number .and. largest(1) > 0.0_dp)) then
+         call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
+                          'height_scale, are up to '//short_number(largest(1))//' [length]: lengths may be '// &
+                          'from '//short_number(smallest_number)//' to '//short_number(largest_number))
+         return
+      end if
+      changes%rise = scale*changes%rise
+      changes%rms_of_short = scale*changes%rms_of_short
+      statistics = statistics_of(map%height, map%format, slab%points, length/slab%points, repeats)
+      surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
+                                  changes%edges == 'free', radii)
+      statistics%changes = changes
+      if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
+         call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)
+   end subroutine surface_of_map
+
+end module wavycon_height_map

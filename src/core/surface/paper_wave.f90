@@ -1,0 +1,107 @@
+!> Which wave of Johnson, Greenwood & Higginson (1985) a surface is, its wavelength and its angles in their equations;
+!> and the smaller cell that such a wave has, as other surfaces of its symmetry.
+module wavycon_paper_wave
+   use wavycon_constants, only: sqrt2
+   use wavycon_kinds, only: dp
+   use wavycon_rotated_series, only: to_sum_angles
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: has_smaller_cell, is_paper_wave, paper_angles, paper_wave, paper_wavelength, smaller_cell
+
+   !> Straight: eq. (3) or (21) with phi = X, theta = Y. Rotated: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
+   integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, rotated_paper_wave = 2
+
+   !> Coefficients of a shape that differ by less than this are equal, and sides that differ by this fraction.
+   real(dp), parameter :: rounding = 1e-13_dp
+
+contains
+
+   !> Which wave of the paper the surface is. A distributed surface counts as none, and a flat one that is no height map
+   !> as a straight wave of amplitude 0, in 1-D and on a square cell.
+   pure integer function paper_wave(surface)
+      type(surface_type), intent(in) :: surface
+
+      real(dp) :: longest(0:1, 0:1)   ! coefficients of the longest waves
+      integer :: highest(2)
+
+      paper_wave = no_paper_wave
+      if (surface%is_distributed() .or. surface%has_free_edges .or. .not. surface%shape%is_even()) return
+      if (surface%dimension == 2 .and. .not. is_square(surface)) return
+      longest = 0.0_dp
+      highest = min(1, ubound(surface%shape%c))
+      longest(:highest(1), :highest(2)) = surface%shape%c(:highest(1), :highest(2))
+      select case (count(abs(surface%shape%c) > rounding))
+      case (0)
+         if (.not. surface%is_height_map()) paper_wave = straight_paper_wave
+      case (1)
+         if (abs(longest(1, surface%dimension - 1) - 1.0_dp) <= rounding) paper_wave = straight_paper_wave
+      case (2)
+         if (all(abs([longest(1, 0), longest(0, 1)] - 0.5_dp) <= rounding)) paper_wave = rotated_paper_wave
+      end select
+   end function paper_wave
+
+   !> Whether the surface is a wave of the paper, which the series and the closed forms can solve.
+   pure logical function is_paper_wave(surface)
+      type(surface_type), intent(in) :: surface
+
+      is_paper_wave = paper_wave(surface) /= no_paper_wave
+   end function is_paper_wave
+
+   !> The wavelength lambda of eq. (3) or (21) [length].
+   pure real(dp) function paper_wavelength(surface)
+      type(surface_type), intent(in) :: surface   !! a wave of the paper
+
+      paper_wavelength = surface%length(1)
+      if (paper_wave(surface) == rotated_paper_wave) paper_wavelength = sqrt2*surface%length(1)
+   end function paper_wavelength
+
+   !> The angles phi and theta of eq. (3) or (21) at a point.
+   pure subroutine paper_angles(surface, x, y, phi, theta)
+      type(surface_type), intent(in) :: surface   !! a wave of the paper
+      real(dp), intent(in) :: x, y                !! X, Y [rad]
+      real(dp), intent(out) :: phi, theta         !! [rad]
+
+      phi = x
+      theta = y
+      if (paper_wave(surface) == rotated_paper_wave) then
+         phi = 0.5_dp*(x + y)
+         theta = 0.5_dp*(x - y)
+      end if
+   end subroutine paper_angles
+
+   !> Whether the surface is periodic on a square of half the area, rotated by 45 degrees, and there even and symmetric
+   !> under exchange of the directions. A height map is taken as it is.
+   pure logical function has_smaller_cell(surface)
+      type(surface_type), intent(in) :: surface
+
+      has_smaller_cell = .false.
+      if (surface%is_height_map() .or. surface%has_free_edges .or. surface%dimension == 1) return
+      if (.not. (surface%shape%is_even() .and. is_square(surface))) return
+      associate (c => surface%shape%c)
+         if (ubound(c, 1) /= ubound(c, 2)) return
+         ! The wave numbers of each wave have an even sum.
+         has_smaller_cell = all(abs(c - transpose(c)) <= rounding) .and. all(abs(c(0::2, 1::2)) <= rounding) &
+                            .and. all(abs(c(1::2, 0::2)) <= rounding)
+      end associate
+   end function has_smaller_cell
+
+   !> The same surface on its smaller cell, see has_smaller_cell: the angles of that cell are X + Y and X - Y.
+   type(surface_type) function smaller_cell(whole) result(surface)
+      type(surface_type), intent(in) :: whole   !! has_smaller_cell
+
+      surface = whole
+      surface%shape = to_sum_angles(whole%shape)
+      surface%length = whole%length/sqrt2
+      surface%crest = [whole%crest(1) + whole%crest(2), whole%crest(1) - whole%crest(2)]
+   end function smaller_cell
+
+   !> Whether the sides of the cell are equal.
+   pure logical function is_square(surface)
+      type(surface_type), intent(in) :: surface
+
+      is_square = abs(surface%length(1) - surface%length(2)) <= rounding*surface%length(1)
+   end function is_square
+
+end module wavycon_paper_wave

@@ -1,0 +1,212 @@
+!> Random self-affine surfaces, made from their spectra. Equations (G1) to (G5) are in the README.md of this room.
+module wavycon_self_affine
+   use, intrinsic :: iso_c_binding, only: c_long, c_ptr
+   use wavycon_constants, only: largest_number, pi, smallest_number
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_gsl, only: gsl_rng_alloc, gsl_rng_free, gsl_rng_mt19937, gsl_rng_set, gsl_rng_uniform
+   use wavycon_kinds, only: dp
+   use wavycon_measured_map, only: check_room
+   use wavycon_map_statistics, only: map_statistics, statistics_of
+   use wavycon_own_waves, only: wave_slab
+   use wavycon_plain_text, only: short_number
+   use wavycon_surface, only: surface_type
+   use wavycon_surface_of_points, only: surface_of_points
+   implicit none (type, external)
+   private
+
+   public :: self_affine_spectrum, self_affine_surface, least_points_of, has_waves, make_heights
+
+   !> The waves of a periodic cell and their amplitudes.
+   type :: self_affine_spectrum
+      integer :: dimension = 2                !! 1: a profile along x
+      real(dp) :: length(2) = 1.0_dp          !! L_x, L_y, sides of the cell [length], > 0; L_y is ignored in 1-D
+      real(dp) :: hurst = 0.8_dp              !! Hurst exponent H, 0 to 1
+      real(dp) :: longest = 1.0_dp            !! longest wave [length]
+      real(dp) :: rolloff = 1.0_dp            !! longer waves have the amplitude of this one [length], <= longest
+      real(dp) :: shortest = 1.0_dp           !! shortest wave [length], > 0, <= rolloff
+      real(dp) :: rms = 1.0_dp                !! root mean square of the height [length] or of the slope, > 0
+      logical :: by_slope = .false.           !! whether it is that of the slope
+      !> C of waves longer than the roll-off, (M26) or (M28) of src/core/map/README.md [length^4, length^3]; 0: by rms.
+      real(dp) :: density = 0.0_dp
+      logical :: random_amplitudes = .false.  !! whether amplitudes are those of a Gaussian process, or of the spectrum
+      integer :: seed = 1                     !! >= 1
+   end type self_affine_spectrum
+
+   !> A wave whose length differs from a cut-off by rounding is within it.
+   real(dp), parameter :: rounding = 1e-12_dp
+
+contains
+
+   !> Makes the surface. Errors: exit_file_trouble without enough memory, exit_bad_input for heights out of range.
+   subroutine self_affine_surface(source, spectrum, points, surface, map, error, has_free_edges, radii)
+      character(*), intent(in) :: source                   !! of the spectrum, for messages
+      type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
+      integer, intent(in) :: points(2)                     !! of the cell along x and y, not below least_points_of
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: map
+      type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: has_free_edges      !! these as of surface_of_points
+      real(dp), intent(in), optional :: radii(2)
+
+      type(grid_slab) :: slab
+      real(dp), allocatable :: height(:, :)
+      real(dp) :: largest(1)
+
+      call slab%start(points)
+      call check_room(source, points, error, slab)
+      call slab%share_error(error)
+      if (allocated(error)) return
+      allocate (height(points(1), slab%columns()))
+      call make_heights(spectrum, height, points)
+      largest = maxval(abs(height))
+      call slab%largest(largest)
+      if (largest(1) > largest_number .or. largest(1) < smallest_number) then
+         call fatal_error(error, exit_bad_input, source//': heights are up to '//short_number(largest(1))// &
+                          ' [length]: lengths may be from '//short_number(smallest_number)//' to '// &
+                          short_number(largest_number))
+         return
+      end if
+      map = statistics_of(height, 'made', points, spectrum%length/points, repeats=.true.)
+      surface = surface_of_points(spectrum%length, height, points=points, has_free_edges=has_free_edges, radii=radii)
+   end subroutine self_affine_surface
+
+   !> The least numbers of points along x and y on which all waves differ: more than two to a period of each.
+   pure function least_points_of(spectrum) result(points)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      integer :: points(2)
+
+      points = 2*highest_waves(spectrum) + 1
+   end function least_points_of
+
+   !> The largest wave numbers along x and y that may be within the cut-offs.
+   pure function highest_waves(spectrum) result(highest)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      integer :: highest(2)
+
+      !> Grids have far fewer points; the limit keeps the number an integer.
+      real(dp), parameter :: most = 1e8_dp
+
+      highest = int(min(most, spectrum%length/spectrum%shortest*(1 + rounding)))
+      if (spectrum%dimension == 1) highest(2) = 0
+   end function highest_waves
+
+   !> Whether a wave of the cell is within the cut-offs.
+   pure logical function has_waves(spectrum)
+      type(self_affine_spectrum), intent(in) :: spectrum
+
+      integer :: highest(2), m, n
+
+      highest = highest_waves(spectrum)
+      has_waves = .true.
+      do m = 0, highest(1)
+         do n = 0, highest(2)
+            if (mean_square(spectrum, frequency(spectrum, m, n)) > 0.0_dp) return
+         end do
+      end do
+      has_waves = .false.
+   end function has_waves
+
+   !> The frequency of a wave (G2) [1/length].
+   pure real(dp) function frequency(spectrum, m, n)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      integer, intent(in) :: m, n   !! wave numbers
+
+      frequency = hypot(m/spectrum%length(1), n/spectrum%length(2))
+   end function frequency
+
+   !> The mean square of a wave (G3), in units of that at the roll-off; 0 beyond the cut-offs.
+   pure real(dp) function mean_square(spectrum, frequency)
+      type(self_affine_spectrum), intent(in) :: spectrum
+      real(dp), intent(in) :: frequency   !! [1/length]
+
+      mean_square = 0.0_dp
+      if (frequency*spectrum%longest >= 1 - rounding .and. frequency*spectrum%shortest <= 1 + rounding) &
+         mean_square = max(1.0_dp, frequency*spectrum%rolloff)**(-spectrum%dimension - 2*spectrum%hurst)
+   end function mean_square
+
+   !> Makes the heights at the own columns of a grid of the cell (G1), from the waves of own wave numbers along x. They
+   !> do not depend on how the grid is distributed.
+   !>
+   !> N.B. The random numbers are drawn in the order of (G5), for waves beyond the cut-offs too: the phase of a wave
+   !> depends on the seed and its wave numbers only, and the surface does not depend on the grid.
+   subroutine make_heights(spectrum, height, points)
+      type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
+      !> [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
+      real(dp), intent(inout), contiguous :: height(:, :)
+      integer, intent(in) :: points(2)   !! M, N, not below least_points_of, of a grid that may be distributed
+
+      type(c_ptr) :: generator
+      type(fourier_series) :: waves
+      type(grid_slab) :: rows               ! the own wave numbers along x
+      type(grid_transform) :: transform
+      real(dp) :: moment(1)
+      real(dp), allocatable :: moments(:, :)   ! of the waves of each of them
+      integer :: first, highest(2), k, last, m, n
+
+      call transform%start(points, even=.false.)
+      generator = gsl_rng_alloc(gsl_rng_mt19937)
+      call gsl_rng_set(generator, int(spectrum%seed, c_long))
+      highest = highest_waves(spectrum)
+      call transform%new_series(waves)
+      first = lbound(waves%c, 1)
+      last = ubound(waves%c, 1)
+      ! Each wave number has its own sum, so that rounding grows with the square root of the number of waves.
+      allocate (moments(1, first:last), source=0.0_dp)
+      do k = 1, maxval(highest)
+         if (spectrum%dimension == 1) then
+            call add_wave(k, 0)
+         else
+            do m = 0, k - 1
+               call add_wave(m, k)
+               if (m > 0) call add_wave(m, -k)
+            end do
+            do n = -k, k
+               call add_wave(k, n)
+            end do
+         end if
+      end do
+      call gsl_rng_free(generator)
+      rows = wave_slab(waves)
+      moment = rows%column_totals(moments)
+      call transform%sample(waves, height)
+      ! Of the mean square of a wave each of its two wave vectors has half.
+      if (spectrum%density > 0.0_dp) moment = product(spectrum%length(:spectrum%dimension))/(2*spectrum%density)
+      height = merge(spectrum%rms, 1.0_dp, spectrum%density <= 0.0_dp)/sqrt(moment(1))*height
+
+   contains
+
+      !> Draws a wave and, if it is within the cut-offs and an own one, adds it to the series and its
+      !> part to the moments.
+      subroutine add_wave(m, n)
+         integer, intent(in) :: m, n   !! wave numbers, m >= 0
+
+         !> Half of the generator's step: no number is 0, and its logarithm exists.
+         real(dp), parameter :: half_step = 2.0_dp**(-33)
+         real(dp) :: cosine, f, sine, square, turn, uniform
+
+         turn = 2*pi*gsl_rng_uniform(generator)
+         uniform = gsl_rng_uniform(generator) + half_step
+         if (any(abs([m, n]) > highest) .or. m < first .or. m > last) return
+         f = frequency(spectrum, m, n)
+         square = mean_square(spectrum, f)
+         if (square <= 0.0_dp) return
+         if (spectrum%random_amplitudes) square = -log(uniform)*square
+         moments(1, m) = moments(1, m) + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
+         ! cos(mX + nY + turn), in the sines and cosines of each angle.
+         cosine = sqrt(2*square)*cos(turn)
+         sine = sqrt(2*square)*sin(turn)
+         associate (l => abs(n))
+            waves%c(m, l) = waves%c(m, l) + cosine
+            waves%sc(m, l) = waves%sc(m, l) - sine
+            if (n == 0) return
+            waves%cs(m, l) = waves%cs(m, l) - sign(1, n)*sine
+            waves%ss(m, l) = waves%ss(m, l) - sign(1, n)*cosine
+         end associate
+      end subroutine add_wave
+
+   end subroutine make_heights
+
+end module wavycon_self_affine

@@ -1,0 +1,86 @@
+!> Surfaces through given heights at the points of a grid.
+module wavycon_surface_of_points
+   use wavycon_assertion, only: assert
+   use wavycon_constants, only: pi
+   use wavycon_fourier_series, only: divide_series
+   use wavycon_free_edges, only: form_of_radii, set_units_without_closure
+   use wavycon_grid_points, only: point_angle
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: surface_of_points
+
+contains
+
+   !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
+   !> pressure and curvature are the extremes over the points. If the grid is distributed so is the surface; its numbers
+   !> are those of the whole grid.
+   !>
+   !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
+   !> continue: equation (M6) of src/core/map/README.md.
+   !>
+   !> With free edges the map may lie on a ball: a paraboloid of the given radii about its centre is subtracted.
+   type(surface_type) function surface_of_points(sides, height, mirrored, points, has_free_edges, radii) result(surface)
+      real(dp), intent(in) :: sides(2)                 !! of the map along x and y [length], > 0
+      !> [length], shape (M, N), N = 1 for a profile, or (M, columns of the grid's slab).
+      real(dp), intent(in), contiguous :: height(:, :)
+      logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
+      integer, intent(in), optional :: points(2)       !! M, N if the grid may be distributed; shape of height if absent
+      logical, intent(in), optional :: has_free_edges  !! .false. if absent; then mirrored too
+      real(dp), intent(in), optional :: radii(2)       !! of the ball [length], > 0, huge for a plane
+
+      type(grid_transform) :: transform
+      real(dp), allocatable :: values(:, :)
+      real(dp) :: extremes(2), mean(1)
+      integer :: crest(2), grid(2)
+
+      grid = shape(height)
+      if (present(points)) grid = points
+      surface%dimension = merge(1, 2, grid(2) == 1)
+      if (present(mirrored)) surface%mirrored = mirrored
+      if (present(has_free_edges)) surface%has_free_edges = has_free_edges
+      surface%mirrored = surface%mirrored .or. surface%has_free_edges
+      call assert(all(sides > 0.0_dp), 'sides > 0')
+      surface%length = surface%parts()*sides
+      surface%points = surface%parts()*grid
+      call transform%start(grid, even=surface%mirrored)
+      call transform%series(height, surface%shape)
+      if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
+      mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
+      if (present(radii)) surface%form = form_of_radii(surface, radii)
+      ! A flat map on a ball is the ball.
+      extremes = [maxval(height), -minval(height)]
+      call transform%slab%largest(extremes)
+      surface%has_steps = .not. transform%slab%any(any(height < extremes(1) .and. height > -extremes(2)))
+      surface%has_steps = surface%has_steps .and. surface%has_free_edges .and. &
+                          (sum(extremes) > 0.0_dp .or. surface%form%is_flat())
+      allocate (values, source=height)
+      call surface%form%subtract_from(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
+                                      2*pi/surface%points)
+      call transform%slab%find_largest(values, surface%amplitude, crest)
+      surface%amplitude = surface%amplitude - mean(1)
+      if (surface%has_steps .and. surface%amplitude <= 0.0_dp) then
+         ! A flat map is a punch, h = 0. It has no depth: a length of the map is the unit.
+         surface%amplitude = surface%nominal_area()**(1.0_dp/surface%dimension)
+         surface%shape%c(0, 0) = surface%amplitude
+      end if
+      surface%crest = point_angle(crest, transform%points, transform%even)
+      if (surface%dimension == 1) surface%crest(2) = 0.0_dp
+      if (surface%amplitude <= 0.0_dp) return
+      call divide_series(surface%shape, surface%amplitude)
+      surface%form%c = surface%form%c/surface%amplitude
+      if (surface%has_free_edges) then
+         call set_units_without_closure(surface)
+      else
+         call transform%sample(surface%shape, values, 1, 1.0_dp/surface%length)
+         extremes = [maxval(values), -minval(values)]
+         call transform%slab%largest(extremes)
+         surface%stiffness = 1.0_dp/extremes(2)
+         surface%full_contact_peak = extremes(1)*surface%stiffness
+      end if
+   end function surface_of_points
+
+end module wavycon_surface_of_points

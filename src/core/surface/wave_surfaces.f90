@@ -1,0 +1,114 @@
+!> Surfaces of cosine waves: sums of any, and those of the named kinds.
+module wavycon_wave_surfaces
+   use wavycon_constants, only: sqrt3
+   use wavycon_fourier_series, only: divided, fourier_series, weighted
+   use wavycon_kinds, only: dp
+   use wavycon_series_peak, only: find_peak
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: crossed_1d, hexagonal, surface_of_series, wave_1d, wave_2d, wave_sum
+
+contains
+
+   !> h = Delta (1 - cos 2 pi x/lambda): Johnson, Greenwood & Higginson (1985), eq. (3).
+   type(surface_type) function wave_1d(amplitude, wavelength) result(surface)
+      real(dp), intent(in) :: amplitude    !! Delta [length], >= 0
+      real(dp), intent(in) :: wavelength   !! lambda [length], > 0
+
+      surface = wave_sum([wavelength, wavelength], [amplitude], [1], [0], [0.0_dp])
+   end function wave_1d
+
+   !> h = Delta [1 - cos(2 pi x/lambda_x) cos(2 pi y/lambda_y)]: eq. (21) with a wavelength of its own each way.
+   type(surface_type) function wave_2d(amplitude, wavelength, wavelength_y) result(surface)
+      real(dp), intent(in) :: amplitude                !! Delta [length], >= 0
+      real(dp), intent(in) :: wavelength               !! along x [length], > 0
+      real(dp), intent(in), optional :: wavelength_y   !! along y [length], > 0; that along x if absent
+
+      real(dp) :: length(2)
+
+      length = wavelength
+      if (present(wavelength_y)) length(2) = wavelength_y
+      surface = wave_sum(length, 0.5_dp*[amplitude, amplitude], [1, 1], [1, -1], [0.0_dp, 0.0_dp])
+   end function wave_2d
+
+   !> Two blocks with a one-dimensional wave each, crossed at right angles: h = a_1 (1 - cos 2 pi x/lambda_1) + a_2 (1
+   !> - cos 2 pi y/lambda_2). With equal amplitudes a and equal wavelengths it is eq. (21) rotated by 45 degrees, with
+   !> Delta = 2a and sqrt2 times the wavelength.
+   type(surface_type) function crossed_1d(amplitude1, wavelength1, amplitude2, wavelength2) result(surface)
+      real(dp), intent(in) :: amplitude1, wavelength1   !! along x [length], >= 0, > 0
+      real(dp), intent(in) :: amplitude2, wavelength2   !! along y [length], >= 0, > 0
+
+      surface = wave_sum([wavelength1, wavelength2], [amplitude1, amplitude2], [1, 0], [0, 1], [0.0_dp, 0.0_dp])
+   end function crossed_1d
+
+   !> Three equal waves whose directions differ by 60 degrees: h = Delta [1 - (cos k1.r + cos k2.r + cos k3.r)/3] with
+   !> wave vectors k1, k2, k3 = k2 - k1 of length 2 pi/lambda. The crests form rows along x with a distance of 2
+   !> lambda/sqrt3 in each; the rectangular cell has two crests.
+   type(surface_type) function hexagonal(amplitude, wavelength) result(surface)
+      real(dp), intent(in) :: amplitude    !! Delta [length], >= 0
+      real(dp), intent(in) :: wavelength   !! of each wave [length], > 0
+
+      surface = wave_sum([2/sqrt3, 2.0_dp]*wavelength, spread(amplitude/3, 1, 3), [0, 1, 1], [2, 1, -1], &
+                         spread(0.0_dp, 1, 3))
+   end function hexagonal
+
+   !> h = Delta - sum_q a_q cos(m_q X + n_q Y - phase_q), X = 2 pi x/L_x, Y = 2 pi y/L_y. Delta is the largest value of
+   !> the sum, so that the surfaces just touch.
+   type(surface_type) function wave_sum(length, a, m, n, phase) result(surface)
+      real(dp), intent(in) :: length(2)      !! L_x, L_y [length], > 0
+      real(dp), intent(in) :: a(:)           !! amplitudes [length], of either sign
+      integer, intent(in) :: m(:), n(:)      !! wave numbers, shape of a; not both zero; all n = 0 for a profile
+      real(dp), intent(in) :: phase(:)       !! phases [rad], shape of a
+
+      !> If all sine coefficients are below this fraction of the sum of the amplitudes they are rounding: the sum is
+      !> even.
+      real(dp), parameter :: rounding = 1e-15_dp
+      type(fourier_series) :: waves
+      integer :: k, l, q
+      real(dp) :: turn
+
+      allocate (waves%c(0:maxval(abs(m)), 0:maxval(abs(n))), source=0.0_dp)
+      allocate (waves%cs, waves%sc, waves%ss, source=waves%c)
+      do q = 1, size(a)
+         k = abs(m(q))
+         l = abs(n(q))
+         ! cos(mX + nY - phase) with m >= 0.
+         turn = merge(phase(q), -phase(q), m(q) >= 0)
+         associate (up => sign(1, n(q))*merge(1, -1, m(q) >= 0))
+            waves%c(k, l) = waves%c(k, l) + a(q)*cos(turn)
+            if (k > 0 .and. l > 0) waves%ss(k, l) = waves%ss(k, l) - up*a(q)*cos(turn)
+            if (k > 0) waves%sc(k, l) = waves%sc(k, l) + a(q)*sin(turn)
+            if (l > 0) waves%cs(k, l) = waves%cs(k, l) + up*a(q)*sin(turn)
+         end associate
+      end do
+      if (max(maxval(abs(waves%cs)), maxval(abs(waves%sc)), maxval(abs(waves%ss))) <= rounding*sum(abs(a))) &
+         deallocate (waves%cs, waves%sc, waves%ss)
+      surface = surface_of_series(length, waves)
+   end function wave_sum
+
+   !> The surface whose height over its mean plane is a series.
+   type(surface_type) function surface_of_series(length, height) result(surface)
+      real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
+      type(fourier_series), intent(in) :: height   !! [length]; its mean is ignored
+
+      type(fourier_series) :: waves
+      real(dp) :: lowest, unused(2)
+
+      waves = height
+      waves%c(0, 0) = 0.0_dp
+      surface%length = length
+      surface%dimension = merge(1, 2, ubound(height%c, 2) == 0)
+      call find_peak(waves, surface%amplitude, surface%crest)
+      if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
+      surface%shape = divided(waves, surface%amplitude)
+      if (surface%amplitude <= 0.0_dp) return
+      waves = weighted(surface%shape, surface%length, 1)
+      call find_peak(waves, surface%full_contact_peak, unused)
+      call find_peak(divided(waves, -1.0_dp), lowest, unused)
+      surface%stiffness = 1.0_dp/lowest
+      surface%full_contact_peak = surface%full_contact_peak/lowest
+   end function surface_of_series
+
+end module wavycon_wave_surfaces

@@ -1,0 +1,122 @@
+!> What --check says of a deck without running it.
+module wavycon_check_scene
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_grid_plan, only: bytes_of_grid
+   use wavycon_fourier_series, only: fourier_series
+   use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_methods, only: why_chosen
+   use wavycon_notes, only: show_scene
+   use wavycon_plain_text, only: escaped, integer_text, listed
+   use wavycon_results, only: results_type
+   use wavycon_run_log, only: duration, run_log
+   use wavycon_run_scene, only: keep_fields, start_results
+   use wavycon_scene, only: scene_type
+   use wavycon_table, only: table_type
+   use wavycon_work_sharing, only: distributed_grids, distributed_loads
+   implicit none (type, external)
+   private
+
+   public :: check_scene
+
+contains
+
+   !> Says what a run would do: the scene as at the start of a run, why its solver is taken, memory, tables.
+   subroutine check_scene(scene, quiet)
+      type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards
+      logical, intent(in) :: quiet                            !! whether to say nothing
+
+      character(:), allocatable :: reason
+      type(results_type) :: results
+      type(run_log) :: log
+      type(table_type), allocatable :: tables(:)
+
+      call log%start(quiet)
+      call start_results(scene, results, tables)
+      call show_scene(results, log)
+      reason = why_chosen(results%traits)
+      if (.not. results%scene%method%has('solver')) then
+         if (reason /= '') reason = '; '//reason
+         reason = "'"//results%scene%method%text('solver')//"' is the default"//reason
+      end if
+      if (reason /= '') call log%say('because: '//reason)
+      if (all(results%traits%finest_grid > 0)) then
+         call log%say('memory: '//memory(results, keep_fields(results%scene, tables)))
+         call log%say('time: some '// &
+            duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
+            ' if all loads need that grid, by its transforms as measured now')
+      end if
+      call log%say('tables: '//listed(pack(tables%name(), tables%key /= '' .or. tables%file == 'summary'))//' in '// &
+                   escaped(results%scene%directory))
+      call log%say(escaped(results%scene%deck_path)//': the deck is fine')
+   end subroutine check_scene
+
+   !> The memory that the finest grid takes, and what is available.
+   function memory(results, with_fields) result(words)
+      type(results_type), intent(in) :: results
+      logical, intent(in) :: with_fields   !! whether the solutions keep pressures and gaps
+      character(:), allocatable :: words
+
+      integer, parameter :: bytes_of_point = 2*storage_size(1.0_dp)/8
+      integer(int64) :: available, bytes
+      integer :: loads, own(2), points(2)
+      type(grid_slab) :: slab
+
+      points = results%traits%finest_grid
+      own = points
+      loads = size(results%scene%target)
+      associate (sharing => results%sharing)
+         if (sharing%kind == distributed_grids) then
+            call slab%start(points)
+            own(2) = slab%width
+         else if (sharing%kind == distributed_loads) then
+            loads = (loads - 1)/sharing%ranks + 1
+         end if
+         bytes = bytes_of_grid(own)
+         if (with_fields) bytes = bytes + bytes_of_point*product(int(own, int64))*loads
+         words = 'at most '//megabytes(bytes)
+         if (sharing%is_shared) words = words//' on each rank'
+      end associate
+      words = words//' for grids of up to '//integer_text(points(1))
+      if (results%solver%surface%dimension == 2) words = words//' x '//integer_text(points(2))
+      words = words//' points in the part of the cell that is solved'
+      available = results%sharing%memory_of_each()
+      if (available < 0) return
+      words = words//'; '//megabytes(available)//' available'
+      if (results%sharing%is_shared) words = words//' to each'
+   end function memory
+
+   !> The time that a load takes on a grid [s], from that of transforms of a grid of at most `most` points a side.
+   real(dp) function seconds_of_load(points) result(seconds)
+      integer, intent(in) :: points(2)
+
+      !> Pairs of transforms a load: loads of self-affine surfaces take 15 to 60 of them on 512 x 512 points.
+      real(dp), parameter :: pairs = 40.0_dp
+      integer, parameter :: most = 512
+      integer(int64) :: begun, ended, rate
+      integer :: part(2)
+      real(dp), allocatable :: field(:, :)
+      type(fourier_series) :: series
+      type(grid_transform) :: transform
+
+      part = min(points, most)
+      call transform%start(part, even=.false.)
+      allocate (field(part(1), transform%slab%columns()), source=0.0_dp)
+      call transform%series(field, series)   ! plans the transforms
+      call system_clock(begun, rate)
+      call transform%series(field, series)
+      call transform%sample(series, field)
+      call system_clock(ended)
+      seconds = pairs*(ended - begun)/rate*product(real(points, dp)/part)
+   end function seconds_of_load
+
+   !> Bytes as a number of MB, rounded up.
+   function megabytes(bytes) result(words)
+      integer(int64), intent(in) :: bytes
+      character(:), allocatable :: words
+
+      words = integer_text((bytes - 1)/1000000 + 1)//' MB'
+   end function megabytes
+
+end module wavycon_check_scene

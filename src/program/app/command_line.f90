@@ -1,0 +1,263 @@
+!> Reads the command line; the texts of --help.
+module wavycon_command_line
+   use wavycon_deck_text, only: at_end, is_comma, next_token, token_type
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_group_values, only: group_values
+   use wavycon_key_reference, only: add_wrapped, key_reference
+   use wavycon_key_table, only: integer_value, key_group_type, key_type, logical_value, text_value
+   use wavycon_key_values, only: must_be, read_value, word_value
+   use wavycon_kinds, only: dp
+   use wavycon_nearest_name, only: did_you_mean
+   use wavycon_output_group, only: longest_directory
+   use wavycon_plain_text, only: escaped, integer_text, newline, quoted
+   use wavycon_settings, only: read_setting, setting_type
+   implicit none (type, external)
+   private
+
+   public :: command_line_type, read_command_line, help_text
+
+   !> A deck, with keys set in place of its own.
+   type :: run_type
+      character(:), allocatable :: path
+      type(setting_type), allocatable :: settings(:)
+   end type run_type
+
+   !> The values of a key: one of --set, all of --sweep.
+   type :: sweep_type
+      type(setting_type), allocatable :: values(:)
+   end type sweep_type
+
+   type :: command_line_type
+      type(run_type), allocatable :: runs(:)   !! the decks, each with all combinations of the values of its sweeps
+      type(group_values) :: options            !! by their names, such as '--quiet'
+   end type command_line_type
+
+   integer, parameter :: most_runs = 100000, most_processes = 1024
+
+   !> The options as keys: the unit of a key is what follows the option in the usage.
+   type(key_type), parameter :: option_keys(*) = [ &
+      key_type(logical_value, '--check', '.false.', '', 'validate the decks, say what a run would do, and stop'), &
+      key_type(text_value, '--set', '', 'GROUP.KEY=VALUE', &
+         'set a key in place of those of the decks, such as surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,'// &
+         '0.2; may be repeated. Keys of the deck that contradict it are left out: other ways to give the loads or '// &
+         'the stiffness, accuracy or grid_points, keys of another kind of surface or solver. The name of the case '// &
+         'gets key and value, unless scene.case is set too'), &
+      key_type(text_value, '--sweep', '', 'GROUP.KEY=VALUE,...', &
+         'run each deck once for each value, as with --set; several sweeps: for all combinations'), &
+      key_type(text_value, '--output', '', 'DIR', 'write the results to DIR, not to the directory of &output', &
+         longest=longest_directory), &
+      key_type(text_value, '--table', '', 'FILE', &
+         'write one table of all decks: a row for each deck and load, with the values of the keys that are set or '// &
+         'differ, and the columns of the summary', longest=longest_directory), &
+      key_type(logical_value, '--keep-going', '.false.', '', 'a bad deck does not keep the others from being run'), &
+      key_type(logical_value, '--resume', '.false.', '', &
+         'continue an interrupted run, to the same tables. Loads that were solved on grids are read from '// &
+         '<case>.checkpoint; loads of the other solvers are fast and are solved again'), &
+      key_type(integer_value, '--jobs', '1', 'N', &
+         'run N decks at a time, each in a process of its own; 1 if not given', 1, most_processes), &
+      key_type(integer_value, '--threads', '1', 'N', 'work on large grids with N threads; 1 if not given', 1, &
+         most_processes), &
+      key_type(logical_value, '--quiet', '.false.', '', 'write nothing but problems'), &
+      key_type(logical_value, '--version', '.false.', '', 'show the version and stop'), &
+      key_type(logical_value, '--help', '.false.', '', 'show this and stop')]
+
+contains
+
+   !> Reads the command line. Errors: exit_bad_input for an unknown option, a bad value of one, or no deck.
+   subroutine read_command_line(command_line, error)
+      type(command_line_type), intent(out) :: command_line
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: trouble, value, word
+      type(run_type) :: deck(command_argument_count())
+      type(sweep_type) :: sweep(size(deck))
+      type(key_group_type), allocatable, target, save :: table
+      type(key_type) :: key
+      type(word_value) :: read
+      integer :: decks, equals, i, k, sweeps
+      logical :: options_over
+
+      table = key_group_type('options', '', option_keys)
+      call command_line%options%start(table, '')
+      decks = 0
+      sweeps = 0
+      value = ''
+      word = ''
+      options_over = .false.
+      i = 0
+      do while (i < command_argument_count() .and. .not. allocated(trouble))
+         i = i + 1
+         word = argument(i)
+         if (options_over .or. index(word, '-') /= 1) then
+            if (word == '') trouble = 'the name of a deck is empty'
+            decks = decks + 1
+            deck(decks)%path = word
+            cycle
+         end if
+         options_over = word == '--'
+         if (options_over) cycle
+         if (word == '-h') word = '--help'
+         equals = index(word//'=', '=')
+         k = findloc(option_keys%name == word(:equals - 1) .and. &
+                     (option_keys%kind /= logical_value .or. equals > len(word)), .true., dim=1)
+         if (k == 0) then
+            trouble = "unknown option '"//escaped(word)//"'"//did_you_mean(word, option_keys%name, '', '')
+            cycle
+         end if
+         key = option_keys(k)
+         if (key%kind == logical_value) then
+            call command_line%options%set(key%name, [1.0_dp])
+            cycle
+         end if
+         if (equals > len(word) .and. i < command_argument_count()) then
+            i = i + 1
+            value = argument(i)
+         else
+            value = word(min(equals, len(word)) + 1:)
+         end if
+         if (value == '' .or. index(value, '--') == 1) then
+            trouble = trim(key%name)//' needs a value: '//trim(key%name)//' '//trim(key%unit)
+         else if (any(key%name == ['--set  ', '--sweep'])) then
+            sweeps = sweeps + 1
+            call read_sweep(trim(key%name), value, sweep(sweeps)%values, trouble)
+         else
+            if (key%kind == text_value) value = quoted(value)
+            call read_value(key, value, read, trouble)
+            if (read%repeats > 1) trouble = must_be(key, value)
+            if (.not. allocated(trouble)) call command_line%options%take(key%name, 1, [read%number], read%text)
+         end if
+      end do
+      associate (options => command_line%options)
+         if (decks == 0 .and. .not. (options%logical('--version') .or. options%logical('--help') .or. &
+                                     allocated(trouble))) trouble = 'no deck is given'
+         if (allocated(trouble)) then
+            call fatal_error(error, exit_bad_input, trouble)
+            return
+         end if
+         if (options%has('--output')) then
+            sweeps = sweeps + 1
+            ! gfortran 12 loses the memory of texts in an array constructor.
+            allocate (sweep(sweeps)%values(1))
+            associate (setting => sweep(sweeps)%values(1))
+               setting%group = 'output'
+               setting%key = 'directory'
+               setting%value = quoted(options%text('--output'))
+            end associate
+         end if
+      end associate
+      call make_runs(deck(:decks), sweep(:sweeps), command_line%runs, error)
+   end subroutine read_command_line
+
+   !> Reads the value of --set or --sweep: a setting for each value of a sweep, which commas outside of quotes separate.
+   subroutine read_sweep(option, word, values, trouble)
+      character(*), intent(in) :: option, word   !! '--set' or '--sweep'; group.key=value or group.key=value,value,...
+      type(setting_type), allocatable, intent(out) :: values(:)
+      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
+
+      integer :: i
+      integer, allocatable :: commas(:)
+      type(setting_type) :: setting
+      type(token_type) :: token
+
+      call read_setting(word, setting, trouble)
+      if (allocated(trouble) .and. option == '--sweep') trouble = '--sweep needs group.key=value,value,..., '// &
+         "such as surface.amplitude=1e-6,2e-6, got '"//escaped(word)//"'"
+      if (allocated(trouble)) return
+      commas = [0]
+      do while (option == '--sweep')
+         token = next_token(setting%value, token%last + 1)
+         if (token%kind == at_end) exit
+         if (token%kind == is_comma) commas = [commas, token%first]
+      end do
+      commas = [commas, len(setting%value) + 1]
+      allocate (values(size(commas) - 1))
+      do i = 1, size(values)
+         values(i)%group = setting%group
+         values(i)%key = setting%key
+         values(i)%value = trim(adjustl(setting%value(commas(i) + 1:commas(i + 1) - 1)))
+      end do
+   end subroutine read_sweep
+
+   !> Each deck with all combinations of the values of all sweeps; the values of the last sweep change fastest. Errors:
+   !> exit_bad_input if these are too many.
+   subroutine make_runs(decks, sweeps, runs, error)
+      type(run_type), intent(in) :: decks(:)           !! without settings
+      type(sweep_type), intent(in) :: sweeps(:)
+      type(run_type), allocatable, intent(out) :: runs(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, number, r, rest
+
+      number = size(decks)
+      do i = 1, size(sweeps)
+         if (number <= most_runs) number = number*size(sweeps(i)%values)
+      end do
+      if (number > most_runs) then
+         call fatal_error(error, exit_bad_input, '--sweep: more than '//integer_text(most_runs)//' runs')
+         return
+      end if
+      allocate (runs(number))
+      do r = 1, number
+         allocate (runs(r)%settings(size(sweeps)))
+         rest = r - 1
+         do i = size(sweeps), 1, -1
+            runs(r)%settings(i) = sweeps(i)%values(mod(rest, size(sweeps(i)%values)) + 1)
+            rest = rest/size(sweeps(i)%values)
+         end do
+         runs(r)%path = decks(rest + 1)%path
+      end do
+   end subroutine make_runs
+
+   !> The text of --help: usage and options, then the reference of all keys.
+   function help_text(is_parallel) result(text)
+      logical, intent(in) :: is_parallel   !! whether this is the parallel program
+      character(:), allocatable :: text
+
+      integer, parameter :: indent = 18
+      character(:), allocatable :: head, usage
+      integer :: i
+
+      text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline//newline
+      usage = 'DECK...'
+      do i = 1, size(option_keys)
+         usage = usage//' ['//trim(trim(option_keys(i)%name)//' '//option_keys(i)%unit)//']'
+         if (any(option_keys(i)%name == ['--set  ', '--sweep'])) usage = usage//'...'
+      end do
+      head = 'usage: wavycon '
+      if (is_parallel) head = 'usage: mpirun -n RANKS wavycon-mpi '
+      call add_wrapped(text, len('usage: wavycon '), usage, head)
+      text = text//newline
+      do i = 1, size(option_keys)
+         head = '   '//trim(trim(option_keys(i)%name)//' '//option_keys(i)%unit)
+         if (option_keys(i)%name == '--help') head = head//', -h'
+         if (len(head) < indent) then
+            head = head//repeat(' ', indent - len(head))
+         else
+            text = text//head//newline
+            head = repeat(' ', indent)
+         end if
+         call add_wrapped(text, indent, trim(option_keys(i)%meaning), head)
+      end do
+      text = text//newline
+      if (is_parallel) call add_wrapped(text, 0, 'The RANKS processes share the work: large grids are divided '// &
+         'among them, or else the loads. Each needs the memory of its part, and has N threads of its own. The '// &
+         'results are those of wavycon.')
+      if (is_parallel) text = text//newline
+      call add_wrapped(text, 0, 'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of '// &
+                       'several decks the worst.')
+      text = text//newline//key_reference()
+   end function help_text
+
+   !> A word of the command line, of any length.
+   function argument(i) result(word)
+      integer, intent(in) :: i
+      character(:), allocatable :: word
+
+      integer :: length
+
+      call get_command_argument(i, length=length)
+      allocate (character(length) :: word)
+      if (length > 0) call get_command_argument(i, word)
+   end function argument
+
+end module wavycon_command_line

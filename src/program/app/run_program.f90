@@ -1,0 +1,298 @@
+!> What the program does: reads all decks, then checks or runs them one after the other.
+!>
+!> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
+module wavycon_run_program
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_char
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use wavycon_check_scene, only: check_scene
+   use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
+   use wavycon_command_line, only: command_line_type, help_text, read_command_line
+   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
+   use wavycon_notes, only: outcome
+   use wavycon_plain_text, only: escaped, integer_text
+   use wavycon_ranks, only: comm, end_ranks, is_first_rank, share_error
+   use wavycon_read_deck, only: read_deck
+   use wavycon_results, only: results_type
+   use wavycon_run_scene, only: run_scene
+   use wavycon_scene, only: scene_type
+   use wavycon_system, only: error_text, full_path, keep_memory, outlive_file_size_limit, &
+      print_trouble, remove_leftovers, say
+   use wavycon_threads, only: set_threads, use_one_thread_for_matrices
+   use wavycon_version, only: revision, version
+   implicit none (type, external)
+   private
+
+   public :: run_program
+
+   !> A status from here on less this number is that of the signal that ended a process.
+   integer, parameter :: signal_status = 128
+   !> Jobs that may be begun beyond the first one that was not shown: each has open files, and a place in jobs.c.
+   integer, parameter :: most_waiting = 100
+
+   !> The processes of the option --jobs, each of which runs a deck: see jobs.c. They are numbered from 1. What Fortran
+   !> has in its buffers must be flushed before a job is begun or shown.
+   interface
+      !> Starts a process, a copy of this one, for a job: 1 in it, 0 in this one, -1 if there is none.
+      integer(c_int) function begin_job(job) bind(c, name='wavycon_begin_job')
+         import :: c_int
+         integer(c_int), value :: job
+      end function begin_job
+
+      !> Waits for any process to end: the number of its job, 0 if it is none.
+      integer(c_int) function await_job() bind(c, name='wavycon_await_job')
+         import :: c_int
+      end function await_job
+
+      !> Prints what a job that has ended has printed: its exit status, or signal_status and more.
+      integer(c_int) function show_job(job) bind(c, name='wavycon_show_job')
+         import :: c_int
+         integer(c_int), value :: job
+      end function show_job
+   end interface
+
+   type, extends(collected_deck) :: scene_item
+      type(scene_type), allocatable :: scene      !! not allocated for a bad deck
+   end type scene_item
+
+contains
+
+   !> Runs the program from its command line to its exit status, and ends it.
+   subroutine run_program()
+      character(:), allocatable :: text
+      type(command_line_type) :: command_line
+      type(scene_item), allocatable :: scenes(:)
+      type(error_type), allocatable :: error
+      integer :: i, worst
+      logical :: quiet
+
+      call use_one_thread_for_matrices()
+      call keep_memory()
+      call outlive_file_size_limit()
+      call read_command_line(command_line, error)
+      if (allocated(comm) .and. command_line%options%integer('--jobs') > 1 .and. .not. allocated(error)) &
+         call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')
+      if (allocated(error)) error%message = error%message//new_line('a')//'wavycon --help shows all options'
+      call share_error(error)
+      call stop_on(error)
+      if (command_line%options%logical('--version')) then
+         text = 'wavycon '//version//' ('//revision//')'
+         if (allocated(comm)) text = text//', '//comm%library
+      end if
+      if (command_line%options%logical('--help')) text = help_text(allocated(comm))
+      if (allocated(text)) then
+         if (is_first_rank()) call say(text)
+         call finish(exit_fine)
+      end if
+      quiet = command_line%options%logical('--quiet') .or. .not. is_first_rank()
+
+      call read_decks(command_line, scenes, worst)
+      if (command_line%options%logical('--check')) then
+         do i = 1, size(scenes)
+            if (.not. allocated(scenes(i)%scene)) cycle
+            call separate(i, quiet)
+            call check_scene(scenes(i)%scene, quiet)
+         end do
+         call finish(worst)
+      end if
+      call run_scenes(command_line, quiet, scenes, worst)
+      call finish(worst)
+   end subroutine run_program
+
+   !> Reads all decks before any is run. Shows the problems of all of them and ends the program if there are any, unless
+   !> it is to keep going without the bad decks.
+   subroutine read_decks(command_line, scenes, worst)
+      type(command_line_type), intent(in) :: command_line
+      type(scene_item), allocatable, intent(out) :: scenes(:)
+      integer, intent(out) :: worst   !! the worst exit status
+
+      type(error_type), allocatable :: error
+      integer :: i, j
+
+      allocate (scenes(size(command_line%runs)))
+      worst = exit_fine
+      do i = 1, size(scenes)
+         scenes(i)%path = command_line%runs(i)%path
+         allocate (scenes(i)%scene)
+         call read_deck(scenes(i)%path, scenes(i)%scene, error, command_line%runs(i)%settings)
+         if (allocated(error)) then
+            if (is_first_rank()) write (error_unit, '(a)') error%message
+            worst = max(worst, error%status)
+            deallocate (scenes(i)%scene)
+         else
+            if (command_line%options%has('--table')) call list_keys(scenes(i)%scene, scenes(i)%keys)
+            scenes(i)%case = scenes(i)%scene%case
+            scenes(i)%stem = full_path(scenes(i)%scene%directory)//'/'//scenes(i)%case
+         end if
+      end do
+      if (worst /= exit_fine .and. .not. command_line%options%logical('--keep-going')) call finish(worst)
+      ! Scenes that would write the same files.
+      do i = 2, size(scenes)
+         if (.not. allocated(scenes(i)%scene)) cycle
+         do j = 1, i - 1
+            if (.not. allocated(scenes(j)%scene)) cycle
+            if (scenes(j)%stem == scenes(i)%stem) exit
+         end do
+         if (j == i) cycle
+         associate (one => scenes(j)%scene, other => scenes(i)%scene)
+            call fatal_error(error, exit_bad_input, escaped(one%deck_path)//' and '//escaped(other%deck_path)// &
+                             ' would write the same files: both are case '//other%case//' in '// &
+                             escaped(other%directory)//'. Give them different cases.')
+         end associate
+         if (.not. command_line%options%logical('--keep-going')) call stop_on(error)
+         call show(error)
+         worst = max(worst, error%status)
+         deallocate (scenes(i)%scene, scenes(i)%stem, error)
+      end do
+   end subroutine read_decks
+
+   !> Runs all scenes and writes the collected table.
+   subroutine run_scenes(command_line, quiet, scenes, worst)
+      type(command_line_type), intent(in) :: command_line
+      logical, intent(in) :: quiet      !! whether to write nothing but problems
+      type(scene_item), intent(inout) :: scenes(:)
+      integer, intent(inout) :: worst   !! the worst exit status
+
+      type(error_type), allocatable :: error
+      integer :: begun, i, jobs, running, status(size(scenes))
+      logical :: has_ended(0:size(scenes))   ! of each job
+      logical :: is_good(size(scenes)), keep_going, with_table
+
+      jobs = command_line%options%integer('--jobs')
+      keep_going = command_line%options%logical('--keep-going')
+      call set_threads(command_line%options%integer('--threads'))
+      with_table = .false.
+      if (is_first_rank()) with_table = command_line%options%has('--table')
+      if (with_table) call check_table_file(command_line%options%text('--table'), scenes, error)
+      call share_error(error)
+      call stop_on(error)
+      is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
+      do i = 1, size(scenes)
+         if (is_good(i)) call remove_leftovers(scenes(i)%scene%directory//c_null_char)
+      end do
+      status = exit_bad_input
+      begun = 0
+      running = 0
+      has_ended = .false.
+      do i = 1, size(scenes)
+         if (is_good(i) .and. jobs == 1) then
+            call run_one(i, status(i), error)
+            if (.not. keep_going) call stop_on(error)
+            call show(error)
+         else if (is_good(i)) then
+            call take_job(i, status(i))
+         end if
+      end do
+      worst = max(worst, maxval(status))
+      scenes%is_written = status == exit_fine .or. status == exit_not_converged
+      if (allocated(error)) deallocate (error)
+      if (with_table) call write_collected_table(command_line%options%text('--table'), scenes%collected_deck, &
+                                                 command_line%runs(1)%settings, error)
+      call share_error(error)
+      if (allocated(error)) worst = max(worst, error%status)
+      call show(error)
+      if (.not. keep_going .or. quiet) return
+      call separate(size(scenes) + 1, quiet)
+      call say(integer_text(size(scenes))//' decks: '// &
+         integer_text(count(status == exit_fine))//' solved, '//integer_text(count(status == exit_not_converged))// &
+         ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed')
+
+   contains
+
+      !> Runs a scene. Errors: those of run_scene.
+      subroutine run_one(i, status, error)
+         integer, intent(in) :: i
+         integer, intent(out) :: status   !! exit_fine, exit_not_converged, or that of the error
+         type(error_type), allocatable, intent(out) :: error
+
+         type(results_type) :: results
+
+         call separate(i, quiet)
+         call run_scene(scenes(i)%scene, quiet, command_line%options%logical('--resume'), results, status, error)
+         if (allocated(error)) status = error%status
+         ! What the log says otherwise.
+         if (status == exit_not_converged .and. quiet .and. is_first_rank()) &
+            write (error_unit, '(a)') 'wavycon: '//outcome(results)
+      end subroutine run_one
+
+      !> Takes the outcome of a scene that runs in a process of its own; meanwhile those of the scenes behind it are
+      !> begun. As outcomes are taken in the order of the scenes, all is printed and written as if they were run one
+      !> after the other.
+      subroutine take_job(i, status)
+         integer, intent(in) :: i
+         integer, intent(out) :: status
+
+         type(error_type), allocatable :: error
+         integer :: here   ! as of begin_job
+
+         do
+            do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
+               begun = begun + 1
+               if (.not. is_good(begun)) cycle
+               flush (error_unit)
+               here = begin_job(begun)
+               if (here < 0) call fatal_error(error, exit_file_trouble, &
+                                              'a process or a temporary file for it cannot be made')
+               call stop_on(error)
+               if (here > 0) then
+                  call run_one(begun, status, error)
+                  call show(error)
+                  call finish(status)
+               end if
+               running = running + 1
+               deallocate (scenes(begun)%scene)
+            end do
+            if (has_ended(i)) exit
+            has_ended(await_job()) = .true.
+            running = running - 1
+         end do
+         status = show_job(i)
+         if (status < signal_status) return
+         call fatal_error(error, exit_file_trouble, escaped(scenes(i)%path)// &
+                          ': its process was ended by signal '//integer_text(status - signal_status))
+         call show(error)
+         status = error%status
+      end subroutine take_job
+
+   end subroutine run_scenes
+
+   !> Writes an empty line between two decks.
+   subroutine separate(deck, quiet)
+      integer, intent(in) :: deck   !! number of the one that follows
+      logical, intent(in) :: quiet
+
+      if (deck > 1 .and. .not. quiet) call say('')
+   end subroutine separate
+
+   !> Writes the message of an error, if there is one, and ends the program with its status.
+   subroutine stop_on(error)
+      type(error_type), allocatable, intent(in) :: error
+
+      if (.not. allocated(error)) return
+      call show(error)
+      call finish(error%status)
+   end subroutine stop_on
+
+   !> Writes the message of an error, if there is one.
+   subroutine show(error)
+      type(error_type), allocatable, intent(in) :: error
+
+      if (.not. allocated(error)) return
+      if (is_first_rank()) write (error_unit, '(a)') 'wavycon: '//error%message
+   end subroutine show
+
+   !> Ends the program with an exit status, that of file trouble if not all could be written to standard output.
+   subroutine finish(status)
+      integer, intent(in) :: status
+
+      integer :: last_status
+
+      last_status = status
+      if (print_trouble() /= 0) then
+         write (error_unit, '(a)') 'wavycon: standard output: cannot be written: '//error_text(int(print_trouble()))
+         last_status = exit_file_trouble
+      end if
+      call end_ranks(last_status)
+      stop last_status, quiet=.true.
+   end subroutine finish
+
+end module wavycon_run_program

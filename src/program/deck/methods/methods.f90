@@ -1,0 +1,383 @@
+!> What decks say about solvers: their names, their keys of &method, what they refuse, and how values start them.
+module wavycon_methods
+   use wavycon_auto_contact, only: auto_contact, has_closed_form, has_expansions
+   use wavycon_series_contact, only: series_contact, paper_constraint_points, paper_harmonics, qp_options
+   use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
+   use wavycon_constraint_points, only: choose_points
+   use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
+   use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
+   use wavycon_fitted_contact, only: fitted_contact, fitted_options
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_formula_kinds, only: paper_waves
+   use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
+   use wavycon_grid_contact, only: grid_contact, grid_options
+   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
+      words_of
+   use wavycon_kinds, only: dp
+   use wavycon_paper_wave, only: has_smaller_cell, is_paper_wave
+   use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
+   use wavycon_problems, only: problem_list_type
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: method_table, check_method_group, points_of_grid, solvers_for, traits_of, start_solver, why_chosen
+
+   !> All solvers, in the order of the key reference.
+   character(*), parameter :: names = 'auto beale series fitted grid closed_form'
+
+   !> Largest values of the series accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run
+   !> for hours.
+   integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
+   !> Most elements of its constraints' matrix. A few copies of it exist at a time, each of 160 MB.
+   real(dp), parameter :: most_elements = 2.0e7_dp
+   !> The choices of its `symmetry`, in the order of the key.
+   integer, parameter :: symmetry_is(*) = [symmetry_full, symmetry_diagonal, symmetry_none]
+
+contains
+
+   !> The table of keys of &method: `solver` and the keys of all solvers.
+   function method_table() result(table)
+      type(key_group_type) :: table
+
+      type(qp_options) :: default
+
+      table = key_group_type('method', 'how the contact is computed', selector='solver', keys=[ &
+         key_type(choice_value, 'solver', "'auto'", '', &
+            "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for "// &
+            "loads at which these are not accurate enough, otherwise and with a hardness 'grid'. 'beale': the "// &
+            "paper's truncated Fourier series for its waves, with Beale's method as the minimiser of the energy. "// &
+            "'series': the same with Goldfarb and Idnani's dual method, for many harmonics. "// &
+            "'fitted': collocation fitted to the edge of contact, of spots or of closed pools of gap. 'grid': ever "// &
+            "finer grids until mean gap, area and peak pressure are accurate. 'closed_form': Westergaard's "// &
+            "solution of the 1-D wave.", choices=names), &
+         of('beale series', [ &
+            key_type(integer_value, 'harmonics', '9 (2-D), 10 (1-D)', '', &
+               'highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
+            key_type(integer_value, 'constraint_points', 'in proportion to harmonics', '', &
+               'equally spaced points on half a wavelength, ends included, in each direction, at which the '// &
+               'pressure is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in '// &
+               "2-D and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
+               maxval(most_constraint_points)), &
+            key_type(choice_value, 'symmetry', "'full'", '', &
+               "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
+               "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
+               choices='full diagonal none'), &
+            key_type(real_value, 'edge_level', short_number(default%edge_level), 'p*', &
+               'the isobar that is taken as the edge of contact.', above=0, below=1)]), &
+         of('grid fitted auto', &
+            key_type(real_value, 'accuracy', short_number(default_accuracy), '-', &
+               'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
+               "'fitted' with lines, map, contours, spots, histograms or details also of the gap at a trough. A "// &
+               'load that misses it has the status not_accurate.', 1e-12_dp, 0.1_dp, way=10)), &
+         of('grid auto', [ &
+            key_type(integer_value, 'grid_points', '', '', &
+               'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for '// &
+               'both. Even numbers. For height maps, read or made, the default is their own grid. Errors are '// &
+               'estimated from 64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, &
+               way=11), &
+            key_type(real_value, 'residual', '', '-', &
+               'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
+               'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
+               'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=11)])])
+   end function method_table
+
+   !> Sets the defaults that depend on the surface and checks the keys against the solver.
+   subroutine check_method_group(values, surface, problems)
+      type(group_values), intent(inout) :: values
+      type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
+      type(problem_list_type), intent(inout) :: problems
+
+      character(:), allocatable :: solver, words
+
+      call values%check_relations(problems)
+      ! Without a surface the remaining checks would report problems that are not there.
+      if (.not. allocated(surface) .or. values%is_bad('solver')) return
+      solver = values%text('solver')
+      words = refusal(solver, surface)
+      if (words /= '') then
+         call values%complain(problems, 'solver', "solver = '"//solver//"' "//words//'. Give '//solvers_for(surface))
+         return
+      end if
+      select case (solver)
+      case ('beale', 'series')
+         call check_series_keys(values, surface, problems)
+      case ('grid', 'auto')
+         call check_grid_keys(values, surface, problems)
+      end select
+   end subroutine check_method_group
+
+   !> Why a solver cannot solve a surface, as the end of a sentence such as 'is for the 1-D wave'; empty if it can.
+   function refusal(solver, surface) result(words)
+      character(*), intent(in) :: solver
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      type(fitted_frame) :: frame
+
+      words = ''
+      if (any(solver == ['fitted     ', 'closed_form']) .and. surface%has_hardness()) &
+         words = 'has no solution with a hardness'
+      select case (solver)
+      case ('beale', 'series')
+         if (.not. is_paper_wave(surface)) words = 'is for the waves of the paper: '//paper_waves
+      case ('closed_form')
+         if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
+      case ('fitted')
+         call find_frame(surface, frame)
+         ! A flat surface is in full contact at every load: no expansion is needed.
+         if (.not. allocated(frame%lattice) .and. surface%amplitude > 0.0_dp) words = &
+            "is for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
+            ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
+            ':1 and for three equal waves at 60 degrees'
+      end select
+   end function refusal
+
+   !> The solvers that can solve a surface, such as "'grid' or 'auto'"; of these only those whose solutions have
+   !> details, or the coefficients of a series: '' if there is none.
+   function solvers_for(surface, trait) result(words)
+      type(surface_type), intent(in) :: surface
+      character(*), intent(in), optional :: trait   !! 'details' or 'coefficients'
+      character(:), allocatable :: words
+
+      character(name_length), allocatable :: solvers(:)
+      integer :: i
+
+      allocate (solvers, source=words_of(names))
+      solvers = pack(solvers, [(refusal(trim(solvers(i)), surface) == '', i=1, size(solvers))])
+      if (present(trait)) solvers = pack(solvers, [(has_trait(traits_of(solvers(i))), i=1, size(solvers))])
+      words = ''
+      if (size(solvers) > 0) words = listed(in_quotes(solvers), ' or ')
+
+   contains
+
+      pure logical function has_trait(traits)
+         type(solver_traits), intent(in) :: traits
+
+         has_trait = merge(traits%has_details, traits%has_coefficients, trait == 'details')
+      end function has_trait
+
+   end function solvers_for
+
+   !> The traits of a solver before it is started.
+   type(solver_traits) function traits_of(name) result(traits)
+      character(*), intent(in) :: name   !! of a solver
+
+      class(contact_solver), allocatable :: solver
+
+      call allocate_solver(name, solver)
+      if (allocated(solver)) traits = solver%traits()
+   end function traits_of
+
+   subroutine allocate_solver(name, solver)
+      character(*), intent(in) :: name
+      class(contact_solver), allocatable, intent(out) :: solver   !! not allocated if no solver has the name
+
+      select case (name)
+      case ('beale', 'series')
+         allocate (series_contact :: solver)
+      case ('grid')
+         allocate (grid_contact :: solver)
+      case ('fitted')
+         allocate (fitted_contact :: solver)
+      case ('closed_form')
+         allocate (closed_form_contact :: solver)
+      case ('auto')
+         allocate (auto_contact :: solver)
+      end select
+   end subroutine allocate_solver
+
+   !> Makes the solver that &method names and starts it. Not allocated if no solver has that name.
+   subroutine start_solver(surface, values, keep_fields, solver, description)
+      type(surface_type), intent(in) :: surface      !! which the solver does not refuse
+      type(group_values), intent(in) :: values       !! of &method, without problems
+      logical, intent(in) :: keep_fields             !! whether fields, edges or details of solutions will be needed
+      class(contact_solver), allocatable, intent(out) :: solver
+      character(:), allocatable, intent(out), optional :: description   !! the discretisation, for log and tables
+
+      character(*), parameter :: closed_form = "closed form (Westergaard's solution)"
+      character(:), allocatable :: fitted, words
+      type(solver_traits) :: traits
+
+      call allocate_solver(values%text('solver'), solver)
+      if (.not. allocated(solver)) return
+      words = ''
+      fitted = 'collocation fitted to the edge to within '//short_number(values%real('accuracy'))
+      select type (solver)
+      type is (series_contact)
+         call solver%start(surface, qp_options( &
+            values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
+            values%real('edge_level'), values%text('solver') == 'beale'))
+         words = series_in_words(values, surface)
+      type is (closed_form_contact)
+         call solver%start(surface)
+         words = closed_form
+      type is (fitted_contact)
+         call solver%start(surface, fitted_options(values%real('accuracy')), keep_fields)
+         words = fitted
+      class is (grid_contact)
+         ! auto_contact extends it.
+         call solver%start(surface, grid_options(values%real('accuracy'), points_of_grid(values, surface), &
+                                                values%real('residual')), keep_fields)
+         traits = solver%traits()
+         words = grid_in_words(values, surface)
+         if (traits%choice == has_closed_form) words = closed_form
+         if (traits%choice == has_expansions) words = fitted//', grids where it cannot'
+      end select
+      if (present(description)) call move_alloc(words, description)
+   end subroutine start_solver
+
+   !> Why the solvers were taken, as a sentence for --check; empty for other solvers than 'auto'.
+   pure function why_chosen(traits) result(words)
+      type(solver_traits), intent(in) :: traits   !! of the started solver
+      character(:), allocatable :: words
+
+      character(*), parameter :: reasons(0:*) = [character(112) :: '', &   ! in the order of wavycon_auto_contact
+         'the surface is the 1-D wave, which has a closed form', &
+         "the surface has a lattice of equal spots; grids solve the loads for which 'fitted' is not accurate enough", &
+         'the surface has neither a closed form nor a lattice of equal spots', &
+         "neither the closed form nor 'fitted' has a hardness", &
+         'the points of the grid are given', &
+         'a height map is solved on its own points unless an accuracy is given']
+
+      words = trim(reasons(traits%choice))
+   end function why_chosen
+
+   !> Sets the defaults that depend on the surface, and reports numbers that do not fit each other or the memory.
+   subroutine check_series_keys(values, surface, problems)
+      type(group_values), intent(inout) :: values
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      integer :: constraints, harmonics, points, unknowns
+
+      call values%set_default('harmonics', [real(paper_harmonics(surface%dimension), dp)])
+      call values%set_default('constraint_points', &
+                              [real(paper_constraint_points(surface%dimension, values%integer('harmonics')), dp)])
+      if (surface%dimension == 1) then
+         call values%leave_out('symmetry')
+         if (values%has('symmetry')) call values%complain(problems, 'symmetry', &
+                                                          'symmetry means nothing in 1-D: leave it out')
+      end if
+      if (values%is_bad('harmonics') .or. values%is_bad('constraint_points')) return
+      harmonics = values%integer('harmonics')
+      points = values%integer('constraint_points')
+      if (points > most_constraint_points(surface%dimension)) then
+         call values%complain(problems, 'constraint_points', 'constraint_points must be at most '// &
+            integer_text(most_constraint_points(surface%dimension))//' in '//integer_text(surface%dimension)// &
+            '-D, got '//integer_text(points))
+      else if (points <= harmonics) then
+         call problems%add(max(values%place_of('harmonics'), values%place_of('constraint_points')), &
+            'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
+            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
+      else if (.not. values%is_bad('symmetry')) then
+         call find_size(values, surface, unknowns, constraints)
+         if (real(unknowns, dp)*constraints*merge(2, 1, surface%has_hardness()) > most_elements) &
+            call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
+               ' and constraint_points = '//integer_text(points)//' make '//integer_text(unknowns)// &
+               ' unknowns and '//integer_text(constraints)//' constraints: too many for the memory. Give fewer '// &
+               'constraint_points (harmonics + 1 serve well), or a symmetry')
+      end if
+   end subroutine check_series_keys
+
+   !> The size of the quadratic programme.
+   subroutine find_size(values, surface, unknowns, constraints)
+      type(group_values), intent(in) :: values
+      type(surface_type), intent(in) :: surface
+      integer, intent(out) :: unknowns, constraints   !! without those of a hardness, which are as many again
+
+      type(fourier_terms) :: terms
+      integer, allocatable :: k(:), l(:)
+
+      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
+      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
+      unknowns = terms%count
+      constraints = size(k)
+   end subroutine find_size
+
+   pure integer function symmetry_of(values) result(symmetry)
+      type(group_values), intent(in) :: values
+
+      symmetry = symmetry_is(values%choice('symmetry'))
+   end function symmetry_of
+
+   !> The discretisation of the series in words.
+   function series_in_words(values, surface) result(words)
+      type(group_values), intent(in) :: values   !! of &method
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      integer :: constraints, unknowns
+
+      call find_size(values, surface, unknowns, constraints)
+      words = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
+              integer_text(constraints*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
+              short_number(values%real('edge_level'))
+   end function series_in_words
+
+   !> The grid in effect on the whole cell, along x and y: that of the deck, which refers to surface%parts(), or,
+   !> without an accuracy, that which the surface was given on. Zeros if the accuracy decides.
+   pure function points_of_grid(values, surface) result(points)
+      type(group_values), intent(in) :: values     !! of &method
+      type(surface_type), intent(in) :: surface
+      integer :: points(2)
+
+      points = surface%parts()*nint(values%pair('grid_points'))
+      if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
+   end function points_of_grid
+
+   !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
+   !> solved on one given grid. Writes grid_points in full to the resolved deck. Reports a residual without a given
+   !> grid, and odd numbers of points.
+   subroutine check_grid_keys(values, surface, problems)
+      type(group_values), intent(inout) :: values  !! of &method
+      type(surface_type), intent(in) :: surface
+      type(problem_list_type), intent(inout) :: problems
+
+      real(dp) :: points(2)
+
+      if (values%has('grid_points') .and. .not. values%is_bad('grid_points')) then
+         points = values%pair('grid_points')
+         call values%set('grid_points', points(:surface%dimension))
+      end if
+      if (.not. values%has('accuracy') .and. (values%has('grid_points') .or. all(surface%points > 0))) then
+         call values%set_default('accuracy', [0.0_dp])
+         call values%leave_out('accuracy')
+      end if
+      if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
+         call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on '// &
+                              'its own points: other grids have the residual that their accuracy takes')
+      if (.not. surface%mirrored .and. any(mod(nint(values%reals('grid_points')), 2) /= 0)) &
+         call values%complain(problems, 'grid_points', &
+         'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
+   end subroutine check_grid_keys
+
+   !> The grid in words.
+   pure function grid_in_words(values, surface) result(words)
+      type(group_values), intent(in) :: values     !! of &method
+      type(surface_type), intent(in) :: surface
+      character(:), allocatable :: words
+
+      integer :: points(2)
+
+      points = points_of_grid(values, surface)/surface%parts()
+      if (all(points > 0)) then
+         words = 'a grid of '//integer_text(points(1))
+         if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
+         words = words//' points'
+         if (values%real('residual') > 0.0_dp) words = words//' to a residual of '// &
+                                                    short_number(values%real('residual'))
+      else
+         words = 'grids refined until mean gap, area and peak pressure are within '// &
+                 short_number(values%real('accuracy'))
+      end if
+      if (surface%mirrored) then
+         words = words//', on the map without its mirror images'
+      else if (surface%shape%is_even()) then
+         words = words//', on a quarter of the cell'
+      end if
+      if (all(points == 0) .and. has_smaller_cell(surface)) words = words//' turned by 45 degrees'
+   end function grid_in_words
+
+end module wavycon_methods

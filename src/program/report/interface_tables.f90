@@ -1,0 +1,199 @@
+!> Tables of what follows from the contact for the interface.
+!>
+!> <case>.interface.dat: contact stiffness and resistance, and how mean gap and contact area change with the load.
+!> <case>.partial_slip.dat: stick area, displacement and energy a cycle of each load and tangential load.
+!> <case>.slip_loop.dat: a block of each with the tangential load against the displacement.
+!> <case>.adhesion.dat: the contact with adhesion. Blocks: the curve of pressure against area and approach; pull-off and
+!> jump into full contact; the loads.
+module wavycon_interface_tables
+   use wavycon_adhesive_curve, only: adhesive_point, point_names
+   use wavycon_contact_measures, only: is_known, load_derivatives, or_nan
+   use wavycon_contact_status, only: no_load, status_code, status_name
+   use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
+   use wavycon_partial_slip, only: cycle_energy, relative_displacement
+   use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_table, only: table_type
+   implicit none (type, external)
+   private
+
+   public :: interface_tables
+
+contains
+
+   !> The tables of this file.
+   function interface_tables() result(tables)
+      type(table_type) :: tables(4)
+
+      tables(1) = table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
+         columns='load[#] pbar_over_pstar[-] mean_pressure[pressure] '// &
+         'contact_stiffness[pressure/length] contact_stiffness_error[pressure/length] '// &
+         'contact_stiffness_normalised[-] contact_stiffness_normalised_error[-] contact_area_slope[-] '// &
+         'contact_area_slope_error[-] mean_gap_curvature[-] mean_gap_curvature_error[-] '// &
+         'contact_resistance[resistivity*length] contact_resistance_error[resistivity*length] status_code[#] '// &
+         'status[word]')
+      tables(2) = table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
+         needs_fields=.true., put_load=put_slip, &
+         columns='load[#] tangential[#] mean_pressure[pressure] tangential_load[pressure] '// &
+         'tangential_over_limit[-] stick_pbar_over_pstar[-] contact_area_fraction[-] stick_area_fraction[-] '// &
+         'stick_area_error[-] displacement[length] displacement_error[length] least_displacement[length] '// &
+         'most_displacement[length] tangential_stiffness[pressure/length] cycle_energy[pressure*length] '// &
+         'cycle_energy_error[pressure*length] status_code[#] status[word]')
+      tables(3) = table_type('slip_loop', 'slip_loop', 'interface', put_load=put_loop, &
+         columns='load[#] tangential[#] branch[#] tangential_load[pressure] displacement[length]')
+      tables(4) = table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
+         ''], needs_fields=.true., blocks=3, put_load=put_adhesion, &
+         columns='load[#] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
+         'force[force] mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
+         'contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] least_release_over_w[-] '// &
+         'most_release_over_w[-] point[word]')
+   end function interface_tables
+
+   !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
+   !> resistance of a nominal area follows from it (I8).
+   subroutine put_interface(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(load_derivatives) :: slopes
+      real(dp) :: resistance(2), stiffness(2)
+
+      associate (solution => results%loads(load), surface => results%solver%surface, scene => results%scene)
+         stiffness = not_a_number()
+         resistance = not_a_number()
+         if (solution%status == no_load) then
+            stiffness = 0.0_dp
+         else if (solution%has_numbers()) then
+            call solution%derivatives(surface, slopes)
+            if (slopes%gap_slope < 0.0_dp) stiffness = [-1.0_dp, or_nan(slopes%gap_slope_error)/slopes%gap_slope] &
+                                                       /slopes%gap_slope
+            if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) resistance = &
+               scene%interface_setting%resistivity*(0.5_dp*scene%e_star/scene%p_star*surface%amplitude) &
+               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
+         end if
+         call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
+                            results%mean_pressure(load), stiffness*scene%p_star/surface%amplitude, &
+                            results%in_p_star([stiffness, or_nan([slopes%area_slope, slopes%area_slope_error])]), &
+                            results%in_p_star(or_nan([slopes%gap_curvature, slopes%gap_curvature_error])), &
+                            resistance, status_code(solution%status)], [status_name(solution%status)])
+      end associate
+   end subroutine put_interface
+
+   !> The tangential stiffness is that of the next increase of the load.
+   subroutine put_slip(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(load_derivatives) :: slopes(2)   ! at P and P*
+      integer :: i
+      real(dp) :: displacement(2), energy(2), of_stick(3), stiffness
+
+      associate (solution => results%loads(load), setting => results%scene%interface_setting, &
+                 p_star => results%scene%p_star, amplitude => results%solver%surface%amplitude)
+         call solution%derivatives(results%solver%surface, slopes(1))
+         do i = 1, size(results%slip, 1)
+            associate (slip => results%slip(i, load), stick => results%slip(i, load)%stick)
+               stiffness = not_a_number()
+               displacement = not_a_number()
+               energy = not_a_number()
+               of_stick = not_a_number()
+               if (stick%has_numbers()) then
+                  of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%measures%contact_area_fraction, &
+                              or_nan(stick%measures%contact_area_error)]
+                  displacement = setting%friction*amplitude*or_nan(relative_displacement(solution, stick))
+                  call stick%derivatives(results%solver%surface, slopes(2))
+                  if (results%traits%has_errors) then
+                     energy = setting%kappa(1)*setting%friction**2*p_star*amplitude* &
+                              or_nan(cycle_energy(solution, stick, slopes))
+                  else
+                     of_stick(3) = not_a_number()
+                     displacement(2) = not_a_number()
+                  end if
+                  if (slopes(2)%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes(2)%gap_slope)
+               end if
+               call file%put_row([real(dp) :: load, i, results%mean_pressure(load), p_star*slip%tangential, &
+                                  slip%tangential/(setting%friction*solution%pbar_over_pstar), of_stick(1), &
+                                  solution%measures%contact_area_fraction, of_stick(2:), &
+                                  setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, &
+                                  energy, status_code(slip%status)], [status_name(slip%status)])
+            end associate
+         end do
+      end associate
+   end subroutine put_slip
+
+   !> Branch 1 is loading; 2, from Q to -Q, and 3, back to Q, follow by Masing's rule.
+   subroutine put_loop(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      real(dp) :: point(2)   !! tangential load [p*], displacement over kappa f [Delta]
+      integer :: branch, i, k
+
+      associate (setting => results%scene%interface_setting, p_star => results%scene%p_star, &
+                 amplitude => results%solver%surface%amplitude)
+         do i = 1, size(results%slip, 1)
+            associate (slip => results%slip(i, load))
+               call file%begin_block('load '//integer_text(load)//', tangential load '//integer_text(i)//': '// &
+                                     exact_number(p_star*slip%tangential))
+               if (.not. allocated(slip%approach_change)) cycle
+               associate (n => size(slip%approach_change), u => slip%approach_change)
+                  do branch = 1, 3
+                     do k = 1, n
+                        point = [slip%tangential*(k - 1)/(n - 1), u(k)]
+                        if (branch == 2) point = [slip%tangential, u(n)] - 2*point
+                        if (branch == 3) point = 2*point - [slip%tangential, u(n)]
+                        call file%put_row([real(dp) :: load, i, branch, &
+                                           point*[p_star, setting%kappa(1)*setting%friction*amplitude]])
+                     end do
+                  end do
+               end associate
+            end associate
+         end do
+      end associate
+   end subroutine put_loop
+
+   !> Block 1 is the curve, 2 its critical points, 3 the loads.
+   subroutine put_adhesion(results, block, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: block
+      type(output_file), intent(inout) :: file
+
+      character(*), parameter :: titles(3) = &
+         [character(64) :: 'the curve, by the pressure P1 of the contact without adhesion', &
+          'pull-off and jump into full contact', 'the loads: stable and unstable points']
+      type(adhesive_point), allocatable :: points(:)
+      integer :: i
+      real(dp) :: mean_pressure, numbers(12)
+
+      call file%begin_block(trim(titles(block)))
+      select case (block)
+      case (1)
+         allocate (points, source=results%adhesion%points)
+      case (2)
+         allocate (points, source=results%adhesion%critical)
+      case default
+         allocate (points, source=results%adhesion%at_loads)
+      end select
+      associate (surface => results%solver%surface)
+         do i = 1, size(points)
+            associate (point => points(i))
+               mean_pressure = results%scene%p_star*point%load
+               numbers = not_a_number()
+               if (point%exists) numbers = &
+                  [results%in_p_star([point%load, or_nan(point%load_error)]), mean_pressure, &
+                   mean_pressure*surface%nominal_area(), &
+                   results%in_p_star([1.0_dp - point%approach, or_nan(point%approach_error)]), &
+                   surface%amplitude*point%approach, point%area, or_nan(point%area_error), &
+                   surface%nominal_area()*point%area, point%release_range]
+               call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
+                                 [merge(point_names(point%kind), 'none                ', point%exists)])
+            end associate
+         end do
+      end associate
+   end subroutine put_adhesion
+
+end module wavycon_interface_tables

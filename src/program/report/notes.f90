@@ -1,0 +1,417 @@
+!> What the log says of a run: its input, the tables of the solved loads and of the largest stresses, and what a user
+!> should know of the solutions.
+module wavycon_notes
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_series_contact, only: paper_errors
+   use wavycon_constants, only: pi
+   use wavycon_contact_measures, only: is_known, or_nan
+   use wavycon_contact_status, only: converged, not_found, status_name, unresolved
+   use wavycon_contact_tuning, only: border, least_concentration
+   use wavycon_error, only: exit_fine, exit_not_converged
+   use wavycon_head_lines, only: head_lines
+   use wavycon_kinds, only: dp
+   use wavycon_map_statistics, only: map_statistics
+   use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_run_log, only: run_log
+   use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
+   use wavycon_solution_record, only: by_beale, by_dual, solution_record, solver_names
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: note_loads, note_scene, outcome, show_loads, show_scene, show_stresses, sum_up
+
+   !> A line that grows column by column, together with that of the names.
+   type :: log_line
+      character(:), allocatable :: names, words
+   contains
+      procedure :: start
+      procedure :: add
+   end type log_line
+
+contains
+
+   !> Writes the input in effect: deck, surface, material, method and loads, and what is suspicious of it.
+   subroutine show_scene(results, log)
+      type(results_type), intent(in) :: results   !! started
+      type(run_log), intent(inout) :: log
+
+      character(:), allocatable :: words
+      real(dp) :: loads(size(results%scene%target))
+
+      associate (scene => results%scene, surface => results%solver%surface)
+         call log%say(head_lines(scene, surface, results%method, '', 'some'))
+         words = scene%deck_path(index(scene%deck_path, '/', back=.true.) + 1:)
+         if (index(words//'.nml', '.nml') > 1) words = words(:index(words//'.nml', '.nml') - 1)
+         if (.not. scene%scene_values%has('case') .and. index(scene%case, words) /= 1) call log%note( &
+            'the results have the name '//scene%case//", with '_' for characters of the deck's name")
+         loads = scene%target
+         words = trim(target_words(scene%loads_by))
+         if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
+            loads = surface%nominal_area()*scene%mean_pressure
+            words = 'force'
+         end if
+         call log%say('loads: '//integer_text(size(loads))//', '//words//' from '//short_number(minval(loads))// &
+                      ' to '//short_number(maxval(loads)))
+         if (results%sharing%words() /= '') call log%say('ranks: '//results%sharing%words())
+         call note_scene(scene, log)
+      end associate
+   end subroutine show_scene
+
+   !> Notes what is suspicious of a scene before its loads are solved.
+   subroutine note_scene(scene, log)
+      type(scene_type), intent(in) :: scene
+      type(run_log), intent(inout) :: log
+
+      if (allocated(scene%map)) call note_map(scene, scene%map, log)
+      call note_slopes(scene, log)
+   end subroutine note_scene
+
+   !> Says what is suspicious of a height map.
+   subroutine note_map(scene, map, log)
+      type(scene_type), intent(in) :: scene
+      type(map_statistics), intent(in) :: map   !! of the scene
+      type(run_log), intent(inout) :: log
+
+      !> Least slope by differences over that of the series. Noise that lowers it to 0.9 takes a quarter or more of the
+      !> contact area at light loads: see the table of src/core/map/README.md.
+      real(dp), parameter :: least_ratio = 0.9_dp
+      character(:), allocatable :: remedies
+      integer :: direction
+
+      if (map%lacks_missing_value) call log%note('no height of the file has the missing_value of the deck')
+      if (map%spikes > 0) call log%note(integer_text(map%spikes)//' of the heights are far from all '// &
+         'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
+         'surface does not. Remedy: despike = .true.')
+      remedies = "edges = 'mirror', edges = 'window'"
+      if (map%changes%detrend /= 'plane' .and. map%changes%detrend /= 'quadratic') &
+         remedies = "detrend = 'plane', "//remedies
+      do direction = 1, 2
+         if (map%is_broken_along(direction)) call log%note('along '//'xy'(direction:direction)// &
+            ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['// &
+            scene%length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
+            '; such steps carry load. Remedies: '//remedies)
+      end do
+      ! A broken border is a step between two points.
+      if (map%slope_by_differences >= least_ratio*scene%roughness%slope .or. any(map%is_broken_along([1, 2]))) return
+      call log%note('the rms slope is '//short_number(scene%roughness%slope)// &
+                   ', by differences of neighbours only '//short_number(map%slope_by_differences)// &
+                   ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
+                   'they make contact areas smaller')
+   end subroutine note_map
+
+   !> Warns of a surface that is too steep for the theory, if the deck has units, and of one that is all but flat: most
+   !> likely by a mistake of units.
+   subroutine note_slopes(scene, log)
+      type(scene_type), intent(in) :: scene
+      type(run_log), intent(inout) :: log
+
+      !> The theory of small slopes is off by the order of their square, here a tenth.
+      real(dp), parameter :: steepest = 0.3_dp
+      !> Heights in m beside sides in um make slopes of 1e-4 (polished silicon) to 10 a million times smaller.
+      real(dp), parameter :: flattest = 1e-5_dp
+      character(:), allocatable :: borders, cause, verdict
+      logical :: is_flat
+
+      is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
+      if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
+      verdict = '; the theory needs small ones.'
+      if (is_flat) verdict = '; those of real surfaces are larger.'
+      borders = ''
+      cause = 'Are amplitudes and wavelengths in one unit?'
+      if (allocated(scene%map)) then
+         if (scene%surface_values%text('kind') == 'file') &
+            cause = 'Do height_scale, and the sides of the cell, suit the units of the heights?'
+         if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
+      end if
+      call log%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
+                   verdict//' '//cause)
+   end subroutine note_slopes
+
+   !> A line for each load: mean gap, area and peak pressure, each followed by its error estimate; mean and peak
+   !> pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges force, approach, area
+   !> and peak pressure in the deck's units.
+   subroutine show_loads(results, log)
+      type(results_type), intent(in) :: results   !! with a solution for each load
+      type(run_log), intent(inout) :: log
+
+      character(9) :: names(3)
+      integer :: i, load, solver_width
+      real(dp) :: approach(2), errors(3), unit(3), values(3)
+      type(log_line) :: line
+
+      if (log%quiet) return
+      ! The longest name of a solver among the loads.
+      solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
+      names = [character(9) :: 'gap/Delta', 'area/A0', 'peak/p*']
+      unit = 1.0_dp
+      associate (surface => results%solver%surface, scene => results%scene)
+         if (surface%has_free_edges) then
+            names = [character(9) :: 'approach', 'area', 'peak']
+            unit = [surface%amplitude, surface%nominal_area(), scene%p_star]
+         end if
+         do load = 1, size(results%loads)
+            associate (measures => results%loads(load)%measures)
+               values = [measures%mean_gap_over_amplitude, measures%contact_area_fraction, &
+                         or_nan(measures%peak_pressure_over_pstar)]
+               errors = or_nan(measures%errors())
+            end associate
+            if (.not. results%traits%has_errors) errors = not_a_number()
+            if (surface%has_free_edges) then
+               approach = results%approach_over_amplitude(load)
+               values(1) = approach(1)
+               errors(1) = approach(2)
+            end if
+            call line%start(results, load)
+            do i = 1, size(names)
+               call line%add(trim(names(i)), unit(i)*values(i))
+               call line%add('error', unit(i)*errors(i))
+            end do
+            if (scene%gives_modulus .and. .not. surface%has_free_edges) &
+               call line%add('peak['//scene%pressure_unit//']', results%peak_pressure(load))
+            if (load == 1) call log%say(line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)//'status')
+            call log%say(line%words//' '//solver_names(results%loads(load)%solver)(:solver_width)//'  '// &
+                         trim(status_name(results%loads(load)%status)))
+         end do
+      end associate
+   end subroutine show_loads
+
+   !> A line for each load and body: von Mises stress and shear stress, each followed by its error estimate, and the
+   !> depth of the first over the side of the cell along x; with free edges all in the deck's units. The von Mises
+   !> stress in the deck's unit too if the deck gives a modulus, and the ratio to the yield stress if it gives one.
+   subroutine show_stresses(results, log)
+      type(results_type), intent(in) :: results   !! with the largest stresses
+      type(run_log), intent(inout) :: log
+
+      character(40) :: names(3)
+      character(:), allocatable :: in_unit
+      integer :: body, load
+      real(dp) :: depth_unit, stress_unit
+      type(log_line) :: line
+
+      associate (scene => results%scene, surface => results%solver%surface)
+         in_unit = '['//scene%pressure_unit//']'
+         stress_unit = 1.0_dp
+         depth_unit = 1.0_dp
+         names = [character(40) :: 'vMises/p*', 'depth/cell', 'shear/p*']
+         if (surface%has_free_edges) then
+            stress_unit = scene%p_star
+            depth_unit = surface%length(1)
+            names = [character(40) :: 'vMises'//in_unit, 'depth['//scene%length_unit//']', 'shear'//in_unit]
+         end if
+         do load = 1, size(results%loads)
+            do body = 1, size(results%von_mises, 1)
+               associate (yielding => results%von_mises(body, load), shear => results%shear(body, load))
+                  call line%start(results, load)
+                  call line%add('body', real(body, dp))
+                  call line%add(trim(names(1)), stress_unit*yielding%value)
+                  call line%add('error', stress_unit*yielding%error)
+                  call line%add(trim(names(2)), depth_unit*yielding%place(3)/(2*pi))
+                  call line%add(trim(names(3)), stress_unit*shear%value)
+                  call line%add('error', stress_unit*shear%error)
+                  if (scene%gives_modulus .and. .not. surface%has_free_edges) &
+                     call line%add('vMises'//in_unit, scene%p_star*yielding%value)
+                  if (allocated(scene%stress_setting%yield_stress)) call line%add( &
+                     'over yield', scene%stress_setting%over_yield_stress(body, yielding%value, shear%value))
+               end associate
+               if (load == 1 .and. body == 1) call log%say(line%names)
+               call log%say(line%words)
+            end do
+         end do
+      end associate
+   end subroutine show_stresses
+
+   !> Starts a line with the mean pressure or, with free edges, the force.
+   subroutine start(self, results, load)
+      class(log_line), intent(out) :: self
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+
+      self%names = ''
+      self%words = ''
+      if (results%solver%surface%has_free_edges) then
+         call self%add('force', results%solver%surface%nominal_area()*results%mean_pressure(load))
+      else
+         call self%add('pbar/p*', results%loads(load)%pbar_over_pstar)
+         if (results%scene%gives_modulus) &
+            call self%add('pbar['//results%scene%pressure_unit//']', results%mean_pressure(load))
+      end if
+   end subroutine start
+
+   !> Adds a number at the right of a column; of an error estimate two digits, and '-' if it is unknown.
+   subroutine add(self, name, number)
+      class(log_line), intent(inout) :: self
+      character(*), intent(in) :: name
+      real(dp), intent(in) :: number
+
+      character(12) :: buffer
+      character(:), allocatable :: words
+      integer :: width
+      real(dp) :: rounded
+
+      width = max(13, len(name) + 2)
+      words = short_number(number)
+      if (name == 'error') then
+         width = 9
+         write (buffer, '(es12.1e3)') number
+         read (buffer, *) rounded
+         words = short_number(rounded)
+         if (ieee_is_nan(number)) words = '-'
+      end if
+      self%names = self%names//repeat(' ', max(0, width - len(name)))//name
+      self%words = self%words//repeat(' ', max(0, width - len(words)))//words
+   end subroutine add
+
+   !> Writes the last lines of the log and finds the exit status.
+   subroutine sum_up(results, log, status)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+      integer, intent(out) :: status
+
+      integer :: load
+
+      associate (scene => results%scene)
+         call note_loads(results, scene%loads_by, results%loads%solution_record, log)
+         if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
+         call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
+      end associate
+      call log%say(outcome(results))
+      status = exit_fine
+      if (.not. all([(results%is_solved(load), load=1, size(results%loads))])) status = exit_not_converged
+   end subroutine sum_up
+
+   !> How many loads of a run were solved as requested, in a line.
+   function outcome(results) result(words)
+      type(results_type), intent(in) :: results   !! with a solution for each load
+      character(:), allocatable :: words
+
+      integer :: bad, load
+
+      bad = count([(.not. results%is_solved(load), load=1, size(results%loads))])
+      words = results%scene%case//': all '//integer_text(size(results%loads))//' loads solved'
+      if (bad > 0) words = results%scene%case//': '//integer_text(bad)//' of '//integer_text(size(results%loads))// &
+                           ' loads NOT solved as requested, see the status column'
+   end function outcome
+
+   !> Notes what a user should know of solutions.
+   subroutine note_loads(results, loads_by, loads, log)
+      type(results_type), intent(in) :: results       !! started
+      integer, intent(in) :: loads_by                 !! how the loads were given, a name of wavycon_scene
+      type(solution_record), intent(in) :: loads(:)   !! the solutions
+      type(run_log), intent(inout) :: log
+
+      integer :: without_area
+      logical :: is_series(size(loads))
+
+      associate (scene => results%scene, surface => results%solver%surface)
+         call note_unresolved(surface, loads, log)
+         is_series = loads%solver == by_beale .or. loads%solver == by_dual
+         if (any(is_series)) call log%note( &
+            "the errors of the paper's truncated series are not estimated: with its harmonics and points they are "// &
+            'up to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
+            ' in area/A0 and '//short_number(paper_errors(3))//' in peak/p* from 0.05 to 0.9 p*, more at other '// &
+            "loads. solver = 'auto' gives digits, with error estimates")
+         call note_some(count(is_series .and. loads%measures%mean_gap_over_amplitude < 0.0_dp), &
+                        'the mean gap is below 0, where no gap can be: this is an error of the series')
+         if (loads_by == by_yield) then
+            call note_some(count(loads%status == not_found), 'no mean pressure was found that brings the '// &
+                           'stresses to the given part of the yield stress')
+            if (.not. results%traits%has_errors) call log%note("solver = '"//scene%method%text('solver')// &
+               "' estimates no errors; a light load of first yield may be wrong by a factor of 2. solver = 'auto' "// &
+               'estimates them')
+         else
+            call note_unreached(loads_by, loads, log)
+         end if
+         if (scene%surface_values%text('kind') == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
+            call note_some(count(loads%measures%load_concentration >= least_concentration), &
+            "the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
+         if (surface%has_free_edges) then
+            if (any(loads%measures%load_at_border > 0.0_dp)) call log%note( &
+               'contact reaches the border: up to '//percent(maxval(loads%measures%load_at_border))// &
+               ' of the load is within '//percent(border)// &
+               ' of the sides from it, where a larger map might carry more')
+            if (surface%has_steps) call log%note('a map of two heights at most is taken as blocks, the cells of '// &
+               'its points, as a punch is')
+            if (.not. all(is_known(loads%measures%peak_pressure_over_pstar))) call log%note('where contact ends at '// &
+               'a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
+            if (surface%dimension == 1) call log%note('the approach of a profile with free edges is not '// &
+               'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
+         end if
+         without_area = count(loads%status == converged .and. loads%measures%contact_area_fraction <= 0.0_dp)
+         call note_some(without_area, 'no pressure reaches edge_level = '// &
+            short_number(scene%method%real('edge_level'))//' p*, so that the contact area shows as 0')
+      end associate
+
+   contains
+
+      !> Notes what holds for some of the loads, if it does for any.
+      subroutine note_some(number, words)
+         integer, intent(in) :: number       !! of these loads
+         character(*), intent(in) :: words
+
+         if (number > 0) call log%note('at '//integer_text(number)//' of '//integer_text(size(loads))//' loads '//words)
+      end subroutine note_some
+
+   end subroutine note_loads
+
+   !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
+   subroutine note_unreached(loads_by, loads, log)
+      integer, intent(in) :: loads_by
+      type(solution_record), intent(in) :: loads(:)
+      type(run_log), intent(inout) :: log
+
+      character(:), allocatable :: limit
+      integer :: last
+      logical :: is_unreached(size(loads))
+
+      is_unreached = loads%status == not_found .and. .not. loads%pbar_over_pstar > 0.0_dp
+      last = findloc(is_unreached, .true., dim=1, back=.true.)
+      if (last == 0) return
+      associate (measures => loads(last)%measures)
+         limit = ' mean gaps are above the largest that the grid shows, '// &
+                 short_number(measures%mean_gap_over_amplitude)
+         if (loads_by == by_contact_area) limit = &
+            ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
+      end associate
+      call log%note(integer_text(count(is_unreached))//' of '//integer_text(size(is_unreached))// &
+         limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
+         "accuracy; solver = 'fitted' has no such limit")
+   end subroutine note_unreached
+
+   !> Says which values have no error estimate and which are no larger than theirs, and what helps.
+   subroutine note_unresolved(surface, loads, log)
+      type(surface_type), intent(in) :: surface       !! that was solved
+      type(solution_record), intent(in) :: loads(:)
+      type(run_log), intent(inout) :: log
+
+      character(:), allocatable :: of_loads
+      character(32) :: values(3)
+      integer :: coarse(3), i, unknown
+
+      values = [character(32) :: 'the mean gap', 'the contact area', 'the peak pressure']
+      if (surface%has_free_edges) values(1) = 'the approach'
+      of_loads = ' of '//integer_text(size(loads))//' loads'
+      coarse = 0
+      unknown = 0
+      do i = 1, size(loads)
+         associate (solution => loads(i))
+            if (solution%status /= unresolved) cycle
+            if (any(is_known(solution%measures%errors()))) then
+               coarse = coarse + merge(0, 1, solution%measures%are_resolved(surface))
+            else
+               unknown = unknown + 1
+            end if
+         end associate
+      end do
+      if (unknown > 0) call log%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: a grid '// &
+         'has error estimates from 64 points a side on. Give more grid_points, or an accuracy')
+      if (all(coarse == 0)) return
+      do i = 1, size(values)
+         values(i) = trim(values(i))//' at '//integer_text(coarse(i))
+      end do
+      call log%note('the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
+                   ': the error is as large as the value, or unknown. Give an accuracy, or more grid_points')
+   end subroutine note_unresolved
+
+end module wavycon_notes

@@ -1,0 +1,174 @@
+!> The log of a run on standard output.
+module wavycon_run_log
+   use, intrinsic :: iso_c_binding, only: c_null_char
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_kinds, only: dp
+   use wavycon_plain_text, only: integer_text, newline, short_number
+   use wavycon_solver_progress, only: solver_progress
+   use wavycon_system, only: print_text, say_line => say, terminal_columns
+   implicit none (type, external)
+   private
+
+   public :: duration, log_progress, run_log
+
+   !> Seconds between two progress lines on a terminal.
+   real(dp), parameter :: progress_interval = 0.2_dp
+
+   type :: run_log
+      private
+      logical, public :: quiet = .false.   !! whether nothing is written
+      character(:), allocatable, public :: notes   !! those made since the start, each once: lines
+      integer :: columns = 0          !! of the terminal; 0: there is none
+      integer :: shown = 0            !! of them by the progress line
+      integer(int64) :: started = 0, last_progress = 0, rate = 1
+   contains
+      procedure :: start
+      procedure :: say
+      procedure :: note
+      procedure :: say_timed
+      procedure :: say_progress
+      procedure :: is_due
+      procedure :: elapsed
+   end type run_log
+
+   !> Shows the grids of a load as progress lines.
+   type, extends(solver_progress) :: log_progress
+      type(run_log), pointer :: log => null()
+      integer :: load = 0, loads = 0   !! number of the load being solved; number of all loads
+      integer :: solved = 0            !! loads that were solved
+      real(dp) :: last = 0.0_dp        !! when the last of them was, since the start of the log [s]
+   contains
+      procedure :: grid_solved
+      procedure :: shall_stop
+   end type log_progress
+
+contains
+
+   !> Starts the log and its clock.
+   subroutine start(self, quiet)
+      class(run_log), intent(out) :: self
+      logical, intent(in) :: quiet   !! whether to write nothing
+
+      self%quiet = quiet
+      self%notes = ''
+      self%columns = terminal_columns()
+      call system_clock(self%started, self%rate)
+      self%last_progress = self%started
+   end subroutine start
+
+   !> Writes a line.
+   subroutine say(self, line)
+      class(run_log), intent(inout) :: self
+      character(*), intent(in) :: line
+
+      if (self%quiet) return
+      ! Blanks over the progress line.
+      if (self%shown > 0) call print_text(achar(13)//repeat(' ', self%shown)//achar(13)//c_null_char)
+      self%shown = 0
+      ! A closed or full standard output does not stop the run: the results go to files. The program's end tells of it.
+      call say_line(line)
+   end subroutine say
+
+   !> Writes a note, what a user should know, and keeps it.
+   subroutine note(self, words)
+      class(run_log), intent(inout) :: self   !! started
+      character(*), intent(in) :: words       !! one line
+
+      call self%say('note: '//words)
+      if (index(newline//self%notes, newline//words//newline) == 0) self%notes = self%notes//words//newline
+   end subroutine note
+
+   !> Writes a line after the time since the start.
+   subroutine say_timed(self, line)
+      class(run_log), intent(inout) :: self
+      character(*), intent(in) :: line
+
+      character(24) :: time
+
+      write (time, '(a, f9.3, a)') '[', self%elapsed(), ' s] '
+      call self%say(trim(time)//' '//line)
+   end subroutine say_timed
+
+   !> Shows the grid that was solved last, as of `solver_progress`.
+   subroutine grid_solved(self, points, iterations, residual)
+      class(log_progress), intent(in) :: self
+      integer, intent(in) :: points(2), iterations
+      real(dp), intent(in) :: residual
+
+      if (self%log%is_due()) call self%log%say_progress(words_of_load(self)//': '//integer_text(points(1))//' x '// &
+         integer_text(points(2))//' points, '//integer_text(iterations)//' iterations, residual '// &
+         short_number(residual))
+   end subroutine grid_solved
+
+   !> Shows the iteration on a grid; never stops it.
+   logical function shall_stop(self, iterations, residual)
+      class(log_progress), intent(in) :: self
+      integer, intent(in) :: iterations
+      real(dp), intent(in) :: residual
+
+      shall_stop = .false.
+      if (self%log%is_due()) call self%log%say_progress(words_of_load(self)//': iteration '// &
+         integer_text(iterations)//', residual '//short_number(residual))
+   end function shall_stop
+
+   !> The load being solved, the time since the start and, from the second load on, what is left if the others take as
+   !> long as those before.
+   function words_of_load(self) result(words)
+      class(log_progress), intent(in) :: self
+      character(:), allocatable :: words
+
+      real(dp) :: now
+
+      now = self%log%elapsed()
+      words = 'load '//integer_text(self%load)//' of '//integer_text(self%loads)//', '//duration(now)
+      if (self%solved == 0) return
+      words = words//', some '//duration(max(0.0_dp, self%last/self%solved*(self%loads - self%load + 1) &
+                                             - (now - self%last)))//' left'
+   end function words_of_load
+
+   !> A time in words, in seconds or minutes.
+   pure function duration(seconds) result(words)
+      real(dp), intent(in) :: seconds
+      character(:), allocatable :: words
+
+      words = integer_text(nint(seconds))//' s'
+      if (seconds >= 100) words = integer_text(nint(seconds/60))//' min'
+   end function duration
+
+   !> Whether a progress line would be shown: only on a terminal and at most every progress_interval.
+   logical function is_due(self)
+      class(run_log), intent(in) :: self
+
+      integer(int64) :: now
+
+      is_due = .false.
+      if (self%quiet .or. self%columns == 0) return
+      call system_clock(now)
+      is_due = now - self%last_progress >= progress_interval*self%rate
+   end function is_due
+
+   !> Writes a progress line over the last one if it is due, cut to the width of the terminal.
+   subroutine say_progress(self, words)
+      class(run_log), intent(inout) :: self
+      character(*), intent(in) :: words
+
+      integer :: width
+
+      if (.not. self%is_due()) return
+      call system_clock(self%last_progress)
+      width = min(len(words), self%columns - 1)
+      call print_text(achar(13)//words(:width)//repeat(' ', max(0, self%shown - width))//c_null_char)
+      self%shown = width
+   end subroutine say_progress
+
+   !> Time since the start [s].
+   real(dp) function elapsed(self)
+      class(run_log), intent(in) :: self
+
+      integer(int64) :: now
+
+      call system_clock(now)
+      elapsed = real(now - self%started, dp)/self%rate
+   end function elapsed
+
+end module wavycon_run_log

@@ -1,0 +1,199 @@
+!> Tables of where the surfaces touch.
+!>
+!> <case>.contour.dat: the edge of contact as closed curves; with solver = 'beale' the isobar p = edge_level p*. It has
+!> a block for each load that has an edge, with a blank line between curves. In 2-D the contact lies to the left of a
+!> curve; curves are not cut at the border of the cell and may extend beyond it. In 1-D a curve consists of the two ends
+!> of a strip.
+!> <case>.spots.dat: how many spots of contact and pools of gap there are, and whether contact and gap percolate, a row
+!> for each load. A load without a solution has NaN.
+!> <case>.spot_sizes.dat: each spot of contact and each pool of gap, the largest first, a block for each load with a
+!> blank line between spots and pools. A load without a solution has none.
+!> <case>.histogram.dat: how pressures are distributed over the contact, and gaps over the open area, a block for each
+!> load with a row for each bin of pressure and of gap. Values are those at the points of the grid that was solved; of
+!> other solutions those at equally spaced points, with which (A7) of README.md in src/core/measure deals.
+module wavycon_spot_tables
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_constants, only: pi
+   use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_spots, only: contact_region, contact_spots
+   use wavycon_contact_status, only: status_code, status_name
+   use wavycon_histogram, only: histogram, make_histogram
+   use wavycon_kinds, only: dp
+   use wavycon_measure_tuning, only: line_samples, plane_samples
+   use wavycon_output_file, only: output_file
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_table, only: table_type
+   implicit none (type, external)
+   private
+
+   public :: spot_tables
+
+contains
+
+   !> The tables of this file.
+   function spot_tables() result(tables)
+      type(table_type) :: tables(4)
+
+      tables(1) = table_type('contour', 'contours', needs_fields=.true., put_load=put_curves, &
+         columns='load[#] curve[#] x[length] y[length]', &
+         meaning='The edge of contact as closed curves.')
+      tables(2) = table_type('spots', 'spots', needs_fields=.true., put_load=put_spots, &
+         columns='load[#] pbar_over_pstar[-] contact_area_fraction[-] spots[#] '// &
+         'spots_area_fraction[-] largest_spot_area_fraction[-] closed_pools[#] closed_pools_area_fraction[-] '// &
+         'largest_pool_area_fraction[-] perimeter[length] contact_percolates_x[#] contact_percolates_y[#] '// &
+         'gap_percolates_x[#] gap_percolates_y[#] status_code[#] status[word]', &
+         meaning='Number and sizes of contact spots and of pools of gap; percolation of both.')
+      tables(3) = table_type('spot_sizes', asked_by=[character(16) :: 'spots', ''], needs_fields=.true., &
+         put_load=put_spot_sizes, &
+         columns='load[#] rank[#] area[area] area_fraction[-] equivalent_radius[length] '// &
+         'perimeter[length] load_fraction[-] mean_pressure[pressure] x[length] y[length] holes[#] percolates_x[#] '// &
+         'percolates_y[#] region[word]')
+      tables(4) = table_type('histogram', 'histograms', needs_fields=.true., put_load=put_histogram, &
+         columns='load[#] bin[#] pressure[pressure] pressure_mean[pressure] pressure_fraction[-] '// &
+         'pressure_density[1/pressure] gap[length] gap_mean[length] gap_fraction[-] gap_density[1/length]', &
+         meaning='How pressures are distributed over the contact, and gaps over the open area.')
+   end function spot_tables
+
+   subroutine put_curves(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(contact_contour), allocatable :: curves(:)   ! in X and Y
+      integer :: i, k
+
+      associate (surface => results%solver%surface)
+         call results%loads(load)%contact_contours(surface, curves)
+         if (surface%mirrored) call keep_curves_of_quarter(curves)
+         if (size(curves) > 0) call results%begin_block(file, load)
+         do i = 1, size(curves)
+            if (i > 1) call file%put('')
+            do k = 1, size(curves(i)%phi)
+               call file%put_row([real(dp) :: load, i, surface%length*[curves(i)%phi(k), curves(i)%theta(k)]/(2*pi)])
+            end do
+         end do
+      end associate
+   end subroutine put_curves
+
+   subroutine put_spots(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(contact_spots) :: regions
+      real(dp) :: numbers(11)
+      real(dp), allocatable :: pools(:), spots(:)   ! areas
+      integer :: i
+
+      associate (solution => results%loads(load))
+         call solution%spots(results%solver%surface, regions)
+         numbers = not_a_number()
+         if (allocated(regions%spots)) then
+            spots = regions%spots%area_fraction
+            pools = pack(regions%pools%area_fraction, regions%pools%is_closed())
+            numbers = [real(dp) :: size(spots), sum(spots), max(0.0_dp, maxval(spots)), &
+                       size(pools), sum(pools), max(0.0_dp, maxval(pools)), regions%perimeter(), &
+                       (merge(1, 0, any(regions%spots%percolates(i))), i=1, 2), &
+                       (merge(1, 0, any(regions%pools%percolates(i))), i=1, 2)]
+         end if
+         call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
+                            solution%measures%contact_area_fraction, numbers, status_code(solution%status)], &
+                           [status_name(solution%status)])
+      end associate
+   end subroutine put_spots
+
+   subroutine put_spot_sizes(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(contact_spots) :: regions
+
+      call results%loads(load)%spots(results%solver%surface, regions)
+      if (.not. allocated(regions%spots)) return
+      call results%begin_block(file, load)
+      call put_regions(regions%spots, 'spot')
+      if (size(regions%spots) > 0 .and. size(regions%pools) > 0) call file%put('')
+      call put_regions(regions%pools, 'pool')
+
+   contains
+
+      !> Writes the regions of one kind, a row for each.
+      subroutine put_regions(regions, kind)
+         type(contact_region), intent(in) :: regions(:)   !! the largest first
+         character(*), intent(in) :: kind                 !! 'spot' or 'pool'
+
+         real(dp) :: area, mean_pressure, radius
+         integer :: i
+
+         associate (surface => results%solver%surface)
+            do i = 1, size(regions)
+               associate (region => regions(i))
+                  area = region%area_fraction*surface%nominal_area()
+                  ! That of the disc of this area; of a strip half its width.
+                  radius = merge(0.5_dp*area, sqrt(area/pi), surface%dimension == 1)
+                  mean_pressure = not_a_number()
+                  if (region%area_fraction > 0.0_dp) &
+                     mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
+                  call file%put_row([real(dp) :: load, i, area, region%area_fraction, radius, region%perimeter, &
+                                     region%load_fraction, mean_pressure, surface%length*region%centre/(2*pi), &
+                                     region%holes, merge(1, 0, region%percolates)], [kind])
+               end associate
+            end do
+         end associate
+      end subroutine put_regions
+
+   end subroutine put_spot_sizes
+
+   !> Writes the block of a load, if it has a solution.
+   subroutine put_histogram(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      class(contact_fields), allocatable :: fields
+      type(histogram) :: gaps, pressures
+      real(dp), allocatable :: displacement(:, :), gap(:, :), pressure(:, :)
+      real(dp) :: least, offset(2)
+      integer :: bin, bins, points(2)
+      logical :: linear
+
+      associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load))
+         call solution%fields(surface, fields)
+         points = fields%own_points
+         offset = fields%own_offset
+         linear = any(points == 0) .and. surface%dimension == 2
+         if (any(points == 0)) then
+            points = merge(plane_samples, [line_samples, 1], surface%dimension == 2)
+            offset = merge(0.5_dp, 0.0_dp, points > 1)
+         end if
+         call fields%on_grid(points, offset, pressure, displacement, gap)
+         if (any(ieee_is_nan(pressure))) return
+         bins = scene%output%integer('histogram_bins')
+         ! The pressure of a series waves about zero outside the contact, whose edge is an isobar.
+         least = 0.0_dp
+         if (scene%method%has('edge_level')) least = scene%method%real('edge_level')
+         call make_histogram(pressure, pressure > least, bins, linear, pressures)
+         call make_histogram(gap, .not. pressure > least, bins, linear, gaps)
+      end associate
+      call results%begin_block(file, load)
+      do bin = 1, bins
+         call file%put_row([real(dp) :: load, bin, in_unit(pressures, results%scene%p_star), &
+                            in_unit(gaps, results%solver%surface%amplitude)])
+      end do
+
+   contains
+
+      !> The numbers of the bin.
+      pure function in_unit(of, unit) result(numbers)
+         type(histogram), intent(in) :: of
+         real(dp), intent(in) :: unit   !! of its values [pressure] or [length]
+         real(dp) :: numbers(4)
+
+         numbers = [unit*of%middle(bin), unit*of%mean(bin), of%fraction(bin), of%density(bin)/unit]
+      end function in_unit
+
+   end subroutine put_histogram
+
+end module wavycon_spot_tables

@@ -1,0 +1,307 @@
+!> Runs a scene, or a deck, from beginning to end: starts the solver, solves all loads, writes the tables.
+module wavycon_run_scene
+   use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
+   use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
+   use wavycon_file_bytes, only: read_file
+   use wavycon_kinds, only: dp
+   use wavycon_methods, only: start_solver
+   use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
+   use wavycon_output_file, only: output_file
+   use wavycon_own_waves, only: gather_series
+   use wavycon_plain_text, only: escaped, integer_text, newline, short_number
+   use wavycon_read_deck, only: read_deck
+   use wavycon_results, only: results_type
+   use wavycon_run_log, only: run_log
+   use wavycon_scene, only: by_pressure, by_yield, scene_type
+   use wavycon_settings, only: setting_type
+   use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
+   use wavycon_system, only: full_path, has_memory_for, make_directories
+   use wavycon_table, only: table_type
+   use wavycon_tables, only: all_tables
+   use wavycon_work_sharing, only: choose_sharing, distributed_grids
+   implicit none (type, external)
+   private
+
+   public :: run_deck, run_scene, start_results, keep_fields
+
+contains
+
+   !> Runs a scene: starts its solver, decides how the ranks share the work, solves and writes. An error of one rank is
+   !> that of all. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble
+   !> for a file that cannot be read or written.
+   subroutine run_scene(scene, quiet, resume, results, status, error)
+      type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards: the results own it
+      logical, intent(in) :: quiet     !! whether to write no log, as on all ranks but the first
+      logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
+      type(results_type), intent(out) :: results   !! complete if there is no error, on the first rank
+      integer, intent(out) :: status   !! exit_fine or exit_not_converged
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: status_of_all(1)   ! those of ranks that did not work are 0
+      type(run_log), target :: log
+      type(table_type), allocatable :: tables(:)
+
+      status = exit_fine
+      call log%start(quiet)
+      call start_results(scene, results, tables)
+      call show_scene(results, log)
+      if (results%sharing%kind == distributed_grids) call collect(results, tables, error)
+      if (allocated(error)) return
+      if (results%sharing%is_shared) then
+         call solve_and_write(results, tables, resume, log, status, error)
+      else
+         call results%sharing%work_alone(.true.)
+         if (results%sharing%is_first) call solve_and_write(results, tables, resume, log, status, error)
+         call results%sharing%work_alone(.false.)
+         call results%sharing%share_error(error)
+         status_of_all = status
+         call results%sharing%add(status_of_all)
+         status = int(status_of_all(1))
+      end if
+   end subroutine run_scene
+
+   !> Runs a deck as the program does: solves its loads and writes its tables. Errors: those of the program for a bad
+   !> deck, a bad height map or files that cannot be written.
+   !>
+   !> N.B. As in the program, those of SIGINT, SIGTERM and SIGHUP that the process does not handle remove an unfinished
+   !> file and end the process.
+   subroutine run_deck(path, directory, quiet, status, error)
+      character(*), intent(in) :: path        !! of the deck
+      character(*), intent(in) :: directory   !! for the tables, in place of that of the deck; '': that of the deck
+      logical, intent(in) :: quiet            !! whether to write no log to standard output
+      integer, intent(out) :: status          !! the program's exit status: exit_fine, exit_not_converged or the error's
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: results
+      type(scene_type), allocatable :: scene
+      type(setting_type), allocatable :: settings(:)
+
+      allocate (settings(merge(0, 1, directory == '')))
+      if (size(settings) > 0) settings(1) = setting_type('output', 'directory', directory)
+      status = exit_fine
+      allocate (scene)
+      call read_deck(path, scene, error, settings)
+      if (.not. allocated(error)) call run_scene(scene, quiet, .false., results, status, error)
+      if (allocated(error)) status = error%status
+   end subroutine run_deck
+
+   !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
+   subroutine solve_and_write(results, tables, resume, log, status, error)
+      type(results_type), intent(inout) :: results        !! started
+      type(table_type), intent(in) :: tables(:)           !! that are to be written
+      logical, intent(in) :: resume
+      type(run_log), intent(inout), target :: log
+      integer, intent(out) :: status
+      type(error_type), allocatable, intent(out) :: error
+
+      type(checkpoint_file) :: checkpoint
+      logical :: known(size(results%scene%target))   !! loads whose solutions are in the checkpoint
+
+      status = exit_fine
+      allocate (results%loads(size(known)))
+      known = .false.
+      call order_loads(results)
+      if (resume) call take_checkpoint(results, known, log, error)
+      if (allocated(error)) return
+      if (results%sharing%is_first) call prepare_directory(results%scene, error)
+      call results%sharing%share_error(error)
+      if (allocated(error)) return
+
+      call checkpoint%create(results, known)
+      call solve_loads(results, known, checkpoint, log)
+      if (results%sharing%any(.not. checkpoint%is_complete)) &
+         call log%note('not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
+      call log%say_timed('solved and measured')
+      call show_loads(results, log)
+      call write_results(results, tables, log, error)
+      if (allocated(error)) return
+      call checkpoint%remove()
+      call log%say_timed('tables written')
+      call sum_up(results, log, status)
+   end subroutine solve_and_write
+
+   !> Finds the largest stresses and writes the tables. Where grids are distributed over the ranks some tables are
+   !> written by all ranks; for the others the first rank takes the fields of all and works alone. Errors:
+   !> exit_file_trouble.
+   subroutine write_results(results, tables, log, error)
+      type(results_type), intent(inout) :: results   !! with a solution for each load
+      type(table_type), intent(in) :: tables(:)
+      type(run_log), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: are_distributed, by_all(size(tables))
+      integer :: i
+
+      are_distributed = results%sharing%kind == distributed_grids
+      by_all = .false.
+      if (are_distributed) then
+         by_all = [(tables(i)%is_written_by_all(results), i=1, size(tables))]
+         do i = 1, size(tables)
+            if (by_all(i)) call tables(i)%write(results, error)
+            call results%sharing%share_error(error)
+            if (allocated(error)) return
+         end do
+         call collect(results, tables, error)
+         if (allocated(error)) return
+         call results%sharing%work_alone(.true.)
+      end if
+      if (results%sharing%is_first .or. .not. are_distributed) then
+         if (asks_for_largest(results%scene)) then
+            call find_stresses(results, log)
+            call log%say_timed('largest stresses found')
+            call show_stresses(results, log)
+         end if
+         if (allocated(results%scene%interface_setting)) call find_interface(results, log, '')
+      end if
+      do i = 1, size(tables)
+         if (results%sharing%is_first .and. .not. (by_all(i) .or. allocated(error))) &
+            call tables(i)%write(results, error)
+      end do
+      if (are_distributed) call results%sharing%work_alone(.false.)
+      call results%sharing%share_error(error)
+   end subroutine write_results
+
+   !> Whether the deck asks for the largest stresses.
+   logical function asks_for_largest(scene)
+      type(scene_type), intent(in) :: scene
+
+      asks_for_largest = allocated(scene%stress_setting) .and. scene%p_star > 0.0_dp
+      if (asks_for_largest) asks_for_largest = scene%stress%logical('largest')
+   end function asks_for_largest
+
+   !> Starts the solver of a scene, finds its tables and how the ranks share the work.
+   subroutine start_results(scene, results, tables, with_fields)
+      type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
+      type(results_type), intent(out) :: results                  !! without loads
+      type(table_type), allocatable, intent(out) :: tables(:)     !! that are to be written
+      logical, intent(in), optional :: with_fields   !! whether solutions keep their fields; absent: as the tables need
+
+      logical :: keep
+      character(:), allocatable :: description
+      integer :: i
+
+      call move_alloc(scene, results%scene)
+      call all_tables(tables)
+      associate (scene => results%scene)
+         ! p* and Delta of a flat surface are zero.
+         tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
+                       [(tables(i)%is_requested(scene), i=1, size(tables))])
+         keep = keep_fields(scene, tables)
+         if (present(with_fields)) keep = with_fields
+         call start_solver(scene%surface, scene%method, keep, results%solver, description)
+         results%method = scene%method%text('solver')//', '//description
+         results%traits = results%solver%traits()
+         results%sharing = choose_sharing(results%traits, size(scene%target), any(tables%needs_fields), &
+                                          scene%loads_by == by_yield .or. allocated(scene%interface_setting))
+      end associate
+      deallocate (results%scene%surface)
+      if (results%sharing%kind /= distributed_grids) &
+         call gather_series(results%solver%surface%shape, first_only=.not. results%sharing%is_shared)
+   end subroutine start_results
+
+   !> Whether the solutions keep their fields.
+   logical function keep_fields(scene, tables)
+      type(scene_type), intent(in) :: scene
+      type(table_type), intent(in) :: tables(:)
+
+      keep_fields = any(tables%needs_fields) .or. asks_for_largest(scene) .or. scene%loads_by == by_yield
+   end function keep_fields
+
+   !> Reads the solutions in the checkpoint, if there is one. Errors: exit_bad_input, exit_file_trouble.
+   subroutine take_checkpoint(results, known, log, error)
+      type(results_type), intent(inout) :: results
+      logical, intent(out) :: known(:)               !! of each load: whether it need not be solved again
+      type(run_log), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: name
+      integer(int64) :: ranks_that_know(size(known))
+
+      call read_checkpoints(results, known, name, error)
+      call results%sharing%share_error(error)
+      if (allocated(error)) return
+      ranks_that_know = merge(1, 0, known)
+      call results%sharing%add(ranks_that_know)
+      ! Some ranks may have their columns of the load that was interrupted, others not.
+      if (results%sharing%kind == distributed_grids) then
+         ranks_that_know = ranks_that_know/results%sharing%ranks
+         known = ranks_that_know > 0
+      end if
+      if (allocated(name)) then
+         call log%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
+                      ' loads are in '//escaped(name))
+      else
+         call log%note('there is no '//escaped(checkpoint_name(results))//' to resume from: all loads are solved')
+      end if
+      ! The digits of these loads depend on the load solved before.
+      if (results%scene%loads_by /= by_pressure .and. results%traits%continues_last_load) known = .false.
+   end subroutine take_checkpoint
+
+   !> Makes the output directory and writes the resolved deck into it, so that a directory that cannot be written to is
+   !> reported before the loads are solved. Errors: exit_file_trouble.
+   subroutine prepare_directory(scene, error)
+      type(scene_type), intent(in) :: scene
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: failure, name, text
+      type(output_file) :: file
+
+      call make_directories(scene%directory, failure)
+      if (allocated(failure)) then
+         call fatal_error(error, exit_file_trouble, escaped(scene%directory)// &
+                          ': the output directory cannot be made: '//escaped(failure))
+         return
+      end if
+      name = scene%case//'.resolved.nml'
+      ! A resolved deck may be run where it is. But its first line has the name of the deck that it was made from.
+      if (full_path(scene%directory//'/'//name) == full_path(scene%deck_path)) then
+         call read_file(scene%deck_path, huge(0), text, error)
+         if (allocated(error)) return
+         if (text(index(text, newline):) == scene%resolved_deck(index(scene%resolved_deck, newline):)//newline) return
+      end if
+      call file%open(scene%directory, name)
+      call file%put(scene%resolved_deck)
+      call file%finish(error)
+   end subroutine prepare_directory
+
+   !> Brings what is distributed over the ranks, and what tables need that the first one writes alone, to the first one:
+   !> the fields load by load, the surface. Before the loads are solved it only checks that there is the memory for it,
+   !> as far as the grid is given. Errors: exit_file_trouble if the first rank lacks the memory, on all ranks.
+   subroutine collect(results, tables, error)
+      type(results_type), intent(inout) :: results   !! started
+      type(table_type), intent(in) :: tables(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
+      integer :: i, load
+      integer(int64) :: numbers
+      logical :: by_first(size(tables)), fields, surface
+
+      by_first = [(.not. tables(i)%is_written_by_all(results), i=1, size(tables))]
+      fields = any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)
+      surface = any(tables%needs_surface .and. by_first)
+      numbers = 0
+      if (fields .and. allocated(results%loads)) then
+         numbers = sum([(results%loads(load)%distributed_points(), load=1, size(results%loads))])
+      else if (fields) then
+         numbers = size(results%scene%target)*product(int(results%traits%given_grid, int64))
+      end if
+      ! The series, and twice as much while it is gathered.
+      if (surface .and. results%solver%surface%is_distributed()) &
+         numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
+      if (results%sharing%is_first) then
+         if (.not. has_memory_for(numbers)) call fatal_error(error, exit_file_trouble, &
+            'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
+            'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
+            "summary, a map with map_format = 'npy' and the points of the grid, and the heights, or solve fewer loads")
+      end if
+      call results%sharing%share_error(error)
+      if (allocated(error) .or. .not. allocated(results%loads)) return
+      do load = 1, merge(size(results%loads), 0, fields)
+         call results%loads(load)%collect_fields()
+      end do
+      if (surface) call gather_series(results%solver%surface%shape, first_only=.true.)
+   end subroutine collect
+
+end module wavycon_run_scene
