@@ -108,6 +108,13 @@ void wavycon_remove(const char *path)
         note(unfinished, sizeof unfinished, "");
 }
 
+/* The limit on the stack of this process [byte], at most the largest int64_t. */
+int64_t wavycon_stack_limit(void)
+{
+    struct rlimit limit;
+    return getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur > INT64_MAX ? INT64_MAX : (int64_t)limit.rlim_cur;
+}
+
 /* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
 void wavycon_outlive_file_size_limit(void)
 {

@@ -10,7 +10,7 @@ module wavycon_system
    public :: end_written, error_text, note_input, open_written, print_text, print_trouble, put_bytes, put_text, &
       refusal_to_write, remove_leftovers, say
    public :: file_size, full_path, path_kind, make_directories, remove_file
-   public :: note_kept, outlive_file_size_limit, terminal_columns
+   public :: note_kept, outlive_file_size_limit, stack_limit, terminal_columns
 
    !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
@@ -32,6 +32,11 @@ module wavycon_system
          import :: c_char
          character(kind=c_char), intent(in) :: path(*)
       end subroutine c_remove
+
+      !> The limit on the stack [byte] (ulimit -s).
+      integer(c_int64_t) function stack_limit() bind(c, name='wavycon_stack_limit')
+         import :: c_int64_t
+      end function stack_limit
 
       !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
       subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')

@@ -3,7 +3,7 @@
 !> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
 module wavycon_run_program
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
-   use, intrinsic :: iso_fortran_env, only: error_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, help_text, read_command_line
@@ -15,8 +15,8 @@ module wavycon_run_program
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: error_text, full_path, keep_memory, outlive_file_size_limit, &
-      print_trouble, remove_leftovers, say
+   use wavycon_system, only: error_text, full_path, keep_memory, outlive_file_size_limit, print_trouble, &
+      remove_leftovers, say, stack_limit
    use wavycon_threads, only: set_threads, use_one_thread_for_matrices
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -24,6 +24,8 @@ module wavycon_run_program
 
    public :: run_program
 
+   !> The stack that the program needs [byte]. The tables of keys take 100 kB of it, solvers less.
+   integer(int64), parameter :: least_stack = 256*1024
    !> A status from here on less this number is that of the signal that ended a process.
    integer, parameter :: signal_status = 128
    !> Jobs that may be begun beyond the first one that was not shown: each has open files, and a place in jobs.c.
@@ -65,6 +67,9 @@ contains
       integer :: i, worst
       logical :: quiet
 
+      if (stack_limit() < least_stack) call fatal_error(error, exit_file_trouble, &
+         'the limit on the stack is too low: allow '//integer_text(int(least_stack/1024))//' kB (ulimit -s)')
+      call stop_on(error)
       call use_one_thread_for_matrices()
       call keep_memory()
       call outlive_file_size_limit()
