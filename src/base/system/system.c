@@ -136,7 +136,7 @@ void wavycon_error_text(int number, char *text, size_t length)
 {
     static const char *const reasons[] = {
         "it is read by this run and is not replaced", "it is a disk, not a file", "it is a symbolic link to nothing",
-        "there is a file that is no such table; it is not replaced"};
+        "a file is there that is no table, perhaps a deck; it is not replaced"};
     snprintf(text, length, "%s", number < 0 ? reasons[-number - 1] : strerror(number));
 }
 

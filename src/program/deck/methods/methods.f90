@@ -47,7 +47,7 @@ contains
          key_type(choice_value, 'solver', "'auto'", '', &
             "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for "// &
             "loads at which these are not accurate enough, otherwise and with a hardness 'grid'. 'beale': the "// &
-            "paper's truncated Fourier series for its waves, with Beale's method as the minimiser of the energy. "// &
+            "paper's truncated Fourier series for its waves, whose energy Beale's method minimises. "// &
             "'series': the same with Goldfarb and Idnani's dual method, for many harmonics. "// &
             "'fitted': collocation fitted to the edge of contact, of spots or of closed pools of gap. 'grid': ever "// &
             "finer grids until mean gap, area and peak pressure are accurate. 'closed_form': Westergaard's "// &
