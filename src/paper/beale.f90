@@ -131,7 +131,7 @@ contains
       real(dp), intent(out) :: step                 !! fraction of the way, 0 .. 1
       integer, intent(out) :: leaving               !! its constraint, 0 if none ends the step
 
-      real(dp) :: least_rate, longest, fastest
+      real(dp) :: fastest, least_rate, longest, reach(size(slacks))
       integer :: i
       logical :: is_active(size(slacks))
 
@@ -139,10 +139,10 @@ contains
       is_active(set%active(:set%count)) = .true.
       least_rate = pivot_tolerance*maxval(abs(rates))
       longest = 1.0_dp
+      reach = max(slacks, 0.0_dp) - relaxation*problem%bounds
       do i = 1, size(slacks)
          if (-rates(i) <= least_rate .or. is_active(i)) cycle
-         if (max(slacks(i), 0.0_dp) - relaxation*problem%bounds(i) < -longest*rates(i)) &
-            longest = (max(slacks(i), 0.0_dp) - relaxation*problem%bounds(i))/(-rates(i))
+         if (reach(i) < -longest*rates(i)) longest = reach(i)/(-rates(i))
       end do
       step = 1.0_dp
       leaving = 0

@@ -122,7 +122,7 @@ contains
 
       call self%solve_programme(pbar_over_pstar, programme)
       solution%pbar_over_pstar = pbar_over_pstar
-      solution%solver = solver_of(self)
+      solution%solver = merge(by_beale, by_dual, self%series%options%by_beale)
       solution%status = status_of_programme(programme%status)
       solution%iterations = programme%pivots
       solution%residual = programme%kkt_residual
@@ -197,16 +197,9 @@ contains
    type(solver_traits) function traits(self)
       class(series_contact), intent(in) :: self
 
-      traits = solver_traits(solver=solver_of(self), has_errors=.false., has_coefficients=.true., &
-                             continues_last_load=continues(self))
+      traits = solver_traits(solver=merge(by_beale, by_dual, self%series%options%by_beale), has_errors=.false., &
+                             has_coefficients=.true., continues_last_load=continues(self))
    end function traits
-
-   pure integer function solver_of(self)
-      class(series_contact), intent(in) :: self
-
-      solver_of = by_dual
-      if (self%series%options%by_beale) solver_of = by_beale
-   end function solver_of
 
    subroutine forget_last_load(self)
       class(series_contact), intent(inout) :: self
