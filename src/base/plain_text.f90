@@ -216,14 +216,15 @@ contains
          return
       end do
       if (code < least(length)) length = 0
-      ! No character; and control characters, invisible blanks and marks of the direction of writing, which come along
-      ! with text that is copied from elsewhere: a message must show why a word is not the one that it looks like.
+      ! Control characters, invisible blanks and marks of the direction of writing come along with text that is copied
+      ! from elsewhere: a message must show why a word is not the one that it looks like. Other codes are no characters.
       select case (code)
-      case (int(z'D800'):int(z'DFFF'), int(z'110000'):)
-         length = 0
-      case (128:160, int(z'2000'):int(z'200F'), int(z'2028'):int(z'202F'), int(z'FEFF'))
+      case (128:160, int(z'AD'), int(z'61C'), int(z'180E'), int(z'2000'):int(z'200F'), int(z'2028'):int(z'202F'), &
+            int(z'2060'):int(z'206F'), int(z'D800'):int(z'DFFF'), int(z'FEFF'), int(z'FFF9'):int(z'FFFB'), &
+            int(z'E0000'):int(z'E0FFF'), int(z'110000'):)
          length = 0
       end select
+      if (modulo(code, 65536) >= 65534) length = 0
    end function printable_length
 
    !> Whether a byte is the second or a later one of a UTF-8 character.
