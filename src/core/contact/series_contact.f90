@@ -70,7 +70,7 @@ module wavycon_series_contact
 
    type, extends(contact_solver) :: series_contact
       type(series_source) :: series                    !! without amplitudes
-      type(qp_problem) :: problem                      !! at zero load, or that of the last cold start
+      type(qp_problem) :: problem                      !! at zero load, or at the last load that started from nothing
       type(dual_solver), allocatable, private :: dual   !! after the first load
    contains
       procedure :: start

@@ -371,8 +371,8 @@ contains
          words = key//' belongs to &'//listed(pack(tables%name, has_key), ' and &')//', not to &'//trim(table%name)// &
                  did_you_mean(key, pack(table%keys%name, .not. is_given), "'", "'")
       else if (key == 'minimiser') then
-         words = "there is no key 'minimiser' any more: write solver = 'beale' for Beale's method, solver = 'series' "// &
-                 'for the dual method'
+         words = "there is no key 'minimiser' any more: write solver = 'beale' for Beale's method, "// &
+                 "solver = 'series' for the dual method"
       else if (key_index(table%keys, key(:bracket - 1)) > 0) then
          words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
       else
