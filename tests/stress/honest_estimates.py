@@ -48,8 +48,9 @@ def fitted_case(stream, kind):
     return random_case(stream, kind, "fitted")
 
 
-def hard_case(stream, _kind):
-    """The files of a random map with a hardness, on its own points, and those of a grid that is four times as fine."""
+def map_case(stream, kind):
+    """The files of a random map on its own points, `hard` with a hardness, and those of a grid that is four times as
+    fine."""
     points = stream.choice((64, 64, 128, 256))
     longest = stream.choice((0.5, 1.0))
     surface = (f"kind = 'self_affine', length_x = 1, length_y = 1, points = {points}, {points}, rms_slope = 0.1,\n"
@@ -58,7 +59,7 @@ def hard_case(stream, _kind):
                f"   short_wavelength = {stream.choice((2.5, 4.0, 8.0, 16.0))/points!r}, seed = {stream.randint(1, 2**30)}")
     # p* is some 0.2 E* on such maps.
     load = 0.2*10.0**stream.uniform(-4.5, 0.2)
-    hardness = load/stream.uniform(*LOAD_OVER_HARDNESS)
+    hardness = load/stream.uniform(*LOAD_OVER_HARDNESS) if kind == "hard" else None
     return [{"deck.nml": deck(surface, [load], f"solver = 'grid', grid_points = {grid}", hardness)}
             for grid in (points, 4*points)]
 
@@ -148,7 +149,8 @@ def campaign(settings, work):
     for solver, case, kinds_of_it, number, values in (
             ("grid", grid_case, kinds, scenes, VALUES),
             ("fitted", fitted_case, [kind for kind in kinds if kind in FITTED], scenes, VALUES),
-            ("grid with a hardness", hard_case, ("self_affine",), rare, VALUES + OF_HARDNESS),
+            ("grid of a map's points", map_case, ("elastic",), rare, VALUES),
+            ("grid with a hardness", map_case, ("hard",), rare, VALUES + OF_HARDNESS),
             ("grid with free edges", free_case, ("free edges", "patch"), rare, OF_FREE_EDGES),
             ("derivatives on grids", interface_case, ("wave_2d", "hexagonal", "self_affine"), rare, OF_INTERFACE)):
         largest = LARGEST_RATIO_OF_INTERFACE if values is OF_INTERFACE else LARGEST_RATIO

@@ -32,14 +32,14 @@ module wavycon_grid_error
 contains
 
    !> Estimates the errors of mean gap [Delta], contact area fraction and peak pressure [p*] on the last grid.
-   function estimate_errors(history, surface, edge, peak_resolved) result(errors)
+   function estimate_errors(history, surface, edge, bend) result(errors)
       type(change_history), intent(in) :: history   !! of all grids up to the last
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge        !! of the last grid
-      logical, intent(in) :: peak_resolved       !! from grid_peak_pressure: whether the points of (C13) are in contact
+      real(dp), intent(in) :: bend               !! of the pressure at its peak [p*], from grid_peak_pressure
       real(dp) :: errors(3)
 
-      errors = max(history%errors(), unresolved_errors(surface, edge, peak_resolved))
+      errors = max(history%errors(), unresolved_errors(surface, edge, bend))
       if (surface%has_free_edges) then
          errors = max(errors, least_of_area*errors(2)/max(history%values(2), tiny(1.0_dp))*history%values)
       else
@@ -74,10 +74,10 @@ contains
    !> Errors that changes do not show (C15), (C16): of the area, because the position of the edge between points is
    !> uncertain and all grids may err alike; of all values, if all points are in contact but a small gap may lie
    !> between them; of the peak pressure, if too few points are in contact for the polynomial (C13).
-   function unresolved_errors(surface, edge, peak_resolved) result(errors)
+   function unresolved_errors(surface, edge, bend) result(errors)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
-      logical, intent(in) :: peak_resolved
+      real(dp), intent(in) :: bend   !! from grid_peak_pressure
       real(dp) :: errors(3)
 
       integer(int64) :: crossings, points
@@ -93,7 +93,7 @@ contains
       ! With free edges Delta and p* are no measures of approach and peak: (C17) has the same relative to their values.
       if (surface%has_free_edges) errors([1, 3]) = 0.0_dp
       errors(2) = max(errors(2), edge_scatter*sqrt(real(crossings, dp))/points, edge_bias*crossings/points)
-      if (.not. peak_resolved) errors(3) = max(errors(3), unresolved_peak(surface, edge))
+      if (bend > 0.0_dp) errors(3) = max(errors(3), min(bend, unresolved_peak(surface, edge)))
    end function unresolved_errors
 
    !> Number of points in contact, with no open point beside them, whose pressure is so far below that of a neighbour

@@ -215,9 +215,9 @@ contains
       logical, intent(in) :: estimated   !! whether the errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area
+      real(dp) :: area, bend
       integer :: j
-      logical :: has_corners, peak_resolved
+      logical :: has_corners
       type(grid_edge) :: astray
 
       answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), &
@@ -236,11 +236,11 @@ contains
       if (surface%has_steps) area = answer%measures%contact_area_counted_fraction
       answer%values(2) = area
       if (surface%dimension == 2) answer%measures%contact_area_corrected_fraction = corrected_area_fraction(answer%edge)
-      call grid_peak_pressure(answer%edge, answer%values(3), peak_resolved)
-      peak_resolved = peak_resolved .or. answer%values(3) >= surface%hardness
+      call grid_peak_pressure(answer%edge, answer%values(3), bend)
+      if (answer%values(3) >= surface%hardness) bend = 0.0_dp
       answer%values(3) = min(answer%values(3), surface%hardness)
       call answer%history%push(answer%values)
-      if (estimated) answer%errors = estimate_errors(answer%history, surface, answer%edge, peak_resolved)
+      if (estimated) answer%errors = estimate_errors(answer%history, surface, answer%edge, bend)
       associate (errors => answer%errors, p => answer%edge%pressure_or_gap)
          has_corners = ends_at_corners(surface, p)
          if (surface%has_steps) then
@@ -298,7 +298,7 @@ contains
       call history%push([0.0_dp, area, 0.0_dp])
       errors = history%errors()
       ! Between the points the pressure may reach H although it does so at none of them.
-      if (answer%values(3) >= surface%hardness) errors = max(errors, unresolved_errors(surface, edge, .true.))
+      if (answer%values(3) >= surface%hardness) errors = max(errors, unresolved_errors(surface, edge, bend=0.0_dp))
       answer%measures%area_at_hardness_error = errors(2)
    end subroutine measure_at_hardness
 

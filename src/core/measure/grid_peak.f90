@@ -1,5 +1,6 @@
 !> The largest pressure of a solution on a grid, between its points: eq. (C13) of src/core/contact/README.md.
 module wavycon_grid_peak
+   use wavycon_contact_measures, only: unknown
    use wavycon_grid_edge, only: grid_edge
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
@@ -23,10 +24,12 @@ contains
 
    !> The maximum of the polynomial through the points about the largest pressure. At a crest on a mirror line, which
    !> lies midway between points, the polynomial is even. After `fetch_neighbours`.
-   subroutine grid_peak_pressure(edge, peak, resolved)
+   subroutine grid_peak_pressure(edge, peak, bend)
       type(grid_edge), intent(in) :: edge
-      real(dp), intent(out) :: peak        !! in the unit of the edge's pressure
-      logical, intent(out) :: resolved     !! whether all of these points are in contact
+      real(dp), intent(out) :: peak    !! in the unit of the edge's pressure
+      !> Half the sum of the second differences at the largest pressure, (C16); 0 if all points of the polynomial are in
+      !> contact, `unknown` if a neighbour of the largest pressure is open.
+      real(dp), intent(out) :: bend
 
       real(dp) :: answer(2), highest
       integer :: best(2)
@@ -35,25 +38,24 @@ contains
       call edge%slab%find_largest(edge%pressure_or_gap, highest, best)
       answer = 0.0_dp
       if (best(2) >= edge%slab%first .and. best(2) <= edge%slab%last) then
-         call find_peak(edge, best, peak, resolved)
-         answer = [peak, merge(1.0_dp, 0.0_dp, resolved)]
+         call find_peak(edge, best, peak, bend)
+         answer = [peak, bend]
       end if
       call edge%slab%add(answer)
       peak = answer(1)
-      resolved = answer(2) > 0.0_dp
+      bend = answer(2)
    end subroutine grid_peak_pressure
 
    !> The same about a given point.
-   pure subroutine find_peak(edge, best, peak, resolved)
+   pure subroutine find_peak(edge, best, peak, bend)
       type(grid_edge), intent(in) :: edge
       integer, intent(in) :: best(2)       !! that has the largest pressure
-      real(dp), intent(out) :: peak
-      logical, intent(out) :: resolved
+      real(dp), intent(out) :: peak, bend
 
       !> The search leaves the step of the peak by no more than half a step.
       real(dp), parameter :: margin = 0.5_dp
       type(peak_polynomial) :: field
-      real(dp) :: height, place(2)
+      real(dp) :: beside(4), height, place(2)
       integer :: base(2), i, j
 
       ! From the lines through the largest pressure both ways: a mirror image has the same peak.
@@ -66,12 +68,17 @@ contains
             field%values(i, j) = edge%at(base(1) + i, base(2) + j)
          end do
       end do
-      resolved = all(field%values > 0.0_dp)
       peak = max(maxval(field%values), 0.0_dp)
-      if (.not. resolved) return
-      place = best - base
-      call field%maximise(place, height)
-      peak = max(peak, height)
+      if (all(field%values > 0.0_dp)) then
+         bend = 0.0_dp
+         place = best - base
+         call field%maximise(place, height)
+         peak = max(peak, height)
+      else
+         beside = [edge%at(best(1) - 1, best(2)), edge%at(best(1) + 1, best(2)), edge%at(best(1), best(2) - 1), &
+                   edge%at(best(1), best(2) + 1)]
+         bend = merge(0.5_dp*sum(peak - beside), unknown, all(beside > 0.0_dp))
+      end if
    end subroutine find_peak
 
    pure subroutine expand(self, place, height, gradient, hessian)
