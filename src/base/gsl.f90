@@ -7,7 +7,7 @@ module wavycon_gsl
    private
 
    public :: gsl_sort_index
-   public :: gsl_sf_legendre_pl_array, gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp
+   public :: gsl_sf_legendre_pl_array, gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp, gsl_sf_ellint_RD, gsl_sf_ellint_RF
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
    public :: gsl_rng_mt19937, gsl_rng_alloc, gsl_rng_set, gsl_rng_uniform, gsl_rng_free
@@ -43,6 +43,18 @@ module wavycon_gsl
          real(c_double), intent(in), value :: k
          integer(c_int), intent(in), value :: mode
       end function gsl_sf_ellint_Dcomp
+
+      !> Carlson's integrals R_F(x, y, z) and R_D(x, y, z) of positive numbers, of which x may be 0.
+      pure real(c_double) function gsl_sf_ellint_RF(x, y, z, mode) bind(c, name='gsl_sf_ellint_RF')
+         import :: c_double, c_int
+         real(c_double), intent(in), value :: x, y, z
+         integer(c_int), intent(in), value :: mode
+      end function gsl_sf_ellint_RF
+      pure real(c_double) function gsl_sf_ellint_RD(x, y, z, mode) bind(c, name='gsl_sf_ellint_RD')
+         import :: c_double, c_int
+         real(c_double), intent(in), value :: x, y, z
+         integer(c_int), intent(in), value :: mode
+      end function gsl_sf_ellint_RD
 
       !> A Gauss rule of n nodes on a..b for one of the library's weights; a null pointer if an argument is out of range
       !> or there is not enough memory.

@@ -51,13 +51,14 @@ contains
       call find_frame(surface, frame)
       if (any(options%points > 0)) then
          self%choice = merge(points_are_of_the_map, points_are_given, all(options%points == surface%points))
-      else if (surface%has_hardness()) then
-         self%choice = has_a_hardness
       else if (closed_form_exists(surface)) then
          self%choice = has_closed_form
          allocate (closed_form)
          call closed_form%start(surface)
+         closed_form%accuracy = options%accuracy
          call move_alloc(closed_form, self%first)
+      else if (surface%has_hardness()) then
+         self%choice = has_a_hardness
       else if (allocated(frame%lattice)) then
          self%choice = has_expansions
          allocate (fitted)
@@ -103,7 +104,8 @@ contains
       of_grids = self%grid_contact%traits()
       traits = of_grids
       if (allocated(self%first)) traits = self%first%traits()
-      if (self%choice == has_expansions) traits%finest_grid = of_grids%finest_grid
+      if (self%choice == has_expansions .or. of_grids%needs_whole_grids) traits%finest_grid = of_grids%finest_grid
+      traits%needs_whole_grids = of_grids%needs_whole_grids
       traits%solver = by_choice
       traits%has_details = .false.
       traits%choice = self%choice

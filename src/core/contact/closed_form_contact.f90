@@ -1,21 +1,23 @@
-!> Westergaard's solution of the 1-D wave.
+!> Closed forms: Westergaard's solution of the 1-D wave, and Hertz's of a ball with free edges (`ball_source`).
 module wavycon_closed_form_contact
+   use wavycon_ball_source, only: solve_ball
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_measures, load_derivatives
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: closed_form
+   use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
+   use wavycon_contact_status, only: closed_form, not_found
    use wavycon_contact_contours, only: contact_contour, make_strips
    use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
+   use wavycon_free_edges, only: is_ball
    use wavycon_kinds, only: dp
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
-   use wavycon_solution_record, only: by_closed_form, solution_record
+   use wavycon_solution_record, only: by_closed_form, no_solution, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -24,6 +26,7 @@ module wavycon_closed_form_contact
    public :: closed_form_contact, closed_form_exists, closed_form_stress
 
    type, extends(contact_solver) :: closed_form_contact
+      real(dp) :: accuracy = default_accuracy   !! of the grids that the stresses below a ball are from
    contains
       procedure :: start
       procedure :: solve_partial_contact
@@ -52,20 +55,21 @@ module wavycon_closed_form_contact
 
 contains
 
-   !> Whether a surface is the 1-D wave of the paper.
+   !> Whether a surface is the 1-D wave of the paper without a hardness, or a ball with free edges.
    pure logical function closed_form_exists(surface)
       type(surface_type), intent(in) :: surface
 
-      closed_form_exists = surface%dimension == 1 .and. is_paper_wave(surface)
+      closed_form_exists = is_ball(surface) .or. &
+         (surface%dimension == 1 .and. is_paper_wave(surface) .and. .not. surface%has_hardness())
    end function closed_form_exists
 
    !> Starts the solver.
    subroutine start(self, surface)
       class(closed_form_contact), intent(out) :: self
-      type(surface_type), intent(in) :: surface   !! the 1-D wave of the paper, without a hardness
+      type(surface_type), intent(in) :: surface   !! of which a closed form exists; only a ball may have a hardness
 
       self%surface = surface
-      self%is_started = closed_form_exists(surface) .and. .not. surface%has_hardness()
+      self%is_started = closed_form_exists(surface)
    end subroutine start
 
    type(solver_traits) function traits(self)
@@ -75,14 +79,22 @@ contains
       traits = solver_traits(solver=by_closed_form)
    end function traits
 
-   !> Westergaard's solution: eqs. (4), (7), and (20) of the paper.
+   !> Westergaard's solution: eqs. (4), (7), and (20) of the paper; or Hertz's. The status is not_found where a ball
+   !> touches up to the border or reaches its hardness.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(closed_form_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_solution), intent(out) :: solution
 
+      logical :: solved
+
+      if (is_ball(self%surface)) then
+         call solve_ball(self%surface, pbar_over_pstar, self%accuracy, solution, solved)
+         if (.not. solved) solution%solution_record = no_solution(pbar_over_pstar, by_closed_form, not_found)
+         return
+      end if
       ! The elastic energy per nominal area [p* Delta] is the integral of P d(approach), -P ln P dP by (20).
-      associate (unused => self, gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
+      associate (gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
                  energy => pbar_over_pstar**2*(0.25_dp - 0.5_dp*log(pbar_over_pstar)))
          allocate (closed_form_source :: solution%source)
          solution%pbar_over_pstar = pbar_over_pstar

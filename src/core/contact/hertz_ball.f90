@@ -23,6 +23,7 @@ module wavycon_hertz_ball
       real(dp) :: peak_pressure = 0.0_dp     !! [pressure]
    contains
       procedure :: contact_area
+      procedure :: perimeter
    end type hertz_ball
 
 contains
@@ -65,11 +66,21 @@ contains
       contact_area = pi*product(self%half_axis)
    end function contact_area
 
+   !> 4 a E, the length of the ellipse, with E = K - k^2 D.
+   pure real(dp) function perimeter(self)
+      class(hertz_ball), intent(in) :: self
+
+      real(dp) :: d, first_kind, ratio
+
+      ratio = minval(self%half_axis)/maxval(self%half_axis)
+      call integrals(ratio, first_kind, d)
+      perimeter = 4*maxval(self%half_axis)*(first_kind - (1.0_dp - ratio**2)*d)
+   end function perimeter
+
    !> The contact whose longer half axis is the larger radius.
    pure type(hertz_ball) function unit_contact(radii, e_star) result(contact)
       real(dp), intent(in) :: radii(2), e_star
 
-      integer(c_int), parameter :: all_digits = 0
       integer, parameter :: steps = 64
       real(dp) :: a, b, d, high, k, k1, low, middle
       integer :: step
@@ -95,22 +106,21 @@ contains
       contact%peak_pressure = e_star*a**2/(2*maxval(radii)*b*d)
       contact%approach = a**2*k1/(2*maxval(radii)*d)
       contact%force = 2*pi*a*b*contact%peak_pressure/3
-
-   contains
-
-      pure subroutine integrals(ratio, first_kind, d)
-         real(dp), intent(in) :: ratio   !! b/a
-         real(dp), intent(out) :: first_kind, d
-
-         real(dp) :: modulus
-
-         modulus = sqrt((1.0_dp - ratio)*(1.0_dp + ratio))
-         ! The integrals of modulus 1 are infinite.
-         modulus = min(modulus, 1.0_dp - epsilon(modulus))
-         first_kind = gsl_sf_ellint_Kcomp(modulus, all_digits)
-         d = gsl_sf_ellint_Dcomp(modulus, all_digits)
-      end subroutine integrals
-
    end function unit_contact
+
+   !> K and D of the modulus of an ellipse.
+   pure subroutine integrals(ratio, first_kind, d)
+      real(dp), intent(in) :: ratio   !! b/a
+      real(dp), intent(out) :: first_kind, d
+
+      integer(c_int), parameter :: all_digits = 0
+      real(dp) :: modulus
+
+      modulus = sqrt((1.0_dp - ratio)*(1.0_dp + ratio))
+      ! The integrals of modulus 1 are infinite.
+      modulus = min(modulus, 1.0_dp - epsilon(modulus))
+      first_kind = gsl_sf_ellint_Kcomp(modulus, all_digits)
+      d = gsl_sf_ellint_Dcomp(modulus, all_digits)
+   end subroutine integrals
 
 end module wavycon_hertz_ball

@@ -46,12 +46,12 @@ contains
       table = key_group_type('method', 'how the contact is computed', selector='solver', keys=[ &
          key_type(choice_value, 'solver', "'auto'", '', &
             "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for "// &
-            "loads at which these are not accurate enough, otherwise and with a hardness 'grid'. 'beale': the "// &
+            "loads at which these are not accurate enough, otherwise and at a hardness 'grid'. 'beale': the "// &
             "paper's truncated Fourier series for its waves, whose energy Beale's method minimises. "// &
             "'series': the same with Goldfarb and Idnani's dual method, for many harmonics. "// &
             "'fitted': collocation fitted to the edge of contact, of spots or of closed pools of gap. 'grid': ever "// &
             "finer grids until mean gap, area and peak pressure are accurate. 'closed_form': Westergaard's "// &
-            "solution of the 1-D wave.", choices=names), &
+            "solution of the 1-D wave, and Hertz's of a ball.", choices=names), &
          of('beale series', [ &
             key_type(integer_value, 'harmonics', '9 (2-D), 10 (1-D)', '', &
                'highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
@@ -117,13 +117,11 @@ contains
       type(fitted_frame) :: frame
 
       words = ''
-      if (any(solver == ['fitted     ', 'closed_form']) .and. surface%has_hardness()) &
-         words = 'has no solution with a hardness'
       select case (solver)
       case ('beale', 'series')
          if (.not. is_paper_wave(surface)) words = 'is for the waves of the paper: '//paper_waves
       case ('closed_form')
-         if (.not. closed_form_exists(surface)) words = 'is for the 1-D wave'
+         if (.not. closed_form_exists(surface)) words = "is for the 1-D wave and kind = 'ball'"
       case ('fitted')
          call find_frame(surface, frame)
          ! A flat surface is in full contact at every load: no expansion is needed.
@@ -132,6 +130,8 @@ contains
             ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
             ':1 and for three equal waves at 60 degrees'
       end select
+      if (any(solver == ['fitted     ', 'closed_form']) .and. surface%has_hardness()) &
+         words = 'has no solution with a hardness'
    end function refusal
 
    !> The solvers that can solve a surface, such as "'grid' or 'auto'"; of these only those whose solutions have
@@ -196,7 +196,8 @@ contains
       class(contact_solver), allocatable, intent(out) :: solver
       character(:), allocatable, intent(out), optional :: description   !! the discretisation, for log and tables
 
-      character(*), parameter :: closed_form = "closed form (Westergaard's solution)"
+      character(*), parameter :: closed_form(2) = [character(36) :: "closed form (Westergaard's solution)", &
+                                                   "closed form (Hertz's contact)"]
       character(:), allocatable :: fitted, words
       type(solver_traits) :: traits
 
@@ -212,7 +213,7 @@ contains
          words = series_in_words(values, surface)
       type is (closed_form_contact)
          call solver%start(surface)
-         words = closed_form
+         words = trim(closed_form(surface%dimension))
       type is (fitted_contact)
          call solver%start(surface, fitted_options(values%real('accuracy')), keep_fields)
          words = fitted
@@ -222,8 +223,10 @@ contains
                                                 values%real('residual')), keep_fields)
          traits = solver%traits()
          words = grid_in_words(values, surface)
-         if (traits%choice == has_closed_form) words = closed_form
-         if (traits%choice == has_expansions) words = fitted//', grids where it cannot'
+         if (traits%choice == has_closed_form) words = trim(closed_form(surface%dimension))
+         if (traits%choice == has_expansions) words = fitted
+         if (traits%choice == has_expansions .or. (traits%choice == has_closed_form .and. surface%dimension == 2)) &
+            words = words//', grids where it cannot'
       end select
       if (present(description)) call move_alloc(words, description)
    end subroutine start_solver
@@ -234,7 +237,7 @@ contains
       character(:), allocatable :: words
 
       character(*), parameter :: reasons(0:*) = [character(112) :: '', &   ! in the order of wavycon_auto_contact
-         'the surface is the 1-D wave, which has a closed form', &
+         'the surface is the 1-D wave or a ball, which has a closed form', &
          "the surface has a lattice of equal spots; grids solve the loads for which 'fitted' is not accurate enough", &
          'the surface has neither a closed form nor a lattice of equal spots', &
          "neither the closed form nor 'fitted' has a hardness", &

@@ -1,0 +1,279 @@
+!> Hertz's contact of a ball with free edges (src/core/contact/hertz_ball.f90): numbers, fields and edge in closed form.
+!> The stresses are those of grids on a rectangle of the contact's own size.
+!>
+!> Numbers (C..) are the equations of README.md in this directory.
+module wavycon_ball_source
+   use, intrinsic :: iso_c_binding, only: c_int
+   use wavycon_constants, only: pi
+   use wavycon_contact_contours, only: contact_contour
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_measures, only: contact_measures, load_derivatives
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_status, only: closed_form
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_field_source, only: field_source
+   use wavycon_free_edges, only: ball_radii, surface_of_ball
+   use wavycon_free_kernel, only: integral_to_corner
+   use wavycon_gauss_rules, only: disc_rule, start_disc_rule
+   use wavycon_grid_contact, only: grid_contact, grid_options
+   use wavycon_gsl, only: gsl_sf_ellint_RD, gsl_sf_ellint_RF
+   use wavycon_hertz_ball, only: hertz_ball, hertz_contact
+   use wavycon_kinds, only: dp
+   use wavycon_solution_record, only: by_closed_form, solution_record
+   use wavycon_stress_fields, only: stress_fields
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: solve_ball
+
+   type, extends(field_source) :: ball_source
+      type(hertz_ball) :: contact       !! [length], pressures in E*
+      real(dp) :: accuracy = 0.0_dp     !! of the grids for the stresses
+   contains
+      procedure :: fields
+      procedure :: contact_contours
+      procedure :: stresses
+      procedure :: derivatives
+   end type ball_source
+
+   type, extends(contact_fields) :: ball_fields
+      type(surface_type) :: surface
+      type(hertz_ball) :: contact
+   contains
+      procedure :: at
+      procedure :: on_grid
+   end type ball_fields
+
+   !> Stresses of a ball on another rectangle about the same point.
+   type, extends(stress_fields) :: ball_stress
+      class(stress_fields), allocatable :: own
+      real(dp) :: scale(3) = 1.0_dp     !! angles X, Y, Z of that rectangle over those of the surface
+      real(dp) :: unit = 1.0_dp         !! its p* over that of the surface
+   contains
+      procedure :: at => stress_at
+      procedure :: start_places
+   end type ball_stress
+
+contains
+
+   !> Hertz's contact, if its ellipse lies within the rectangle and its peak pressure is below the hardness.
+   subroutine solve_ball(surface, pbar_over_pstar, accuracy, solution, solved)
+      type(surface_type), intent(in) :: surface      !! a ball without roughness
+      real(dp), intent(in) :: pbar_over_pstar        !! > 0
+      real(dp), intent(in) :: accuracy               !! of the grids for the stresses, as of grid_options
+      type(contact_solution), intent(inout) :: solution
+      logical, intent(out) :: solved
+
+      type(ball_source), allocatable :: source
+      real(dp) :: approach
+
+      allocate (source)
+      source%accuracy = accuracy
+      associate (contact => source%contact, unit => surface%full_contact_pressure(1.0_dp))
+         contact = hertz_contact(ball_radii(surface), 1.0_dp, force=pbar_over_pstar*unit*surface%nominal_area())
+         solved = all(2*contact%half_axis < surface%sides()) .and. contact%peak_pressure < surface%hardness*unit
+         if (.not. solved) return
+         approach = contact%approach/surface%amplitude
+         solution%pbar_over_pstar = pbar_over_pstar
+         solution%status = closed_form
+         solution%solver = by_closed_form
+         ! The energy is the integral of force d(approach), and the force goes with the power 3/2.
+         solution%measures = contact_measures( &
+                             mean_gap_over_amplitude=1.0_dp - approach + mean_displacement(surface, contact), &
+                             approach_over_amplitude=approach, &
+                             contact_area_fraction=contact%contact_area()/surface%nominal_area(), &
+                             peak_pressure_over_pstar=contact%peak_pressure/unit, &
+                             min_pressure_over_pstar=0.0_dp, elastic_energy=0.4_dp*pbar_over_pstar*approach, &
+                             elastic_energy_error=0.0_dp)
+      end associate
+      call move_alloc(source, solution%source)
+   end subroutine solve_ball
+
+   !> Mean displacement of the rectangle [Delta]. By reciprocity it is the mean over the pressure of the displacement
+   !> that a uniform pressure on the rectangle causes.
+   real(dp) function mean_displacement(surface, contact) result(mean)
+      type(surface_type), intent(in) :: surface
+      type(hertz_ball), intent(in) :: contact
+
+      !> Points of the rule along radius and quarter of the angle. Contact that fills half the rectangle has 13 digits.
+      integer, parameter :: radii = 12, angles = 24
+      type(disc_rule) :: rule
+      real(dp) :: x, y
+      integer :: k
+
+      call start_disc_rule(rule, 0.5_dp, 2, radii, angles)
+      associate (half => surface%sides()/2)
+         mean = 0.0_dp
+         do k = 1, size(rule%weight)
+            x = contact%half_axis(1)*real(rule%point(k))
+            y = contact%half_axis(2)*aimag(rule%point(k))
+            mean = mean + rule%weight(k)*( &
+                   integral_to_corner(half(1) + x, half(2) + y) + integral_to_corner(half(1) - x, half(2) + y) &
+                   + integral_to_corner(half(1) + x, half(2) - y) + integral_to_corner(half(1) - x, half(2) - y))
+         end do
+      end associate
+      mean = mean*contact%peak_pressure*product(contact%half_axis)/(pi*surface%nominal_area()*surface%amplitude)
+   end function mean_displacement
+
+   subroutine fields(self, record, surface, answer)
+      class(ball_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(contact_fields), allocatable, intent(out) :: answer
+
+      associate (unused => record); end associate
+      allocate (answer, source=ball_fields(surface=surface, contact=self%contact))
+   end subroutine fields
+
+   !> The displacement outside is (C31).
+   subroutine at(self, x, y, pressure, displacement, gap)
+      class(ball_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(out) :: pressure, displacement, gap
+
+      integer(c_int), parameter :: all_digits = 0
+      real(dp) :: b, c, inside, lambda, place(2), squares(2), u, undeformed
+
+      associate (surface => self%surface, contact => self%contact)
+         ! Places beyond the map are replaced by their mirror images, as its heights are.
+         place = (0.5_dp*pi - abs(pi - modulo([x, y], 2*pi)))*surface%length/(2*pi)
+         squares = contact%half_axis**2
+         undeformed = 0.5_dp*sum(place**2/ball_radii(surface))
+         inside = 1.0_dp - sum(place**2/squares)
+         pressure = contact%peak_pressure*sqrt(max(inside, 0.0_dp))/surface%full_contact_pressure(1.0_dp)
+         gap = 0.0_dp
+         if (inside < 0.0_dp) then
+            ! The positive root of lambda^2 + b lambda + c = 0.
+            b = sum(squares) - sum(place**2)
+            c = product(squares)*inside
+            lambda = 0.5_dp*(sqrt(b**2 - 4*c) + abs(b))
+            if (b > 0.0_dp) lambda = -c/lambda
+            u = contact%peak_pressure*product(contact%half_axis)*( &
+                gsl_sf_ellint_RF(squares(1) + lambda, squares(2) + lambda, lambda, all_digits) &
+                - place(1)**2/3*gsl_sf_ellint_RD(squares(2) + lambda, lambda, squares(1) + lambda, all_digits) &
+                - place(2)**2/3*gsl_sf_ellint_RD(squares(1) + lambda, lambda, squares(2) + lambda, all_digits))
+            gap = max(undeformed + u - contact%approach, 0.0_dp)/surface%amplitude
+         end if
+         displacement = gap + (contact%approach - undeformed)/surface%amplitude
+      end associate
+   end subroutine at
+
+   !> At the points of the map.
+   subroutine on_grid(self, points, offset, pressure, displacement, gap)
+      class(ball_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
+
+      integer :: k, l
+
+      allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
+      do l = 1, points(2)
+         do k = 1, points(1)
+            call self%at(pi*(k - 1 + offset(1))/points(1), pi*(l - 1 + offset(2))/points(2), pressure(k, l), &
+                         displacement(k, l), gap(k, l))
+         end do
+      end do
+   end subroutine on_grid
+
+   !> The ellipse and its mirror images.
+   subroutine contact_contours(self, record, surface, curves, loads)
+      class(ball_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(contact_contour), allocatable, intent(out) :: curves(:)
+      real(dp), allocatable, intent(out) :: loads(:)
+
+      integer, parameter :: points = 256
+      real(dp), parameter :: centres(2, 4) = 0.5_dp*pi*reshape([1, 1, 3, 1, 1, 3, 3, 3], [2, 4])
+      integer :: k
+      real(dp) :: axes(2), t(0:points)
+
+      associate (unused => record); end associate
+      axes = 2*pi*self%contact%half_axis/surface%length
+      t = [(2*pi*modulo(k, points)/points, k=0, points)]
+      allocate (curves(4))
+      do k = 1, size(curves)
+         curves(k) = contact_contour(phi=centres(1, k) + axes(1)*cos(t), theta=centres(2, k) + axes(2)*sin(t), &
+                                     turns=1, spot=1, pool=1, area=pi*product(axes), length=self%contact%perimeter())
+      end do
+      loads = [1.0_dp]
+   end subroutine contact_contours
+
+   !> Of the ball on a rectangle of its own, four half axes wide.
+   subroutine stresses(self, record, surface, answer)
+      class(ball_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      class(stress_fields), allocatable, intent(out) :: answer
+
+      type(ball_stress), allocatable :: stress
+      type(contact_solution) :: solution
+      type(grid_contact) :: solver
+      type(surface_type) :: own
+
+      own = surface_of_ball(4*self%contact%half_axis, ball_radii(surface))
+      allocate (stress)
+      stress%unit = own%full_contact_pressure(1.0_dp)/surface%full_contact_pressure(1.0_dp)
+      associate (areas => surface%nominal_area()/own%nominal_area())
+         call solver%start(own, grid_options(accuracy=self%accuracy), keep_fields=.true.)
+         call solver%solve(record%pbar_over_pstar*areas/stress%unit, solution)
+      end associate
+      call solution%stresses(own, stress%own)
+      stress%scale = [surface%length, surface%length(1)]/[own%length, own%length(1)]
+      stress%exist = stress%own%exist
+      stress%pbar_over_pstar = stress%own%pbar_over_pstar*stress%unit
+      stress%side_ratio = surface%length(2)/surface%length(1)
+      stress%parts = stress%own%parts
+      call move_alloc(stress, answer)
+   end subroutine stresses
+
+   subroutine stress_at(self, x, y, depth, parts, error)
+      class(ball_stress), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out), optional :: error
+
+      real(dp) :: place(3)
+
+      place = self%scale*[x - 0.5_dp*pi, y - 0.5_dp*pi, depth] + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
+      call self%own%at(place(1), place(2), place(3), parts, error)
+      parts = parts*self%unit
+      if (present(error)) error = error*self%unit
+   end subroutine stress_at
+
+   subroutine start_places(self, body, places, widths, stresses)
+      class(ball_stress), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: places(:, :)
+      real(dp), allocatable, intent(out) :: widths(:)
+      real(dp), allocatable, intent(out) :: stresses(:, :)
+
+      integer :: i
+
+      call self%own%start_places(body, places, widths, stresses)
+      do i = 1, size(places, 2)
+         places(:, i) = (places(:, i) - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])/self%scale + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
+      end do
+      widths = widths/maxval(self%scale)
+      stresses = stresses*self%unit
+   end subroutine start_places
+
+   !> Of the powers of the force: 2/3 of approach and area.
+   subroutine derivatives(self, record, surface, answer)
+      class(ball_source), intent(in) :: self
+      type(solution_record), intent(in) :: record
+      type(surface_type), intent(in) :: surface
+      type(load_derivatives), intent(out) :: answer
+
+      associate (unused => self, unused_too => surface, p => record%pbar_over_pstar, &
+                 approach => record%measures%approach_over_amplitude, area => record%measures%contact_area_fraction)
+         answer = load_derivatives(gap_slope=-approach*2/(3*p), gap_slope_error=0.0_dp, area_slope=area*2/(3*p), &
+                                   area_slope_error=0.0_dp, gap_curvature=approach*2/(9*p**2), &
+                                   gap_curvature_error=0.0_dp)
+      end associate
+   end subroutine derivatives
+
+end module wavycon_ball_source
