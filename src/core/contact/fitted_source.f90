@@ -4,6 +4,7 @@ module wavycon_fitted_source
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_details, load_derivatives, unknown
    use wavycon_contact_contours, only: contact_contour
+   use wavycon_contact_spots, only: in_cell
    use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_fields, only: find_fitted_details, fitted_fields, start_fitted_fields
@@ -132,19 +133,6 @@ contains
       associate (count => merge(1, size(curves), self%answer%pool))
          allocate (loads(count), source=1.0_dp/count)
       end associate
-
-   contains
-
-      !> The equivalent angle between 0 and 2 pi.
-      pure real(dp) function in_cell(angle)
-         real(dp), intent(in) :: angle
-
-         !> An angle of 2 pi less rounding becomes 0, as 2 pi does.
-         real(dp), parameter :: rounding = 1e-9_dp
-
-         in_cell = angle - 2*pi*floor(angle/(2*pi) + rounding)
-      end function in_cell
-
    end subroutine contact_contours
 
    subroutine details(self, answer, found)

@@ -16,7 +16,7 @@ module wavycon_grid_source
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_region_numbers, only: region_numbers
+   use wavycon_region_numbers, only: find_region_numbers, region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_paper_wave, only: smaller_cell
@@ -120,7 +120,10 @@ contains
       else
          call grid_strip_edges(self%edge, edges)
          call make_strips(edges, self%edge%in_contact(1, 1), self%edge%even, curves)
-         call strip_loads(self%edge, size(curves), loads)
+         call find_region_numbers(self%edge, [self%edge%period(1), 1], 0, numbers)
+         call spot_loads(self%edge, numbers, loads)
+         ! Strips begin with that of the first point, numbers with that of the point before it.
+         if (self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) loads = cshift(loads, 1)
       end if
    end subroutine contact_contours
 
@@ -270,24 +273,5 @@ contains
       end do
       if (numbers%spots > 0) loads = loads/sum(loads)
    end subroutine spot_loads
-
-   !> The part of the load that each strip of a 1-D contact carries; the first strip is that of the first point.
-   pure subroutine strip_loads(edge, strips, loads)
-      type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: strips   !! their number
-      real(dp), allocatable, intent(out) :: loads(:)
-
-      integer :: k, strip
-
-      allocate (loads(strips), source=0.0_dp)
-      if (strips == 0) return
-      strip = merge(1, 0, edge%in_contact(1, 1))
-      do k = 1, edge%period(1)
-         if (.not. edge%in_contact(k, 1)) cycle
-         if (k > 1 .and. .not. edge%in_contact(k - 1, 1)) strip = mod(strip, strips) + 1
-         loads(strip) = loads(strip) + edge%pressure_or_gap(edge%place(k, 1), 1)
-      end do
-      loads = loads/sum(loads)
-   end subroutine strip_loads
 
 end module wavycon_grid_source

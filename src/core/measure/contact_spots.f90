@@ -10,7 +10,7 @@ module wavycon_contact_spots
    implicit none (type, external)
    private
 
-   public :: contact_region, contact_spots, find_spots, one_region
+   public :: contact_region, contact_spots, find_spots, in_cell, one_region
 
    !> A connected part of the contact or of the gap.
    type :: contact_region
