@@ -64,7 +64,8 @@ contains
          do k = 1, points(1)
             first = self%symmetry%first_of([k, l] - 1)
             associate (i => first%point(1) + 1, j => first%point(2) + 1, angles => 2*pi*(first%point + offset)/points)
-               if (i == k .and. j == l) call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
+               if (i == k .and. j == l) &
+                  call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
                pressure(k, l) = pressure(i, j)
                displacement(k, l) = displacement(i, j)
                gap(k, l) = gap(i, j)

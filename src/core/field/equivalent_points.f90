@@ -41,7 +41,8 @@ contains
       self%points = points
       self%twice_offset = nint(2*offset)
       self%has_mirrors = self%crests > 0 .and. all(abs(2*offset - self%twice_offset) <= rounding)
-      self%has_diagonals = self%is_square .and. points(1) == points(2) .and. self%twice_offset(1) == self%twice_offset(2)
+      self%has_diagonals = self%is_square .and. points(1) == points(2) .and. &
+                           self%twice_offset(1) == self%twice_offset(2)
       self%has_second_crest = self%crests == 2 .and. all(mod(points, 2) == 0)
    end subroutine start
 
