@@ -6,6 +6,7 @@
 module wavycon_contact_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi
+   use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -20,9 +21,11 @@ module wavycon_contact_fields
       real(dp) :: own_offset(2) = 0.0_dp
       !> The own columns of that grid, of the part of the cell that was solved.
       type(grid_slab) :: own_slab = grid_slab()
+      type(equivalent_points) :: symmetry   !! of the fields, for on_grid
    contains
       procedure(fields_at_point), deferred :: at
       procedure :: on_grid
+      procedure :: prepare_places
       procedure :: at_own_column
       procedure :: at_points
    end type contact_fields
@@ -42,7 +45,8 @@ module wavycon_contact_fields
 contains
 
    !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y. On a mirrored height map the points are those
-   !> of the map, X = pi (k + offset_x)/N_x; the default, point by point, is for other surfaces.
+   !> of the map, X = pi (k + offset_x)/N_x; the default, point by point, is for other surfaces. It evaluates equivalent
+   !> points once.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(contact_fields), intent(inout) :: self
       integer, intent(in) :: points(2)       !! N_x, N_y >= 1; N_y = 1 in 1-D
@@ -50,17 +54,33 @@ contains
       !> p/p*, (u - ubar)/Delta and gap/Delta, shape (N_x, N_y).
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
+      type(point_image) :: first
       integer :: k, l
 
       allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
+      call self%symmetry%start(points, offset)
+      call self%prepare_places(self%symmetry%number_of_first())
       do l = 1, points(2)
          do k = 1, points(1)
-            associate (angles => 2*pi*([k, l] - 1 + offset)/points)
-               call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
+            first = self%symmetry%first_of([k, l] - 1)
+            associate (i => first%point(1) + 1, j => first%point(2) + 1, angles => 2*pi*(first%point + offset)/points)
+               if (i == k .and. j == l) &
+                  call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
+               pressure(k, l) = pressure(i, j)
+               displacement(k, l) = displacement(i, j)
+               gap(k, l) = gap(i, j)
             end associate
          end do
       end do
    end subroutine on_grid
+
+   !> Called before `at` for many places of the cell. Here nothing is to be prepared.
+   subroutine prepare_places(self, places)
+      class(contact_fields), intent(inout) :: self
+      integer, intent(in) :: places          !! their number
+
+      associate (unused => self, unused_too => places); end associate
+   end subroutine prepare_places
 
    !> At many points.
    subroutine at_points(self, angle, shape, pressure, displacement, gap)

@@ -2,6 +2,7 @@
 module wavycon_fitted_frame
    use wavycon_constants, only: pi, sqrt2, sqrt3
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
+   use wavycon_equivalent_points, only: equivalent_points
    use wavycon_kinds, only: dp
    use wavycon_paper_wave, only: no_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_surface, only: surface_type
@@ -22,6 +23,7 @@ module wavycon_fitted_frame
       type(wave_lattice), allocatable :: lattice   !! of the crests; none if no expansions exist for the surface
    contains
       procedure :: place
+      procedure :: symmetry
    end type fitted_frame
 
    !> Coefficients and lengths that differ by less than this, relatively, are equal.
@@ -102,5 +104,12 @@ contains
 
       place = cmplx(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi), dp)*self%turn/self%side
    end function place
+
+   !> Of the fields on the surface.
+   pure type(equivalent_points) function symmetry(self)
+      class(fitted_frame), intent(in) :: self
+
+      symmetry = equivalent_points(self%lattice%square, self%crests)
+   end function symmetry
 
 end module wavycon_fitted_frame

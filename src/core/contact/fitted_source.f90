@@ -4,7 +4,7 @@ module wavycon_fitted_source
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_measures, only: contact_details, load_derivatives, unknown
    use wavycon_contact_contours, only: contact_contour
-   use wavycon_equivalent_points, only: equivalent_points, point_image
+   use wavycon_contact_spots, only: in_cell
    use wavycon_field_source, only: field_source
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_fields, only: find_fitted_details, fitted_fields, start_fitted_fields
@@ -38,7 +38,7 @@ module wavycon_fitted_source
       type(fitted_fields), allocatable :: fitted
    contains
       procedure :: at
-      procedure :: on_grid
+      procedure :: prepare_places
    end type fitted_contact_fields
 
    !> Points of each contour.
@@ -57,6 +57,7 @@ contains
       associate (unused => record, unused_too => surface); end associate
       allocate (own)
       own%frame = self%frame
+      own%symmetry = self%frame%symmetry()
       own%accuracy = self%accuracy
       allocate (own%fitted)
       call start_fitted_fields(own%fitted, self%frame%lattice, self%answer)
@@ -82,52 +83,17 @@ contains
       real(dp), intent(out) :: pressure, displacement, gap
 
       call self%fitted%at(self%frame%place(x, y), pressure, displacement, gap)
-      call convert(self, pressure, gap)
-   end subroutine at
-
-   !> To p*, and without what errors next to the edge may leave below 0.
-   elemental subroutine convert(self, pressure, gap)
-      class(fitted_contact_fields), intent(in) :: self
-      real(dp), intent(inout) :: pressure, gap
-
+      ! To p*, and without what errors next to the edge may leave below 0.
       pressure = max(pressure*self%frame%pressure_unit, 0.0_dp)
       gap = max(gap, 0.0_dp)
-   end subroutine convert
+   end subroutine at
 
-   !> Points that are equivalent by mirror symmetry, by the diagonals of a square cell or by the second crest are
-   !> evaluated once.
-   subroutine on_grid(self, points, offset, pressure, displacement, gap)
+   subroutine prepare_places(self, places)
       class(fitted_contact_fields), intent(inout) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)
-      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
+      integer, intent(in) :: places
 
-      type(equivalent_points) :: grid
-      type(point_image) :: first
-      integer :: k, l
-
-      allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
-      call grid%start(points, offset, self%frame%lattice%square, self%frame%crests)
-      call self%fitted%prepare_map(self%accuracy, grid%number_of_first())
-      do l = 0, points(2) - 1
-         do k = 0, points(1) - 1
-            first = grid%first_of([k, l])
-            associate (i => first%point(1) + 1, j => first%point(2) + 1)
-               if (all(first%point == [k, l])) then
-                  associate (angles => 2*pi*([k, l] + offset)/points)
-                     call self%fitted%at(self%frame%place(angles(1), angles(2)), pressure(i, j), displacement(i, j), &
-                                         gap(i, j))
-                  end associate
-               else
-                  pressure(k + 1, l + 1) = pressure(i, j)
-                  displacement(k + 1, l + 1) = displacement(i, j)
-                  gap(k + 1, l + 1) = gap(i, j)
-               end if
-            end associate
-         end do
-      end do
-      call convert(self, pressure, gap)
-   end subroutine on_grid
+      call self%fitted%prepare_map(self%accuracy, places)
+   end subroutine prepare_places
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
    subroutine contact_contours(self, record, surface, curves, loads)
@@ -167,19 +133,6 @@ contains
       associate (count => merge(1, size(curves), self%answer%pool))
          allocate (loads(count), source=1.0_dp/count)
       end associate
-
-   contains
-
-      !> The equivalent angle between 0 and 2 pi.
-      pure real(dp) function in_cell(angle)
-         real(dp), intent(in) :: angle
-
-         !> An angle of 2 pi less rounding becomes 0, as 2 pi does.
-         real(dp), parameter :: rounding = 1e-9_dp
-
-         in_cell = angle - 2*pi*floor(angle/(2*pi) + rounding)
-      end function in_cell
-
    end subroutine contact_contours
 
    subroutine details(self, answer, found)

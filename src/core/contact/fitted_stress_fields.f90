@@ -2,7 +2,6 @@
 module wavycon_fitted_stress_fields
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
-   use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress, only: fitted_stress, start_fitted_stress
@@ -23,7 +22,6 @@ module wavycon_fitted_stress_fields
       type(fitted_stress) :: fitted
    contains
       procedure :: at
-      procedure :: on_plane
       procedure :: start_places
    end type fitted_stress_fields
 
@@ -40,6 +38,7 @@ contains
       fields%pbar_over_pstar = pbar_over_pstar
       fields%side_ratio = surface%length(2)/surface%length(1)
       fields%frame = frame
+      fields%symmetry = frame%symmetry()
       fields%answer = answer
       call start_fitted_stress(fields%fitted, frame%lattice, answer, accuracy)
    end subroutine start_fitted_stress_fields
@@ -59,54 +58,6 @@ contains
       end do
       if (present(error)) error = self%frame%pressure_unit*error
    end subroutine at
-
-   !> Equivalent points are evaluated once.
-   subroutine on_plane(self, points, offset, depth, body, stress, error)
-      class(fitted_stress_fields), intent(inout) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)
-      real(dp), intent(in) :: depth
-      type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: stress(:, :, :)
-      real(dp), allocatable, intent(out) :: error(:, :)
-
-      type(equivalent_points) :: grid
-      type(point_image) :: first
-      real(dp) :: here(6), parts(6, 2)
-      integer :: k, l
-
-      allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
-      call grid%start(points, offset, self%frame%lattice%square, self%frame%crests)
-      do l = 0, points(2) - 1
-         do k = 0, points(1) - 1
-            first = grid%first_of([k, l])
-            associate (i => first%point(1) + 1, j => first%point(2) + 1)
-               if (all(first%point == [k, l])) then
-                  associate (angles => 2*pi*([k, l] + offset)/points)
-                     call self%at(angles(1), angles(2), depth, parts, error(i, j))
-                  end associate
-                  stress(i, j, :) = body%stress(parts, self%pbar_over_pstar)
-               else
-                  here = stress(i, j, :)
-                  stress(k + 1, l + 1, :) = from_image(here, first)
-                  error(k + 1, l + 1) = error(i, j)
-               end if
-            end associate
-         end do
-      end do
-   end subroutine on_plane
-
-   !> The stress at a point from that at its image.
-   pure function from_image(stress, image) result(here)
-      real(dp), intent(in) :: stress(6)
-      type(point_image), intent(in) :: image
-      real(dp) :: here(6)
-
-      here = stress
-      if (image%exchanged) here = here([yy, xx, zz, xy, yz, xz])
-      if (image%mirrored(1)) here([xy, xz]) = -here([xy, xz])
-      if (image%mirrored(2)) here([xy, yz]) = -here([xy, yz])
-   end function from_image
 
    !> A stress after a rotation about the z axis.
    pure function rotated(stress, turn)

@@ -87,13 +87,9 @@ contains
       integer, parameter :: lengths(*) = [8, 9, 10, 12, 15, 16]
       integer :: d, length, unit
 
-      low(1) = findloc(any(inside, dim=2), .true., dim=1)
-      high(1) = findloc(any(inside, dim=2), .true., dim=1, back=.true.)
-      low(2) = findloc(any(inside, dim=1), .true., dim=1)
-      high(2) = findloc(any(inside, dim=1), .true., dim=1, back=.true.)
-      low = max(low - beside, 1)
-      high = min(high + beside, shape(inside))
       do d = 1, 2
+         low(d) = max(findloc(any(inside, dim=3 - d), .true., dim=1) - beside, 1)
+         high(d) = min(findloc(any(inside, dim=3 - d), .true., dim=1, back=.true.) + beside, size(inside, d))
          length = max(high(d) - low(d) + 1, least_side)
          unit = 2**(exponent(real(length - 1)) - 4)
          length = min(unit*minval(lengths, lengths*unit >= length), size(inside, d))
@@ -120,9 +116,8 @@ contains
             do i = 1, n(1)
                if (.not. pressure(i, j) > 0.0_dp) cycle
                x = side(1)*(i - 0.5_dp)/n(1)
-               mean = mean + pressure(i, j)*(integral_to_corner(x, y) + integral_to_corner(side(1) - x, y) &
-                                             + integral_to_corner(x, side(2) - y) &
-                                             + integral_to_corner(side(1) - x, side(2) - y))
+               mean = mean + pressure(i, j)*sum(integral_to_corner([x, side(1) - x, x, side(1) - x], &
+                                                                   [y, y, side(2) - y, side(2) - y]))
             end do
          end do
          mean = sum(sum(undeformed_gap, dim=1))/product(n) - approach + mean/(surface%stiffness*product(n))

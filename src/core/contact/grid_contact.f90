@@ -103,8 +103,8 @@ contains
       else
          plan = plan_grids(self%surface, self%options%points)
       end if
-      traits%finest_grid = plan%last
-      if (all(self%options%points > 0)) traits%given_grid = plan%last
+      traits%finest_grid = plan%grids(:, size(plan%grids, 2))
+      if (all(self%options%points > 0)) traits%given_grid = traits%finest_grid
    end function traits
 
    !> Solves one load by solve_by_sequence.
@@ -129,7 +129,7 @@ contains
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_grids
       solution%measures = answer%measures
-      solution%measures%min_pressure_over_pstar = least_pressure(answer%edge)
+      call measure_edge(self%surface, answer%edge, solution)
       if (self%surface%has_hardness()) then
          associate (load_of_area => self%surface%hardness/pbar_over_pstar)
             solution%measures%load_at_hardness_fraction = answer%measures%area_at_hardness_fraction*load_of_area
@@ -137,10 +137,6 @@ contains
          end associate
          if (.not. solution%measures%load_at_hardness_error < 1.0_dp) solution%measures%load_at_hardness_error = unknown
       end if
-      if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
-         solution%measures%load_concentration = load_concentration(answer%edge)
-      if (self%surface%has_free_edges) solution%measures%load_at_border = load_at_border(answer%edge)
-      solution%active_constraints = bound_points(answer%edge, self%surface%hardness)
       solution%iterations = answer%iterations
       solution%residual = answer%state%residual
       if (.not. answer%state%converged) then
@@ -181,42 +177,34 @@ contains
       end associate
    end subroutine solve_cell
 
-   !> The part of the load that lies within `border` sides of the border.
-   pure real(dp) function load_at_border(edge) result(part)
-      type(grid_edge), intent(in) :: edge   !! whole, of a surface with free edges
+   !> The numbers of the edge besides area and peak: of points where the pressure is zero or the hardness, the least
+   !> pressure, and how the load is distributed.
+   subroutine measure_edge(surface, edge, solution)
+      type(surface_type), intent(in) :: surface
+      type(grid_edge), intent(in) :: edge   !! with free edges whole
+      type(contact_solution), intent(inout) :: solution
 
       integer :: inner(2)
+      integer(int64) :: bound(1)
+      real(dp) :: opposite(1)
 
-      associate (p => edge%pressure_or_gap, points => edge%slab%points)
+      associate (p => edge%pressure_or_gap, points => edge%slab%points, measures => solution%measures)
+         bound = count(p <= 0.0_dp, kind=int64) + count(p >= surface%hardness, kind=int64)
+         call edge%slab%add(bound)
+         solution%active_constraints = bound(1)
+         opposite = -minval(p)
+         call edge%slab%largest(opposite)
+         measures%min_pressure_over_pstar = max(-opposite(1), 0.0_dp)
+         if (surface%is_height_map() .and. measures%contact_area_fraction <= largest_spot) &
+            measures%load_concentration = load_concentration(edge)
+         if (.not. surface%has_free_edges) return
+         ! The part of the load within `border` sides of the border.
          inner = ceiling(border*points)
          if (points(2) == 1) inner(2) = 0
          associate (middle => p(1 + inner(1):points(1) - inner(1), 1 + inner(2):points(2) - inner(2)))
-            part = 1.0_dp - sum(middle, middle > 0.0_dp)/sum(p, p > 0.0_dp)
+            measures%load_at_border = 1.0_dp - sum(middle, middle > 0.0_dp)/sum(p, p > 0.0_dp)
          end associate
       end associate
-   end function load_at_border
-
-   !> The least pressure at the points of the grid.
-   real(dp) function least_pressure(edge) result(least)
-      type(grid_edge), intent(in) :: edge
-
-      real(dp) :: opposite(1)
-
-      opposite = -minval(edge%pressure_or_gap)
-      call edge%slab%largest(opposite)
-      least = max(-opposite(1), 0.0_dp)
-   end function least_pressure
-
-   !> The number of points of the grid where the pressure is zero or the hardness.
-   integer(int64) function bound_points(edge, hardness) result(number)
-      type(grid_edge), intent(in) :: edge
-      real(dp), intent(in) :: hardness
-
-      integer(int64) :: total(1)
-
-      total = count(edge%pressure_or_gap <= 0.0_dp, kind=int64) + count(edge%pressure_or_gap >= hardness, kind=int64)
-      call edge%slab%add(total)
-      number = total(1)
-   end function bound_points
+   end subroutine measure_edge
 
 end module wavycon_grid_contact

@@ -126,25 +126,23 @@ contains
    subroutine find_psi(fields)
       type(grid_fields), intent(inout) :: fields
 
-      real(dp), allocatable :: own(:, :)
       real(dp) :: inside, outside
       integer :: k, l, m, n
 
-      associate (edge => fields%edge, field => fields%edge%pressure_or_gap)
-         m = size(field, 1)
-         n = size(field, 2)
-         allocate (own(m, n), fields%psi(-1:m + 2, -1:n + 2))
-         where (field > 0.0_dp)
-            own = field**2
-         elsewhere
-            own = -abs(field)**(2.0_dp/3)
-         end where
-         do l = -1, n + 2
-            do k = -1, m + 2
-               fields%psi(k, l) = own(edge%place(k, 1), edge%place(l, 2))
-            end do
+      m = size(fields%edge%pressure_or_gap, 1)
+      n = size(fields%edge%pressure_or_gap, 2)
+      allocate (fields%psi(-1:m + 2, -1:n + 2))
+      do l = -1, n + 2
+         do k = -1, m + 2
+            associate (value => fields%edge%at(k, l))
+               if (value > 0.0_dp) then
+                  fields%psi(k, l) = value**2
+               else
+                  fields%psi(k, l) = -abs(value)**(2.0_dp/3)
+               end if
+            end associate
          end do
-      end associate
+      end do
       inside = 0.0_dp
       outside = 0.0_dp
       do l = 1, n

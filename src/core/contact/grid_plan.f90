@@ -19,12 +19,8 @@ module wavycon_grid_plan
    integer, parameter :: numbers_of_point = 7
 
    type :: grid_plan
-      integer :: first(2) = 1     !! the coarsest grid
-      integer :: trusted(2) = 1   !! the first grid whose error estimates include the shortest waves of the surface
-      integer :: last(2) = 1      !! the finest grid
-      integer, private :: base(2) = 1   !! the grid that the coarser ones follow from
-   contains
-      procedure :: next
+      integer, allocatable :: grids(:, :)   !! points along x and y of each grid, the coarsest first, shape (2, n)
+      integer :: trusted = 1                !! the first whose error estimates include the surface's shortest waves
    end type grid_plan
 
 contains
@@ -38,86 +34,35 @@ contains
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: points(2)   !! of the last grid's whole cell; zeros: the accuracy decides
 
-      integer :: least(2), parts(2)
+      integer :: grid(2), least(2), most, parts(2)
 
       parts = merge(2, 1, surface%shape%is_even())
       if (surface%dimension == 1) parts(2) = 1
       least = 2*first_points/parts
       if (surface%dimension == 1) least(2) = 1
       if (all(points > 0)) then
-         plan%last = points/parts
-         plan%trusted = plan%last
-         plan%base = plan%last
-         plan%first = coarsest(plan%base, least)
-      else if (all(surface%points > 0)) then
-         plan%last = finest(surface%points/parts, surface)
-         plan%trusted = min(2*surface%points/parts, plan%last)
-         plan%base = surface%points/parts
-         plan%first = coarsest(plan%base, least)
+         grid = points/parts
+      else if (surface%is_height_map()) then
+         grid = surface%points/parts
       else
-         plan%first = least*fast_size(max(1, ubound(surface%shape%c)))
-         if (surface%dimension == 1) plan%first(2) = 1
-         plan%trusted = plan%first
-         plan%base = plan%first
-         plan%last = finest(plan%first, surface)
+         grid = least*fast_size(max(1, ubound(surface%shape%c)))
+         if (surface%dimension == 1) grid(2) = 1
+         least = grid
       end if
+      allocate (plan%grids(2, 1), source=reshape(grid, [2, 1]))
+      do while (all((plan%grids(:, 1) + 1)/2 >= least))
+         plan%grids = reshape([(plan%grids(:, 1) + 1)/2, plan%grids], [2, size(plan%grids, 2) + 1])
+      end do
+      plan%trusted = size(plan%grids, 2)
+      if (all(points > 0)) return
+      most = merge(most_points_line, most_points_plane, surface%dimension == 1)/product(parts)
+      do while (product(int(grid, int64)) <= most)
+         ! In 1-D the second number stays 1.
+         grid = [2, surface%dimension]*grid
+         plan%grids = reshape([plan%grids, grid], [2, size(plan%grids, 2) + 1])
+      end do
+      if (surface%is_height_map()) plan%trusted = min(plan%trusted + 1, size(plan%grids, 2))
    end function plan_grids
-
-   !> The grid after another one of the sequence.
-   pure function next(self, grid)
-      class(grid_plan), intent(in) :: self
-      integer, intent(in) :: grid(2)   !! first .. last
-      integer :: next(2)
-
-      next = merge(2*grid, 1, grid > 1)
-      if (product(int(grid, int64)) >= product(int(self%base, int64))) return
-      next = self%base
-      do while (any(coarser(next) /= grid))
-         next = coarser(next)
-      end do
-   end function next
-
-   !> The grid of half the points each way.
-   pure function coarser(grid)
-      integer, intent(in) :: grid(2)
-      integer :: coarser(2)
-
-      coarser = (grid + 1)/2
-   end function coarser
-
-   !> Halves the numbers of points as often as at least `least` are left.
-   pure function coarsest(grid, least)
-      integer, intent(in) :: grid(2), least(2)
-      integer :: coarsest(2)
-
-      coarsest = grid
-      do while (all(coarser(coarsest) >= least) .and. any(coarsest > 1))
-         coarsest = coarser(coarsest)
-      end do
-   end function coarsest
-
-   !> Doubles the numbers of points as often as the limits of wavycon_contact_tuning allow.
-   pure function finest(grid, surface)
-      integer, intent(in) :: grid(2)
-      type(surface_type), intent(in) :: surface
-      integer :: finest(2)
-
-      integer :: most, twice(2)
-
-      if (surface%dimension == 1) then
-         twice = [2, 1]
-         most = most_points_line
-         if (.not. surface%shape%is_even()) most = 2*most
-      else
-         twice = 2
-         most = most_points_plane
-         if (.not. surface%shape%is_even()) most = 4*most
-      end if
-      finest = grid
-      do while (product(int(finest, int64)) <= most/product(twice))
-         finest = twice*finest
-      end do
-   end function finest
 
    !> The least number of points, not below a given one, whose Fourier transform is fast: 1, 3 or 5 times a power of
    !> two.

@@ -32,34 +32,30 @@ contains
       real(dp), allocatable, intent(out) :: fine(:, :)   !! own columns, shape (M', fine_slab%columns())
 
       real(dp), allocatable :: needed(:, :)
-      integer :: before(fine_slab%points(1)), column, first, j, last
-      real(dp) :: line(size(coarse, 1)), rest, rests(fine_slab%points(1))
+      integer :: before(fine_slab%points(1)), column, first, j, last, m
+      real(dp) :: line(0:coarse_slab%points(1) + 1), rest, rests(fine_slab%points(1))
 
-      allocate (fine(fine_slab%points(1), fine_slab%columns()))
-      do j = 1, fine_slab%points(1)
-         call find_place(j, fine_slab%points(1), coarse_slab%points(1), even, before(j), rests(j))
-      end do
-      if (fine_slab%points(2) == 1) then
-         call refine_line(coarse(:, 1), even, before, rests, fine(:, 1))
-         return
-      end if
+      m = coarse_slab%points(1)
+      allocate (fine(fine_slab%points(1), fine_slab%columns()), source=0.0_dp)
+      call find_place([(j, j=1, fine_slab%points(1))], fine_slab%points(1), m, even, before, rests)
       ! The coarse columns about the own fine ones, or their images.
       call find_place(fine_slab%first, fine_slab%points(2), coarse_slab%points(2), even, first, rest)
       call find_place(fine_slab%last, fine_slab%points(2), coarse_slab%points(2), even, last, rest)
       if (fine_slab%columns() == 0) last = first - 2
-      allocate (needed(coarse_slab%points(1), first:last + 1))
+      allocate (needed(m, first:last + 1))
       call coarse_slab%fetch(coarse, even, first, needed)
       do j = fine_slab%first, fine_slab%last
          call find_place(j, fine_slab%points(2), coarse_slab%points(2), even, column, rest)
-         line = (1.0_dp - rest)*needed(:, column)
-         if (rest > 0.0_dp) line = line + rest*needed(:, column + 1)
-         call refine_line(line, even, before, rests, fine(:, j - fine_slab%first + 1))
+         line(1:m) = (1.0_dp - rest)*needed(:, column) + rest*needed(:, column + 1)
+         if (.not. any(line(1:m) > 0.0_dp)) cycle
+         line([0, m + 1]) = line(image_of_point([0, m + 1], m, even))
+         fine(:, j - fine_slab%first + 1) = max((1.0_dp - rests)*line(before) + rests*line(before + 1), 0.0_dp)
       end do
    end subroutine refine
 
    !> The coarse point before a fine one, and the rest of the way in coarse steps. Points of a quarter lie midway
    !> between the lines of the grid.
-   pure subroutine find_place(point, fine_points, coarse_points, even, before, rest)
+   elemental subroutine find_place(point, fine_points, coarse_points, even, before, rest)
       integer, intent(in) :: point, fine_points, coarse_points
       logical, intent(in) :: even
       integer, intent(out) :: before   !! 0 .. coarse_points
@@ -72,24 +68,5 @@ contains
       before = floor(place)
       rest = place - before
    end subroutine find_place
-
-   !> The points along a line.
-   pure subroutine refine_line(coarse, even, before, rests, fine)
-      real(dp), intent(in) :: coarse(:)    !! shape (M)
-      logical, intent(in) :: even
-      integer, intent(in) :: before(:)     !! of `find_place`, shape (M')
-      real(dp), intent(in) :: rests(:)
-      real(dp), intent(out) :: fine(:)     !! shape (M')
-
-      real(dp) :: extended(0:size(coarse) + 1)
-
-      fine = 0.0_dp
-      if (.not. any(coarse > 0.0_dp)) return
-      associate (m => size(coarse))
-         extended(1:m) = coarse
-         extended([0, m + 1]) = coarse(image_of_point([0, m + 1], m, even))
-      end associate
-      fine = max((1.0_dp - rests)*extended(before) + rests*extended(before + 1), 0.0_dp)
-   end subroutine refine_line
 
 end module wavycon_grid_refinement

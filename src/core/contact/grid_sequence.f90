@@ -17,7 +17,7 @@ module wavycon_grid_sequence
    use wavycon_grid_solver, only: solve_on_grid
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
-   use wavycon_pressure_load, only: set_load, sum_of_field
+   use wavycon_pressure_load, only: has_points_at, set_load, sum_of_field
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -34,6 +34,7 @@ module wavycon_grid_sequence
       real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
       type(contact_measures) :: measures   !! the values, their errors and what else the grid has
       type(change_history) :: history      !! the values on the last three grids, without the bound of a hardness
+      type(change_history), private :: at_hardness   !! the same of the area at the hardness alone
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0
@@ -61,50 +62,40 @@ contains
       logical, intent(in), optional :: needs_gap
 
       real(dp), allocatable :: h(:, :)
-      type(change_history) :: history_at_hardness
-      type(grid_edge), allocatable :: edge_at_hardness
       type(grid_plan) :: plan
       real(dp) :: last_residual, scale(3)
-      logical :: ends, has_room, last
-      integer :: grid(2)
+      logical :: ends
+      integer :: i
 
       plan = plan_grids(surface, points)
-      grid = plan%first
       last_residual = 0.0_dp
       if (present(residual) .and. all(points > 0)) last_residual = residual
-      answer%out_of_memory = .not. fits_memory(grid)
+      answer%out_of_memory = .not. fits_memory(plan%grids(:, 1))
       if (answer%out_of_memory) return
-      call answer%state%slab%start(grid)
-      allocate (answer%state%pressure(grid(1), answer%state%slab%columns()), source=mean_pressure)
+      call answer%state%slab%start(plan%grids(:, 1))
+      allocate (answer%state%pressure(plan%grids(1, 1), answer%state%slab%columns()), source=mean_pressure)
       answer%state%hardness = surface%hardness
-      do
-         last = all(grid == plan%last)
-         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, last), h, answer, progress)
+      do i = 1, size(plan%grids, 2)
+         ends = i == size(plan%grids, 2)
+         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, ends), h, answer, progress)
          if (answer%state%interrupted) return
          ! No finer grid starts from a solution that has not converged.
-         ends = last .or. .not. answer%state%converged
-         has_room = .true.
-         if (.not. ends) has_room = fits_memory(plan%next(grid))
-         if (surface%has_hardness()) call find_edge_at_hardness(surface, answer%state, edge_at_hardness)
+         ends = ends .or. .not. answer%state%converged
+         if (.not. ends) answer%out_of_memory = .not. fits_memory(plan%grids(:, i + 1))
+         ends = ends .or. answer%out_of_memory
          ! Only the errors of an answer are of interest.
-         call measure_level(surface, mean_pressure, h, ends .or. .not. has_room .or. all(grid >= plan%trusted), answer)
-         if (surface%has_hardness()) then
-            call measure_at_hardness(surface, mean_pressure, edge_at_hardness, history_at_hardness, answer)
-            deallocate (edge_at_hardness)
-         end if
+         call measure_level(surface, mean_pressure, h, ends .or. i >= plan%trusted, answer)
          scale = 1.0_dp
          if (surface%has_free_edges) scale = answer%values
-         answer%accurate = answer%state%converged .and. all(grid >= plan%trusted) .and. &
+         answer%accurate = answer%state%converged .and. i >= plan%trusted .and. &
             all(answer%errors <= accuracy*scale .or. .not. is_known(answer%values)) .and. &
             answer%measures%area_at_hardness_error <= accuracy*scale(2)
          if (present(progress)) &
-            call progress%grid_solved(grid*merge(2, 1, surface%shape%is_even() .and. grid > 1)/surface%parts(), &
-                                      answer%state%iterations, answer%state%residual)
+            call progress%grid_solved(plan%grids(:, i)*merge(2, 1, surface%shape%is_even() .and. plan%grids(:, i) > 1) &
+                                      /surface%parts(), answer%state%iterations, answer%state%residual)
+         answer%out_of_memory = answer%out_of_memory .and. .not. answer%accurate
          if (answer%accurate .or. ends) exit
-         answer%out_of_memory = .not. has_room
-         if (answer%out_of_memory) exit
-         grid = plan%next(grid)
-         call answer%state%slab%start(grid)
+         call answer%state%slab%start(plan%grids(:, i + 1))
          call refine_pressure(answer%edge, answer%state%slab, answer%state%pressure)
          deallocate (answer%edge)
       end do
@@ -142,7 +133,7 @@ contains
 
       type(compliance_operator) :: half_space
       integer :: most
-      real(dp) :: carried, highest(1), load
+      real(dp) :: carried, load
 
       associate (slab => answer%state%slab, pressure => answer%state%pressure)
          allocate (h(slab%points(1), slab%columns()))
@@ -155,12 +146,11 @@ contains
             ! The contact of the coarser grid lies between these points.
             pressure = mean_pressure
          end if
-         if (surface%has_hardness()) then
-            highest = maxval(pressure)
-            call slab%largest(highest)
-            if (highest(1) >= surface%hardness) call set_load(slab, pressure, load, surface%hardness)
-         end if
-         most = most_iterations(surface, slab%points)
+         if (has_points_at(slab, surface%hardness, pressure)) call set_load(slab, pressure, load, surface%hardness)
+         associate (length => surface%length(:surface%dimension), step => surface%length/slab%points)
+            most = max(iteration_limit, nint(iterations_of_root*sqrt( &
+                   maxval(length)/minval(step(:surface%dimension)*merge(0.5_dp, 1.0_dp, surface%shape%is_even())))))
+         end associate
       end associate
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension
       if (surface%has_free_edges) then
@@ -190,24 +180,11 @@ contains
       energy_of = 0.5_dp*total(1)/product(real(state%slab%points, dp))
    end function energy_of
 
-   !> The iterations that a grid may take.
-   pure integer function most_iterations(surface, points)
-      type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)   !! of the grid
-
-      real(dp) :: step(2)
-
-      step = surface%length/(merge(2, 1, surface%shape%is_even())*points)
-      associate (n => surface%dimension)
-         most_iterations = nint(iterations_of_root*sqrt(maxval(surface%length(:n))/minval(step(:n))))
-      end associate
-      most_iterations = max(most_iterations, iteration_limit)
-   end function most_iterations
-
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
    !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
    !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
-   !> area although there is contact. The edge takes over the memory of the gap, which no longer exists afterwards.
+   !> area although there is contact. With a hardness the same of the area at which p = H. The edge takes over the
+   !> memory of the gap, which no longer exists afterwards.
    subroutine measure_level(surface, mean_pressure, h, estimated, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
@@ -215,14 +192,19 @@ contains
       logical, intent(in) :: estimated   !! whether the errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend
+      real(dp) :: area, bend, capped_errors(3)
       integer :: j
       logical :: has_corners
-      type(grid_edge) :: astray
+      type(grid_edge) :: astray, capped
 
       answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), &
                                 surface%has_free_edges .and. surface%dimension == 2)
       if (.not. allocated(answer%edge)) allocate (answer%edge)
+      ! H - p and minus the gap behave at the edge of the area at which p = H as gap and pressure do at the edge of
+      ! contact (C23).
+      if (surface%has_hardness()) call start_grid_edge( &
+         capped, surface%hardness - answer%state%pressure, -answer%state%gap, surface%shape%is_even(), &
+         pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, surface%has_free_edges)
       do j = 1, size(answer%state%gap, 2)
          answer%state%gap(:, j) = joined(answer%state%pressure(:, j), answer%state%gap(:, j))
       end do
@@ -254,7 +236,17 @@ contains
       end associate
       if (.not. area > 0.0_dp) answer%errors(2) = unknown
       if (has_corners .and. answer%values(3) < surface%hardness) answer%values(3) = unknown
-      if (surface%has_hardness()) answer%values(2) = max(area, mean_pressure/surface%hardness)
+      if (.not. surface%has_hardness()) return
+      answer%values(2) = max(area, mean_pressure/surface%hardness)
+      call capped%fetch_neighbours()
+      area = 1.0_dp - grid_contact_area(capped)
+      answer%measures%area_at_hardness_fraction = min(area, mean_pressure/surface%hardness)
+      call answer%at_hardness%push([0.0_dp, area, 0.0_dp])
+      capped_errors = answer%at_hardness%errors()
+      ! Between the points the pressure may reach H although it does so at none of them.
+      if (answer%values(3) >= surface%hardness) &
+         capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
+      answer%measures%area_at_hardness_error = capped_errors(2)
    end subroutine measure_level
 
    !> Whether contact ends at the border of the map or at a step, where the pressure grows beyond all bounds as at the
@@ -268,38 +260,5 @@ contains
             (surface%has_steps .or. any(p([1, m], :) > 0.0_dp) .or. (n > 1 .and. any(p(:, [1, n]) > 0.0_dp)))
       end associate
    end function ends_at_corners
-
-   !> The edge of the area at which p = H. H - p and minus the gap behave there as gap and pressure do at the edge of
-   !> contact (C23).
-   subroutine find_edge_at_hardness(surface, state, edge)
-      type(surface_type), intent(in) :: surface
-      type(grid_state), intent(in) :: state   !! solved, with the gap
-      type(grid_edge), allocatable, intent(out) :: edge
-
-      allocate (edge)
-      call start_grid_edge(edge, surface%hardness - state%pressure, -state%gap, surface%shape%is_even(), &
-                           pressure_per_gap(surface, state%slab%points), state%slab, surface%has_free_edges)
-      call edge%fetch_neighbours()
-   end subroutine find_edge_at_hardness
-
-   !> The area at which p = H, and its error estimate. The area is at most P/H, the area that carries the load at the
-   !> hardness; its error is estimated before this bound is applied.
-   subroutine measure_at_hardness(surface, mean_pressure, edge, history, answer)
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: mean_pressure
-      type(grid_edge), intent(in) :: edge             !! from find_edge_at_hardness
-      type(change_history), intent(inout) :: history
-      type(sequence_answer), intent(inout) :: answer
-
-      real(dp) :: area, errors(3)
-
-      area = 1.0_dp - grid_contact_area(edge)
-      answer%measures%area_at_hardness_fraction = min(area, mean_pressure/surface%hardness)
-      call history%push([0.0_dp, area, 0.0_dp])
-      errors = history%errors()
-      ! Between the points the pressure may reach H although it does so at none of them.
-      if (answer%values(3) >= surface%hardness) errors = max(errors, unresolved_errors(surface, edge, bend=0.0_dp))
-      answer%measures%area_at_hardness_error = errors(2)
-   end subroutine measure_at_hardness
 
 end module wavycon_grid_sequence

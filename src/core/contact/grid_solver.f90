@@ -17,7 +17,7 @@ module wavycon_grid_solver
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
    use wavycon_pressure_correction, only: correct_pressure
-   use wavycon_pressure_load, only: has_points_at
+   use wavycon_pressure_load, only: has_points_at, sum_of_field
    use wavycon_solver_progress, only: solver_progress
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -43,7 +43,7 @@ contains
       class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
 
       logical :: touched(size(undeformed_gap, 2))
-      real(dp) :: allowed, last_residual
+      real(dp) :: allowed, last_residual, touching
       real(sp), allocatable :: inside(:, :)
       integer :: j
 
@@ -58,7 +58,12 @@ contains
          allowed = residual*state%size_of_gaps()
          if (residual <= 0.0_dp) then
             allowed = edge_tolerance*gap_at_edge(half_space%even, state, touched)
-            if (half_space%is_free) allowed = min(allowed, approach_tolerance*approach_in_contact(state))
+            if (half_space%is_free) then
+               ! The approach, times the square root of the part of all points that are in contact (C28).
+               touching = sum_of_field(state%slab, merge(1.0_dp, 0.0_dp, state%pressure > 0.0_dp))
+               allowed = min(allowed, approach_tolerance*abs(state%approach) &
+                                      *sqrt(touching/product(real(state%slab%points, dp))))
+            end if
          end if
          allowed = max(allowed, rounding)
          state%converged = state%residual <= allowed .or. &
@@ -128,7 +133,10 @@ contains
          else
             extremes = [-minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness)]
             call state%slab%largest(extremes)
-            change = middle_between(-extremes(1), extremes(2))
+            ! The approach may lie anywhere between the least gap at points that are open and the largest at points at
+            ! the hardness.
+            change = extremes(2)
+            if (-extremes(1) < huge(change)) change = 0.5_dp*(extremes(2) - extremes(1))
          end if
          if (has_points_at(state%slab, hardness, p)) call reduce_violation(state%slab, gap, p, hardness, change)
          !$omp parallel do num_threads(threads) private(total)
@@ -181,16 +189,6 @@ contains
       end do
    end subroutine reduce_violation
 
-   !> Where no point is free, the approach may lie anywhere between the least gap at points that are open and the
-   !> largest at points at the hardness.
-   pure real(dp) function middle_between(open, capped) result(middle)
-      real(dp), intent(in) :: open     !! huge if no point is open
-      real(dp), intent(in) :: capped
-
-      middle = capped
-      if (open < huge(open)) middle = 0.5_dp*(open + capped)
-   end function middle_between
-
    !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points
    !> that are free [Delta], (C10); zero if all points are.
    real(dp) function gap_at_edge(even, state, touched) result(gap)
@@ -218,20 +216,6 @@ contains
       sums = state%slab%column_totals(parts)
       gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
    end function gap_at_edge
-
-   !> The approach, times the square root of the part of all points that are in contact [Delta], (C28).
-   real(dp) function approach_in_contact(state) result(approach)
-      type(grid_state), intent(in) :: state
-
-      real(dp) :: parts(1, size(state%pressure, 2)), points(1)
-      integer :: j
-
-      do j = 1, size(state%pressure, 2)
-         parts(1, j) = count(state%pressure(:, j) > 0.0_dp)
-      end do
-      points = state%slab%column_totals(parts)
-      approach = abs(state%approach)*sqrt(points(1)/product(real(state%slab%points, dp)))
-   end function approach_in_contact
 
    !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign or is
    !> below the residual, and points within some steps of these.

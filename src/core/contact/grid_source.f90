@@ -12,10 +12,11 @@ module wavycon_grid_source
    use wavycon_grid_derivatives, only: differentiate_on_grid
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
+   use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
-   use wavycon_region_numbers, only: region_numbers
+   use wavycon_region_numbers, only: find_region_numbers, region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_paper_wave, only: smaller_cell
@@ -119,13 +120,17 @@ contains
       else
          call grid_strip_edges(self%edge, edges)
          call make_strips(edges, self%edge%in_contact(1, 1), self%edge%even, curves)
-         call strip_loads(self%edge, size(curves), loads)
+         call find_region_numbers(self%edge, [self%edge%period(1), 1], 0, numbers)
+         call spot_loads(self%edge, numbers, loads)
+         ! Strips begin with that of the first point, numbers with that of the point before it.
+         if (self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) loads = cshift(loads, 1)
       end if
    end subroutine contact_contours
 
    !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
-   !> and the part of the series' last octave; it is unknown where that of the peak is. Without the memory for the
-   !> series there are no stresses.
+   !> and the part of the series' last octave; it is unknown where that of the peak is. With free edges the series has
+   !> zeros beyond the map, and the stresses are those without its images. Without the memory for the series there are
+   !> no stresses.
    subroutine stresses(self, record, surface, answer)
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
@@ -137,58 +142,32 @@ contains
       type(series_stress), allocatable :: own
       !> Numbers on the whole cell: pressures, series, waves; twice as many from a rotated cell.
       integer(int64), parameter :: numbers_a_point = 8
+      integer :: parts
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
 
       allocate (own)
-      if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
-         own%exist = .false.
-         call move_alloc(own, answer)
-         return
+      own%exist = has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))
+      if (own%exist) then
+         parts = merge(2, 1, surface%has_free_edges)
+         associate (points => self%edge%slab%points)
+            allocate (values(parts*points(1), parts*points(2)), source=0.0_dp)
+            values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
+         end associate
+         ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there
+         ! would be P - 1.
+         error = record%measures%peak_pressure_error
+         if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
+         call transform%start(shape(values), self%edge%even .and. parts == 1, whole=.true.)
+         call transform%series(values, pressure)
+         deallocate (values)
+         if (self%rotated) pressure = to_difference_angles(pressure)
+         call start_series_stress(own, surface, pressure, record%pbar_over_pstar/parts**2, or_nan(error), &
+                                  is_sampled=.true.)
+         if (parts > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       end if
-      if (surface%has_free_edges) then
-         call stresses_with_free_edges(self, record, surface, answer)
-         return
-      end if
-      values = max(self%edge%pressure_or_gap, 0.0_dp)
-      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
-      ! be P - 1.
-      error = record%measures%peak_pressure_error
-      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
-      error = or_nan(error)
-      call transform%start(shape(values), self%edge%even, whole=.true.)
-      call transform%series(values, pressure)
-      deallocate (values)
-      if (self%rotated) pressure = to_difference_angles(pressure)
-      call start_series_stress(own, surface, pressure, record%pbar_over_pstar, pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)
    end subroutine stresses
-
-   !> The stresses of the series that interpolates the pressures of the map and zeros beyond it, without its images.
-   subroutine stresses_with_free_edges(self, record, surface, answer)
-      class(grid_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
-      type(surface_type), intent(in) :: surface
-      class(stress_fields), allocatable, intent(out) :: answer
-
-      type(fourier_series) :: pressure
-      type(series_stress), allocatable :: own
-      type(grid_transform) :: transform
-      real(dp), allocatable :: values(:, :)
-
-      allocate (own)
-      associate (points => self%edge%slab%points)
-         allocate (values(2*points(1), 2*points(2)), source=0.0_dp)
-         values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
-         call transform%start(shape(values), .false., whole=.true.)
-         call transform%series(values, pressure)
-         call start_series_stress(own, surface, pressure, record%pbar_over_pstar/4, &
-                                  or_nan(record%measures%peak_pressure_error), is_sampled=.true.)
-         call transform%start(points, self%edge%even, whole=.true.)
-      end associate
-      call own%remove_images([transform%x_angle(1), transform%y_angle(1)])
-      call move_alloc(own, answer)
-   end subroutine stresses_with_free_edges
 
    !> From solutions of the same grid at loads near by. Unknown with a hardness, and of a distributed grid.
    subroutine derivatives(self, record, surface, answer)
@@ -294,24 +273,5 @@ contains
       end do
       if (numbers%spots > 0) loads = loads/sum(loads)
    end subroutine spot_loads
-
-   !> The part of the load that each strip of a 1-D contact carries; the first strip is that of the first point.
-   pure subroutine strip_loads(edge, strips, loads)
-      type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: strips   !! their number
-      real(dp), allocatable, intent(out) :: loads(:)
-
-      integer :: k, strip
-
-      allocate (loads(strips), source=0.0_dp)
-      if (strips == 0) return
-      strip = merge(1, 0, edge%in_contact(1, 1))
-      do k = 1, edge%period(1)
-         if (.not. edge%in_contact(k, 1)) cycle
-         if (k > 1 .and. .not. edge%in_contact(k - 1, 1)) strip = mod(strip, strips) + 1
-         loads(strip) = loads(strip) + edge%pressure_or_gap(edge%place(k, 1), 1)
-      end do
-      loads = loads/sum(loads)
-   end subroutine strip_loads
 
 end module wavycon_grid_source

@@ -87,19 +87,13 @@ contains
       real(dp), allocatable :: direction(:), field(:, :), image(:), residual(:), value(:)
       integer, allocatable :: place(:, :)       ! of each missing height, its indices along x and y
       real(dp) :: last, largest, square, square_before, step
-      integer :: i, iteration, j, n
+      integer :: i, iteration, j
 
-      n = count(missing)
-      allocate (direction(n), image(n), place(2, n), residual(n))
-      n = 0
-      do j = 1, size(missing, 2)
-         do i = 1, size(missing, 1)
-            if (.not. missing(i, j)) cycle
-            n = n + 1
-            place(:, n) = [i, j]
-         end do
-      end do
-      allocate (value(n), source=[(height(place(1, n), place(2, n)), n=1, size(place, 2))])
+      value = pack(height, missing)
+      allocate (direction, image, residual, mold=value)
+      allocate (place(2, size(value)))
+      place(1, :) = pack(spread([(i, i=1, size(missing, 1))], 2, size(missing, 2)), missing)
+      place(2, :) = pack(spread([(j, j=1, size(missing, 2))], 1, size(missing, 1)), missing)
       allocate (field(size(height, 1), size(height, 2)), source=0.0_dp)
       last = huge(last)
       do

@@ -64,7 +64,7 @@ contains
                ! leaves the contact.
                if (btest(seen(k, l), number) .or. regions(number) < 0 .or. regions(number + 1) > 0) cycle
                count = count + 1
-               call trace(edge, own, k, l, number, seen, found(count))
+               call trace(edge, own, [k, l], number, seen, found(count))
                found(count)%spot = regions(number)
                found(count)%pool = -regions(number + 1)
             end do
@@ -183,24 +183,23 @@ contains
    end subroutine shift_contour
 
    !> Follows one curve from an edge of a cell back to it.
-   subroutine trace(edge, numbers, first_k, first_l, first_number, seen, curve)
+   subroutine trace(edge, numbers, first_cell, first_number, seen, curve)
       class(contact_edge), intent(in) :: edge
       type(region_numbers), intent(in) :: numbers
-      integer, intent(in) :: first_k, first_l, first_number
+      integer, intent(in) :: first_cell(2), first_number
       integer(int8), intent(inout) :: seen(0:, 0:)
       type(contact_contour), intent(out) :: curve
 
-      integer, parameter :: step_k(4) = [0, 1, 0, -1], step_l(4) = [-1, 0, 1, 0]
-      integer, parameter :: opposite(4) = [3, 4, 1, 2]
+      !> To the cell beyond each side.
+      integer, parameter :: step(2, 4) = reshape([0, -1, 1, 0, 0, 1, -1, 0], [2, 4])
       real(dp), allocatable :: points(:, :)   ! shape (2, *)
       type(edge_point) :: first, last, next
-      integer :: k, l, number, count, place(2), quarters
+      integer :: cell(2), number, count, place(2), quarters
 
       allocate (points(2, 64))
-      k = first_k
-      l = first_l
+      cell = first_cell
       number = first_number
-      first = edge%side(k, l, number)
+      first = edge%side(cell(1), cell(2), number)
       last = first
       count = 0
       quarters = 0
@@ -208,22 +207,22 @@ contains
          count = count + 1
          if (count > size(points, 2)) points = reshape(points, [2, 2*size(points, 2)], pad=[0.0_dp])
          points(:, count) = last%angle
-         place = numbers%wrap(k, l)
+         place = numbers%wrap(cell(1), cell(2))
          if (btest(seen(place(1), place(2)), number)) exit
          seen(place(1), place(2)) = ibset(seen(place(1), place(2)), number)
 
          ! The curve leaves the cell through the next side, counter-clockwise, that the edge crosses (see cell_area).
          do
             number = mod(number, 4) + 1
-            next = edge%side(k, l, number)
+            next = edge%side(cell(1), cell(2), number)
             if (next%number > 0) exit
          end do
          quarters = quarters + quarter_turns(last, next)
          curve%area = curve%area - edge%beside_chord(last, next) &
                       + 0.5_dp*cross(last%angle - first%angle, next%angle - first%angle)
-         k = k + step_k(number)
-         l = l + step_l(number)
-         number = opposite(number)
+         cell = cell + step(:, number)
+         ! The opposite side.
+         number = mod(number + 1, 4) + 1
          last = next
          last%number = number
       end do

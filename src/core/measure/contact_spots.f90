@@ -10,7 +10,7 @@ module wavycon_contact_spots
    implicit none (type, external)
    private
 
-   public :: contact_region, contact_spots, find_spots, one_region
+   public :: contact_region, contact_spots, find_spots, in_cell, one_region
 
    !> A connected part of the contact or of the gap.
    type :: contact_region
@@ -301,10 +301,8 @@ contains
       type(contact_region), allocatable, intent(out) :: sorted(:)   !! the largest first
 
       integer(c_size_t) :: places(size(regions))
-      real(dp) :: areas(size(regions))
 
-      areas = regions%area_fraction
-      call gsl_sort_index(places, -areas, 1_c_size_t, size(regions, kind=c_size_t))
+      call gsl_sort_index(places, -regions%area_fraction, 1_c_size_t, size(regions, kind=c_size_t))
       sorted = regions(int(places) + 1)
    end subroutine sort_by_area
 

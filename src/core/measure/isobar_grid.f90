@@ -10,7 +10,6 @@ module wavycon_isobar_grid
    use wavycon_cosine_table, only: cosine_table, folded
    use wavycon_fourier_series, only: evaluate_line, fourier_series
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgemm
    use wavycon_line_zeros, only: zero_between
    implicit none (type, external)
    private
@@ -38,7 +37,7 @@ contains
       real(dp), intent(in) :: level                 !! over p*
       integer, intent(in) :: intervals              !! N >= 1
 
-      real(dp), dimension(0:intervals, 0:ubound(pressure%c, 1)) :: cosines, sines
+      real(dp), dimension(0:ubound(pressure%c, 1), 0:intervals) :: cosines, sines
       real(dp) :: sine(0:2*intervals - 1)
       integer :: i, k, n
 
@@ -48,29 +47,17 @@ contains
       grid%step = pi/intervals
       call pressure%evaluate_on_grid(intervals, grid%pressure)
       grid%pressure = grid%pressure - level
-      cosines = cosine_table(intervals, n)
+      cosines = transpose(cosine_table(intervals, n))
       sine = [(sin(pi*k/intervals), k=0, 2*intervals - 1)]
       do i = 0, n
-         sines(:, i) = [(-i*sine(modulo(i*k, 2*intervals)), k=0, intervals)]
+         sines(i, :) = [(-i*sine(modulo(i*k, 2*intervals)), k=0, intervals)]
       end do
       allocate (grid%along(0:n, 0:intervals, 2), grid%across(0:n, 0:intervals, 2))
-      call line_series('N', cosines, grid%along(:, :, 1))
-      call line_series('N', sines, grid%across(:, :, 1))
-      call line_series('T', cosines, grid%along(:, :, 2))
-      call line_series('T', sines, grid%across(:, :, 2))
+      grid%along(:, :, 1) = matmul(pressure%c, cosines)
+      grid%across(:, :, 1) = matmul(pressure%c, sines)
+      grid%along(:, :, 2) = matmul(transpose(pressure%c), cosines)
+      grid%across(:, :, 2) = matmul(transpose(pressure%c), sines)
       grid%along(0, :, :) = grid%along(0, :, :) - level
-
-   contains
-
-      subroutine line_series(trans, table, series)
-         character, intent(in) :: trans
-         real(dp), intent(in) :: table(0:intervals, 0:n)
-         real(dp), intent(out) :: series(0:n, 0:intervals)
-
-         call dgemm(trans, 'T', n + 1, intervals + 1, n + 1, 1.0_dp, pressure%c, n + 1, table, intervals + 1, &
-                    0.0_dp, series, n + 1)
-      end subroutine line_series
-
    end subroutine start_isobar_grid
 
    pure logical function in_contact(self, k, l)

@@ -5,7 +5,9 @@
 module wavycon_stress_fields
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
+   use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_kinds, only: dp
+   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    implicit none (type, external)
    private
 
@@ -16,6 +18,7 @@ module wavycon_stress_fields
       logical :: exist = .true.               !! whether there is a solution; if not all stresses are NaN
       integer :: dimension = 2                !! 1: nothing depends on Y
       real(dp) :: side_ratio = 1.0_dp         !! L_y/L_x
+      type(equivalent_points) :: symmetry     !! of the stresses, for on_plane
       integer :: parts(2) = 1                 !! of the surface: how often the points of on_plane fit into the cell
    contains
       procedure(parts_at_point), deferred :: at
@@ -109,7 +112,7 @@ contains
    end subroutine on_line
 
    !> On a plane at X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y; on a mirrored height map at the
-   !> points of the map, X = pi (k + offset_x)/N_x.
+   !> points of the map, X = pi (k + offset_x)/N_x. Equivalent points are evaluated once.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(stress_fields), intent(inout) :: self
       integer, intent(in) :: points(2)        !! N_x, N_y >= 1; N_y = 1 in 1-D
@@ -120,16 +123,30 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :)
       real(dp), allocatable, intent(out) :: error(:, :)   !! as of `at`, shape (N_x, N_y) [p*]
 
-      real(dp) :: parts(6, 2)
+      type(point_image) :: first
+      real(dp) :: here(6), parts(6, 2)
       integer :: k, l
 
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
+      call self%symmetry%start(points, offset)
       do l = 1, points(2)
          do k = 1, points(1)
-            associate (angles => 2*pi*([k, l] - 1 + offset)/(self%parts*points))
-               call self%at(angles(1), angles(2), depth, parts, error(k, l))
+            first = self%symmetry%first_of([k, l] - 1)
+            associate (i => first%point(1) + 1, j => first%point(2) + 1)
+               if (i == k .and. j == l) then
+                  associate (angles => 2*pi*([k, l] - 1 + offset)/(self%parts*points))
+                     call self%at(angles(1), angles(2), depth, parts, error(k, l))
+                  end associate
+                  here = body%stress(parts, self%pbar_over_pstar)
+               else
+                  here = stress(i, j, :)
+                  error(k, l) = error(i, j)
+                  if (first%exchanged) here = here([yy, xx, zz, xy, yz, xz])
+                  if (first%mirrored(1)) here([xy, xz]) = -here([xy, xz])
+                  if (first%mirrored(2)) here([xy, yz]) = -here([xy, yz])
+               end if
+               stress(k, l, :) = here
             end associate
-            stress(k, l, :) = body%stress(parts, self%pbar_over_pstar)
          end do
       end do
    end subroutine on_plane

@@ -11,9 +11,10 @@ module wavycon_equivalent_points
    public :: equivalent_points, point_image
 
    type :: equivalent_points
-      private
-      integer :: points(2) = 1, twice_offset(2) = 0
-      logical :: has_mirrors = .false., has_diagonals = .false., has_second_crest = .false.
+      logical :: is_square = .false.   !! whether x and y are equivalent on the lattice
+      integer :: crests = 0            !! of the cell, 1 or 2; 0: no points are equivalent
+      integer, private :: points(2) = 1, twice_offset(2) = 0
+      logical, private :: has_mirrors = .false., has_diagonals = .false., has_second_crest = .false.
    contains
       procedure :: start
       procedure :: first_of
@@ -30,20 +31,19 @@ module wavycon_equivalent_points
 contains
 
    !> Finds the symmetries that the points of a grid have.
-   subroutine start(self, points, offset, is_square, crests)
-      class(equivalent_points), intent(out) :: self
+   subroutine start(self, points, offset)
+      class(equivalent_points), intent(inout) :: self
       integer, intent(in) :: points(2)     !! of the cell
       real(dp), intent(in) :: offset(2)    !! of the first point, in steps
-      logical, intent(in) :: is_square     !! whether x and y are equivalent on the lattice
-      integer, intent(in) :: crests        !! of the cell, 1 or 2
 
       real(dp), parameter :: rounding = 1e-12_dp
 
       self%points = points
       self%twice_offset = nint(2*offset)
-      self%has_mirrors = all(abs(2*offset - self%twice_offset) <= rounding)
-      self%has_diagonals = is_square .and. points(1) == points(2) .and. self%twice_offset(1) == self%twice_offset(2)
-      self%has_second_crest = crests == 2 .and. all(mod(points, 2) == 0)
+      self%has_mirrors = self%crests > 0 .and. all(abs(2*offset - self%twice_offset) <= rounding)
+      self%has_diagonals = self%is_square .and. points(1) == points(2) .and. &
+                           self%twice_offset(1) == self%twice_offset(2)
+      self%has_second_crest = self%crests == 2 .and. all(mod(points, 2) == 0)
    end subroutine start
 
    !> The first of all points equivalent to this one, in the order of a loop over X within one over Y.
