@@ -23,7 +23,7 @@ module wavycon_chebyshev_table
       procedure :: set
       procedure :: at
       procedure :: set_powers
-      procedure :: add_even
+      procedure :: evaluate_even
    end type chebyshev_table
 
 contains
@@ -64,12 +64,13 @@ contains
       end associate
    end function at
 
-   !> Makes `power` of the first function, with the powers that it has.
-   pure subroutine set_powers(self)
+   !> Makes `power` of the first function for `evaluate_even`.
+   pure subroutine set_powers(self, rounding)
       class(chebyshev_table), intent(inout) :: self
+      real(dp), intent(in) :: rounding         !! of its values: coefficients beyond the last larger one are dropped
 
       real(dp) :: of_chebyshev(0:max(size(self%c, 1), size(self%c, 2)), 0:max(size(self%c, 1), size(self%c, 2)))
-      integer :: degree(0:ubound(self%c, 2)), j, m, n
+      integer :: j, m, n, terms(0:ubound(self%c, 2))
 
       of_chebyshev = 0.0_dp
       of_chebyshev(0, 0) = 1.0_dp
@@ -81,23 +82,26 @@ contains
       ! T_j(v) contains lower powers of v, so a degree in u must not be less than those of higher powers of v.
       m = ubound(self%c, 1)
       n = ubound(self%c, 2)
-      degree = [(findloc(abs(self%c(:, j, 1)) > 0.0_dp, .true., dim=1, back=.true.) - 1, j=0, n)]
-      self%degree = [(max(maxval(degree(j:)), 0), j=0, max(findloc(degree >= 0, .true., dim=1, back=.true.) - 1, 0))]
+      do j = 0, n
+         terms(j) = findloc(maxval(abs(self%c(:, j:, 1)), 2) > rounding, .true., dim=1, back=.true.)
+         self%c(terms(j):, j, 1) = 0.0_dp
+      end do
+      self%degree = max(pack(terms, terms > 0 .or. [(j == 0, j=0, n)]) - 1, 0)
       ! The coefficients fall much faster than those of Chebyshev's polynomials grow: no digits are lost.
       self%power = matmul(of_chebyshev(:m, :m), matmul(self%c(:, :, 1), transpose(of_chebyshev(:n, :n))))
    end subroutine set_powers
 
-   !> Adds the first function at n places of a rectangle, where it is even, and its gradient if that is given room: by
-   !> Horner's scheme, which takes a third less time than products of matrices.
-   pure subroutine add_even(self, half, n, x, y, value, slope_x, slope_y)
+   !> The first function at n places of a rectangle, where it is even, and its gradient if that is given room: by
+   !> Horner's scheme. With products of matrices in its place loads took a quarter more time.
+   pure subroutine evaluate_even(self, half, n, x, y, value, slope_x, slope_y)
       class(chebyshev_table), intent(in) :: self    !! with powers
       real(dp), intent(in) :: half(2)               !! of the rectangle's sides along x and y [s]
       integer, intent(in) :: n
       real(dp), intent(in) :: x(n), y(n)            !! in the rectangle [s]
-      real(dp), intent(inout) :: value(n)
-      real(dp), intent(inout), optional :: slope_x(n), slope_y(n)   !! both or none [1/s]
+      real(dp), intent(out) :: value(n)
+      real(dp), intent(out), optional :: slope_x(n), slope_y(n)   !! both or none [1/s]
 
-      real(dp), dimension(n) :: u, v, p, q, dq, du, dv
+      real(dp), dimension(n) :: u, v, q, dq, du, dv
       real(dp) :: a, scale(2)
       integer :: i, j, k
 
@@ -105,12 +109,12 @@ contains
       scale = 2/half**2
       u = scale(1)*x**2 - 1.0_dp
       v = scale(2)*y**2 - 1.0_dp
-      p = 0.0_dp
+      value = 0.0_dp
       du = 0.0_dp
       dv = 0.0_dp
       do k = size(self%degree), 1, -1
          q = self%power(self%degree(k) + 1, k)
-         dq = 0.0_dp
+         if (present(slope_x)) dq = 0.0_dp
          do j = self%degree(k), 1, -1
             a = self%power(j, k)
             if (present(slope_x)) then
@@ -123,16 +127,15 @@ contains
             end if
          end do
          if (present(slope_x)) then
-            dv = dv*v + p
+            dv = dv*v + value
             du = du*v + dq
          end if
-         p = p*v + q
+         value = value*v + q
       end do
-      value = value + p
       if (.not. present(slope_x)) return
-      slope_x = slope_x + 2*scale(1)*x*du
-      slope_y = slope_y + 2*scale(2)*y*dv
-   end subroutine add_even
+      slope_x = 2*scale(1)*x*du
+      slope_y = 2*scale(2)*y*dv
+   end subroutine evaluate_even
 
    !> The argument u of x, or v of y, where the function is even.
    elemental real(dp) function square_argument(x, half)

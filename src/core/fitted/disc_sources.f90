@@ -133,13 +133,13 @@ contains
       call shape%slopes(n, rule%point, slope, conjugate_slope)
       call shape%linearise_slopes(n, rule%point, power, step)
       jacobian = slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2)
-      weighted = spread(rule%weight*jacobian, 2, size(c))*values
       strength_slope(:, 0) = 2*density*(slope%re**2 + slope%im**2)/shape%b(0)
       do k = 1, ubound(shape%b, 1)
          strength_slope(:, k) = -2*density*(conjugate_slope%re*power(:, 1, k) - conjugate_slope%im*power(:, 2, k))
       end do
       do i = 1, n
          call shape%linearise_place(rule%point(i), place_slope)
+         weighted(i, :) = rule%weight(i)*jacobian(i)*values(i, :)
          moment_x(i, :) = density(i)*jacobian(i)*place_slope%re
          moment_y(i, :) = density(i)*jacobian(i)*place_slope%im
       end do

@@ -80,8 +80,8 @@ contains
                values(:, :, i) = values(:, :, i) - 1.0_dp/hypot(x - z(k)%re, y - z(k)%im)**kernel%power
             end do
             allocate (kernel%fit)
-            call kernel%fit%set(values(:, :, i:i), rounding(i))
-            call kernel%fit%set_powers()
+            call kernel%fit%set(values(:, :, i:i))
+            call kernel%fit%set_powers(rounding(i))
          end associate
       end do
    end subroutine start_periodic_kernels
@@ -99,15 +99,17 @@ contains
       logical :: moved
       integer :: i
 
-      reduced = reshape([x, y], [n, 2])
+      reduced(:, 1) = x
+      reduced(:, 2) = y
       associate (xr => reduced(:, 1), yr => reduced(:, 2))
-         value = 0.0_dp
-         if (present(slope_x)) slope_x = 0.0_dp
-         if (present(slope_x)) slope_y = 0.0_dp
-         moved = .false.
          if (allocated(self%fit)) then
             call self%rows%reduce(n, reduced, moved)
-            call self%fit%add_even(self%rows%half_sides(), n, xr, yr, value, slope_x, slope_y)
+            call self%fit%evaluate_even(self%rows%half_sides(), n, xr, yr, value, slope_x, slope_y)
+         else
+            moved = .false.
+            value = 0.0_dp
+            if (present(slope_x)) slope_x = 0.0_dp
+            if (present(slope_x)) slope_y = 0.0_dp
          end if
          call self%add_points(n, xr, yr, value, slope_x, slope_y)
          if (.not. (moved .or. self%whole)) return
