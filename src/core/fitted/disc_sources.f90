@@ -122,18 +122,26 @@ contains
       real(dp), intent(out), dimension(:, 0:) :: moment_x, moment_y
          !! strength of the expansion times dz/d b_k, real and imaginary part, shape (n, 0:K) [s^2]
 
+      complex(dp), dimension(size(rule%point)) :: conjugate_slope, slope
       complex(dp) :: place_slope(0:ubound(shape%b, 1))
-      real(dp) :: density(size(rule%point)), jacobian, jacobian_slope(0:ubound(shape%b, 1))
-      integer :: i
+      real(dp), dimension(size(rule%point)) :: density, jacobian
+      real(dp) :: power(size(rule%point), 2, ubound(shape%b, 1)), step(size(rule%point), 2)
+      integer :: i, k, n
 
+      n = size(rule%point)
       density = rule%weight*matmul(values, c)
-      do i = 1, size(rule%point)
-         call shape%linearise_jacobian(rule%point(i), jacobian, jacobian_slope)
+      call shape%slopes(n, rule%point, slope, conjugate_slope)
+      call shape%linearise_slopes(n, rule%point, power, step)
+      jacobian = slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2)
+      strength_slope(:, 0) = 2*density*(slope%re**2 + slope%im**2)/shape%b(0)
+      do k = 1, ubound(shape%b, 1)
+         strength_slope(:, k) = -2*density*(conjugate_slope%re*power(:, 1, k) - conjugate_slope%im*power(:, 2, k))
+      end do
+      do i = 1, n
          call shape%linearise_place(rule%point(i), place_slope)
-         weighted(i, :) = rule%weight(i)*jacobian*values(i, :)
-         strength_slope(i, :) = density(i)*jacobian_slope
-         moment_x(i, :) = density(i)*jacobian*place_slope%re
-         moment_y(i, :) = density(i)*jacobian*place_slope%im
+         weighted(i, :) = rule%weight(i)*jacobian(i)*values(i, :)
+         moment_x(i, :) = density(i)*jacobian(i)*place_slope%re
+         moment_y(i, :) = density(i)*jacobian(i)*place_slope%im
       end do
    end subroutine linearise_sources
 

@@ -157,17 +157,14 @@ contains
       type(stress_series) :: series
       complex(dp) :: at
       real(dp), allocatable :: values(:, :, :, :)
-      real(dp) :: fields(stress_fields), sides(2)
+      real(dp) :: fields(stress_fields)
       integer :: i, j, k, m
 
-      associate (rows => self%lattice%rows)
-         call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
-         call start_series(self, series, sources, far_top, self%spot%digits + 9.0_dp)
-         sides = [0.5_dp, 0.5_dp*rows%spacing]
-         if (rows%along_y) sides = sides([2, 1])
-         allocate (self%far)
-         call start_far_stress(self%far, sides, self%spot%solution%pool, self%spot%digits - 1.0_dp)
-      end associate
+      call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
+      call start_series(self, series, sources, far_top, self%spot%digits + 9.0_dp)
+      allocate (self%far)
+      call start_far_stress(self%far, self%lattice%rows%half_sides(), self%spot%solution%pool, &
+                            self%spot%digits - 1.0_dp)
       associate (x => self%far%node_x, y => self%far%node_y, z => self%far%node_z)
          allocate (values(size(x), size(y), size(z), stress_fields))
          do k = 1, size(z)

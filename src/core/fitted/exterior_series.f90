@@ -5,7 +5,7 @@
 !>
 !> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity.
 module wavycon_exterior_series
-   use wavycon_even_polynomial, only: chebyshev_coefficients, chebyshev_node
+   use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_table
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
@@ -17,7 +17,7 @@ module wavycon_exterior_series
    public :: exterior_series, start_exterior_series
 
    type :: exterior_series
-      real(dp), allocatable, private :: c(:, :)     !! shape (n_theta, n_r)
+      type(chebyshev_table), private :: table     !! in cos(fold arg v) and x
    contains
       procedure :: at
    end type exterior_series
@@ -54,7 +54,7 @@ contains
          found = places <= most_places .and. terms(1) <= most_angles
          if (.not. found) return
          call fit_terms()
-         associate (c => abs(series%c)/maxval(abs(series%c)))
+         associate (c => abs(series%table%c(:, :, 1))/maxval(abs(series%table%c)))
             associate (last => rest*[sum(c(terms(1) - 1:, :)), sum(c(:, terms(2) - 1:))])
                if (all(last <= accuracy)) return
                ! As many as bring the last ones below the accuracy if they go on to fall as they did.
@@ -69,19 +69,18 @@ contains
       !> Fits as many terms as values. Places with the same arg v take the same rays from the edge.
       subroutine fit_terms()
          complex(dp) :: edge, v(terms(2))
-         real(dp) :: fields(stress_fields, terms(2)), values(terms(1), terms(2))
+         real(dp) :: fields(stress_fields, terms(2)), values(terms(1), terms(2), 1)
          integer :: i, j
 
          do i = 1, terms(1)
             edge = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*solution%shape%fold), dp))
-            v = edge/(1.0_dp - (0.5_dp*(1.0_dp + chebyshev_node([(j, j=1, terms(2))], terms(2))))**2)
+            v = edge/(1.0_dp - (0.5_dp*(1.0_dp + chebyshev_nodes(terms(2))))**2)
             fields = 0.0_dp
             call rays%add_at(solution, edge, [(solution%shape%place_outside(v(j)), j=1, terms(2))] &
                              - solution%shape%place(edge), spread(0.0_dp, 1, terms(2)), fields)
-            values(i, :) = fields(1, :)
+            values(i, :, 1) = fields(1, :)
          end do
-         series%c = matmul(chebyshev_coefficients(terms(1)), &
-                           matmul(values, transpose(chebyshev_coefficients(terms(2)))))
+         call series%table%set(values)
       end subroutine fit_terms
 
    end subroutine start_exterior_series
@@ -92,29 +91,17 @@ contains
       integer, intent(in) :: fold                   !! of the shape
       complex(dp), intent(in) :: v                  !! preimage of the place, |v| >= 1
 
-      real(dp) :: inverse, radius, sums(most_angles), t(2)
       complex(dp) :: power
-      integer :: k, n
+      real(dp) :: inverse, value(1)
+      integer :: k
 
       inverse = 1.0_dp/sqrt(v%re**2 + v%im**2)
-      radius = 2*sqrt(max(1.0_dp - inverse, 0.0_dp)) - 1.0_dp
       power = inverse*v
       do k = 2, fold
          power = power*(inverse*v)
       end do
-      t = [1.0_dp, radius]
-      n = size(self%c, 1)
-      sums(:n) = 0.0_dp
-      do k = 1, size(self%c, 2)
-         sums(:n) = sums(:n) + t(1)*self%c(:, k)
-         t = [t(2), 2*radius*t(2) - t(1)]
-      end do
-      t = [1.0_dp, power%re]
-      at = 0.0_dp
-      do k = 1, n
-         at = at + t(1)*sums(k)
-         t = [t(2), 2*power%re*t(2) - t(1)]
-      end do
+      value = self%table%at(power%re, 2*sqrt(max(1.0_dp - inverse, 0.0_dp)) - 1.0_dp)
+      at = value(1)
    end function at
 
 end module wavycon_exterior_series

@@ -4,10 +4,11 @@
 !> 13. They are the difference of the Fourier series of all and the sum of the near ones, which is taken at some depth
 !> where the series is short. The same point sources stand for both, so that the difference is exact.
 module wavycon_far_stress
-   use wavycon_even_polynomial, only: chebyshev_coefficients, chebyshev_node, chebyshev_polynomials
+   use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_polynomials, chebyshev_table, square_argument, &
+      square_nodes
    use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dgels, dgemv
+   use wavycon_lapack, only: dgels
    use wavycon_stress_kernel, only: stress_fields
    implicit none (type, external)
    private
@@ -20,8 +21,7 @@ module wavycon_far_stress
       integer, private :: regime = 1                    !! 1 below spots, 2 below pools
       integer :: n(3) = 0                               !! terms in x, y and z; nodes are as many, in z one more
       real(dp), allocatable :: node_x(:), node_y(:), node_z(:)   !! places at which the values are taken [s]
-      !> Shape (0:n_x-1, 0:n_y-1, 0:n_z, 8); last in z the constant.
-      real(dp), allocatable, private :: coefficient(:, :, :, :)
+      type(chebyshev_table), private :: planes          !! of each term in z, the constant last, and each field
    contains
       procedure :: add_at
    end type far_stress
@@ -45,7 +45,6 @@ contains
       real(dp), intent(in) :: digits           !! natural logarithm of 1/accuracy
 
       real(dp), parameter :: middle = 0.5_dp*(far_bottom**2 + far_top**2), half = 0.5_dp*(far_bottom**2 - far_top**2)
-      integer :: i
 
       table%sides = sides
       table%regime = merge(2, 1, pool)
@@ -53,12 +52,9 @@ contains
       ! At the surface, outside of the nodes, the polynomials have grown.
       table%n(3) = ceiling(digits/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
       table%n = max(table%n, 4)
-      associate (n => table%n)
-         table%node_x = sides(1)*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, n(1))], n(1))))
-         table%node_y = sides(2)*sqrt(0.5_dp*(1.0_dp + chebyshev_node([(i, i=1, n(2))], n(2))))
-         table%node_z = sqrt(middle + half*chebyshev_node([(i, i=1, n(3) + 1)], n(3) + 1))
-         allocate (table%coefficient(0:n(1) - 1, 0:n(2) - 1, 0:n(3), stress_fields), source=0.0_dp)
-      end associate
+      table%node_x = square_nodes(table%n(1), sides(1))
+      table%node_y = square_nodes(table%n(2), sides(2))
+      table%node_z = sqrt(middle + half*chebyshev_nodes(table%n(3) + 1))
    end subroutine start_far_stress
 
    !> Sum of the half axes of Bernstein's ellipse through x > 1: a function that is analytic inside has coefficients of
@@ -75,7 +71,7 @@ contains
       real(dp), intent(in) :: values(:, :, :, :)   !! at the nodes, shape (n_x, n_y, n_z+1, 8)
 
       real(dp) :: of_nodes(size(table%node_z), 0:table%n(3)), right(size(table%node_z), product(table%n(:2))), &
-                  work(64*size(of_nodes) + size(right))
+                  planes(table%n(1), table%n(2), 0:table%n(3), stress_fields), work(64*size(of_nodes) + size(right))
       integer :: f, info, k, terms
 
       associate (n => table%n, x => table%node_x, y => table%node_y, z => table%node_z, nodes => size(table%node_z))
@@ -87,14 +83,13 @@ contains
             terms = merge(n(3), n(3) - 1, has_constant(f, table%regime))
             right = transpose(reshape(values(:, :, :, f), [size(right, 2), nodes]))
             call dgels('N', nodes, terms + 1, size(right, 2), of_nodes, nodes, right, nodes, work, size(work), info)
+            planes(:, :, terms + 1:, f) = 0.0_dp
             do k = 0, terms
-               associate (plane => reshape(right(k + 1, :), [n(1), n(2)])/(spread(x**power_x(f), 2, n(2)) &
-                                                                   *spread(y**power_y(f), 1, n(1))))
-                  table%coefficient(:, :, k, f) = &
-                     matmul(chebyshev_coefficients(n(1)), matmul(plane, transpose(chebyshev_coefficients(n(2)))))
-               end associate
+               planes(:, :, k, f) = reshape(right(k + 1, :), [n(1), n(2)])/(spread(x**power_x(f), 2, n(2)) &
+                                                                            *spread(y**power_y(f), 1, n(1)))
             end do
          end do
+         call table%planes%set(reshape(planes, [n(1), n(2), (n(3) + 1)*stress_fields]))
       end associate
    end subroutine set_far_values
 
@@ -112,22 +107,13 @@ contains
       real(dp), intent(in) :: depth                       !! between 0 and the lowest node [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
-      real(dp) :: of_x(0:self%n(1) - 1), of_y(0:self%n(2) - 1), of_z(0:self%n(3) - 1), &
-                  plane(0:self%n(2) - 1, 0:self%n(3), stress_fields), value
-      integer :: f, k
+      real(dp) :: of_z(0:self%n(3) - 1), planes(0:self%n(3), stress_fields)
 
-      of_x = chebyshev_polynomials(2*(x/self%sides(1))**2 - 1.0_dp, self%n(1))
-      of_y = chebyshev_polynomials(2*(y/self%sides(2))**2 - 1.0_dp, self%n(2))
       of_z = chebyshev_polynomials(depth_argument(depth), self%n(3))
-      call dgemv('T', self%n(1), size(plane), 1.0_dp, self%coefficient, self%n(1), of_x, 1, 0.0_dp, plane, 1)
-      do f = 1, stress_fields
-         value = 0.0_dp
-         do k = 0, self%n(3) - 1
-            value = value + of_z(k)*dot_product(of_y, plane(:, k, f))
-         end do
-         value = value*depth**power_z(f, self%regime) + dot_product(of_y, plane(:, self%n(3), f))
-         fields(f) = fields(f) + value*x**power_x(f)*y**power_y(f)
-      end do
+      planes = reshape(self%planes%at(square_argument(x, self%sides(1)), square_argument(y, self%sides(2))), &
+                       shape(planes))
+      fields = fields + x**power_x*y**power_y &
+         *(matmul(of_z, planes(:self%n(3) - 1, :))*depth**power_z(:, self%regime) + planes(self%n(3), :))
    end subroutine add_at
 
 end module wavycon_far_stress

@@ -4,10 +4,10 @@
 !> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). Those over near images
 !> are taken by fine rules or along rays, and those over all others by one coarse rule: README.md, section 12.
 module wavycon_fitted_fields
+   use wavycon_chebyshev_table, only: chebyshev_table, square_argument, square_nodes
    use wavycon_constants, only: pi
    use wavycon_degree_history, only: error_estimate
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
-   use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
    use wavycon_exterior_series, only: exterior_series, start_exterior_series
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: fastest_decay_at_point, field_accuracy, least_map
@@ -34,7 +34,7 @@ module wavycon_fitted_fields
          !! of the last two places under each image and centre if it was asked for, 0 if there is none
       ! For maps.
       type(exterior_series), allocatable :: series       !! of the spot or pool
-      type(even_polynomial), private :: far(2)           !! of all others: even in x, and odd over x
+      type(chebyshev_table), private :: far              !! of all others: even in x, and odd over x
    contains
       procedure :: at
       procedure :: prepare_map
@@ -157,18 +157,15 @@ contains
       complex(dp), intent(in) :: z      !! from the centre, reduced [s]
       integer, intent(in) :: centre     !! that find_preimages was called for
 
-      real(dp) :: even(1), exact(stress_fields), odd(1)
+      real(dp) :: exact(stress_fields), half(2)
       logical :: far(size(self%image))
       integer :: k
 
       far = .false.
       if (allocated(self%series)) then
-         associate (along => [merge(z%im, z%re, self%lattice%rows%along_y)], &
-                    across => [merge(z%re, z%im, self%lattice%rows%along_y)])
-            call self%far(1)%evaluate(1, along, across, even)
-            call self%far(2)%evaluate(1, along, across, odd)
-         end associate
-         total = even(1) + z%re*odd(1)
+         half = self%lattice%rows%half_sides()
+         total = dot_product([1.0_dp, z%re], &
+                             self%far%at(square_argument(z%re, half(1)), square_argument(z%im, half(2))))
       else
          far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
          total = self%coarse_sum(z, pack(self%image, .not. far))
@@ -219,10 +216,11 @@ contains
       real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
       !> Most values of a series over the places outside: it takes them much faster.
       real(dp), parameter :: most_terms = 3.0_dp
-      real(dp), dimension(0:fit_degree, 0:fit_degree) :: even, odd, x, y
+      !> Of the table of all others in the square of either coordinate.
+      integer, parameter :: nodes = 13
       type(exterior_series), allocatable :: series
       complex(dp) :: z
-      real(dp) :: other, outside, tolerance
+      real(dp) :: half(2), other, outside, tolerance, values(nodes, nodes, 2), x(nodes), y(nodes)
       logical :: found
       integer :: i, j
 
@@ -237,26 +235,23 @@ contains
       ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of the
       ! coordinate along that side, where terms fall by exp(-2 asinh(c/a)).
       call find_images(self, self%spot%radius + 0.5_dp*max(self%lattice%rows%spacing, 1.0_dp) &
-                       *sinh(-0.5_dp*log(tolerance)/(fit_degree + 1)))
+                       *sinh(-0.5_dp*log(tolerance)/nodes))
       ! Displacements are of order 1, pressures of the order of their peak.
       if (self%answer%pool) tolerance = tolerance*self%answer%peak_pressure
-      associate (rows => self%lattice%rows)
-         call fit_nodes(rows%spacing, x, y)
-         do j = 0, fit_degree
-            do i = 0, fit_degree
-               z = cmplx(x(i, j), y(i, j), dp)
-               if (rows%along_y) z = cmplx(y(i, j), x(i, j), dp)
-               even(i, j) = self%coarse_sum(z, self%image)
-               odd(i, j) = 0.0_dp
-               if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
-               other = self%coarse_sum(-conjg(z), self%image)
-               odd(i, j) = 0.5_dp*(even(i, j) - other)/z%re
-               even(i, j) = 0.5_dp*(even(i, j) + other)
-            end do
+      half = self%lattice%rows%half_sides()
+      x = square_nodes(nodes, half(1))
+      y = square_nodes(nodes, half(2))
+      values(:, :, 2) = 0.0_dp
+      do j = 1, nodes
+         do i = 1, nodes
+            z = cmplx(x(i), y(j), dp)
+            values(i, j, 1) = self%coarse_sum(z, self%image)
+            if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
+            other = self%coarse_sum(-conjg(z), self%image)
+            values(i, j, :) = 0.5_dp*[values(i, j, 1) + other, (values(i, j, 1) - other)/x(i)]
          end do
-         call start_even_polynomial(self%far(1), rows%spacing, even, tolerance)
-         call start_even_polynomial(self%far(2), rows%spacing, odd, tolerance)
-      end associate
+      end do
+      call self%far%set(values, tolerance)
    end subroutine prepare_map
 
    !> Gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. Above

@@ -9,7 +9,7 @@ module wavycon_fitted_solver
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       measure_expansion, peak_measure, perimeter_measure
    use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
-   use wavycon_gauss_newton, only: solve_equations
+   use wavycon_gauss_newton, only: newton_steps
    use wavycon_kinds, only: dp
    use wavycon_load_continuation, only: is_start, start_at_load
    use wavycon_wave_lattice, only: wave_lattice
@@ -74,7 +74,8 @@ contains
       type(contact_equations) :: equations
       type(degree_history) :: history
       type(expansion) :: now
-      real(dp) :: change, clustering, contraction, measures(all_measures), misfit, ratio, remaining, residual, tolerance
+      type(newton_steps) :: newton
+      real(dp) :: clustering, measures(all_measures), ratio, tolerance
       integer :: degree, failed, required
       logical :: merged, valid
 
@@ -93,7 +94,7 @@ contains
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       failed = 0
       ! Next to merging convergence is less than quadratic: a second step at the first degree measures it.
-      contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
+      newton%contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
       do
          clustering = now%shape%clustering
          if (lattice%square) clustering = next_clustering(clustering, ratio, pool)
@@ -102,20 +103,19 @@ contains
          call equations%images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
          ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio)
-         call solve_equations(equations, lattice, answer%pbar_over_pstar, now, tolerance, contraction, change, &
-                              remaining, residual, misfit, answer%iterations, valid)
+         call newton%solve(equations, lattice, answer%pbar_over_pstar, now, tolerance)
          ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
-         if (.not. valid .or. merged) exit
+         if (.not. newton%valid .or. merged) exit
          ! Without convergence there is nothing to compare, but the next degree may converge.
          failed = failed + 1
-         if (change <= 1e-4_dp .or. remaining <= tolerance) then
+         if (newton%change <= 1e-4_dp .or. newton%remaining <= tolerance) then
             failed = 0
             call measure_expansion(equations, lattice, answer%pbar_over_pstar, now, measures)
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
-            call history%push(now, measures, misfit, remaining)
+            call history%push(now, measures, newton%misfit, newton%remaining)
             if (history%newest_is_best) &
-               call set_answer(answer, lattice, history, now, degree, residual, ratio, &
+               call set_answer(answer, lattice, history, now, degree, newton%residual, ratio, &
                                equations%images%tolerance)
             if (history%best_meets(accuracy, required)) then
                answer%status = fitted_solved
@@ -125,6 +125,7 @@ contains
          if (degree >= last_degree .or. failed == most_failed_degrees) exit
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
+      answer%iterations = answer%iterations + newton%iterations
       ! On the square lattice a solution of a lower degree is kept although a higher one has merged: it is nearly right.
       if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
    end subroutine solve_regime

@@ -10,7 +10,22 @@ module wavycon_gauss_newton
    implicit none (type, external)
    private
 
-   public :: changes_with_load, gauss_newton_step, solve_equations
+   public :: changes_with_load, newton_steps
+
+   !> Steps, and what is known of the last one.
+   type :: newton_steps
+      real(dp) :: contraction = 0.0_dp    !! of the shape's changes: before, of the last degree; after, of this one
+      real(dp) :: change = 0.0_dp
+         !! largest change of a coefficient of the shape, before shortening, over the former size b_0
+      real(dp) :: remaining = 0.0_dp      !! what it leaves of the shape; above the tolerance without convergence
+      real(dp) :: residual = 0.0_dp       !! largest of the equations before the step [Delta, p*]
+      real(dp) :: misfit = 0.0_dp         !! as of least_squares_step
+      integer :: iterations = 0           !! of all degrees
+      logical :: valid = .false.          !! whether the step is finite and the new shape is not about to fold
+   contains
+      procedure :: solve
+      procedure :: step
+   end type newton_steps
 
    !> Change of a step over the square of the one before, while convergence is quadratic.
    real(dp), parameter, public :: change_per_square = 10.0_dp
@@ -29,74 +44,62 @@ contains
    !>
    !> A step leaves about its own change times the contraction, the ratio of the changes of two successive steps. After
    !> a first step the contraction is that of the last degree. It is at least what quadratic convergence has.
-   subroutine solve_equations(equations, lattice, load, now, tolerance, contraction, change, remaining, residual, &
-                              misfit, iterations, valid)
+   subroutine solve(self, equations, lattice, load, now, tolerance)
+      class(newton_steps), intent(inout) :: self
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
       type(expansion), intent(inout) :: now
       real(dp), intent(in) :: tolerance                    !! of what remains, relative to the shape's size, > 0
-      real(dp), intent(inout) :: contraction               !! before, of the last degree; after, of this one
-      real(dp), intent(out) :: change                      !! of the last step, as of gauss_newton_step
-      real(dp), intent(out) :: remaining                   !! what it leaves; above the tolerance without convergence
-      real(dp), intent(out) :: residual, misfit            !! as of gauss_newton_step
-      integer, intent(inout) :: iterations                 !! the steps are added
-      logical, intent(out) :: valid                        !! as of gauss_newton_step; if not, the steps end
 
       real(dp) :: change_before
       integer :: i
 
-      change = huge(change)
+      self%change = huge(1.0_dp)
       do i = 1, most_newton_steps
-         change_before = change
-         call gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
-         iterations = iterations + 1
-         remaining = huge(remaining)
-         if (.not. valid) return
-         if (i > 1) contraction = min(change/max(change_before, tiny(change)), 1.0_dp)
-         remaining = change*max(contraction, min(change, 1.0_dp)*change_per_square)
-         if (remaining <= tolerance) return
+         change_before = self%change
+         call self%step(equations, lattice, load, now)
+         self%iterations = self%iterations + 1
+         self%remaining = huge(1.0_dp)
+         if (.not. self%valid) return
+         associate (change => self%change)
+            if (i > 1) self%contraction = min(change/max(change_before, tiny(change)), 1.0_dp)
+            self%remaining = change*max(self%contraction, min(change, 1.0_dp)*change_per_square)
+         end associate
+         if (self%remaining <= tolerance) return
       end do
-   end subroutine solve_equations
+   end subroutine solve
 
    !> One step, README.md (F40): minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing
    !> load.
    !>
    !> The step is shortened to a change of the shape of `longest_shape_change`.
-   subroutine gauss_newton_step(equations, lattice, load, now, change, residual, misfit, valid)
+   subroutine step(self, equations, lattice, load, now)
+      class(newton_steps), intent(inout) :: self
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                         !! P
-      type(expansion), intent(inout) :: now
-      real(dp), intent(out) :: change
-         !! largest change of a coefficient of the shape, before shortening, over the former size b_0
-      real(dp), intent(out) :: residual                    !! largest of the equations before the step [Delta, p*]
-      real(dp), intent(out) :: misfit                      !! as of least_squares_step
-      logical, intent(out) :: valid
-         !! whether the step is finite and the new shape is not about to fold; where it is not finite `now` is as before
+      type(expansion), intent(inout) :: now                !! as before if the step is not finite
 
-      real(dp) :: missing_load, step(equations%unknowns), part
+      real(dp) :: missing_load, whole(equations%unknowns)
       logical :: finite
 
       call equations%linearise(lattice, load, now)
-      residual = huge(residual)
-      misfit = huge(misfit)
-      change = huge(change)
-      valid = .false.
+      self%residual = huge(1.0_dp)
+      self%misfit = huge(1.0_dp)
+      self%change = huge(1.0_dp)
+      self%valid = .false.
       ! LAPACK may loop for ever on NaN or infinity.
       if (.not. (all(ieee_is_finite(equations%residual)) .and. all(ieee_is_finite(equations%matrix)))) return
-      residual = maxval(abs(equations%residual))
+      self%residual = maxval(abs(equations%residual))
       missing_load = load*lattice%area - equations%integral(now)
-      call least_squares_step(equations, now%pool, missing_load, step, misfit, finite)
+      call least_squares_step(equations, now%pool, missing_load, whole, self%misfit, finite)
       if (.not. finite) return
-      associate (before_shape => equations%before_shape)
-         change = maxval(abs(step(before_shape + 1:)))/now%shape%b(0)
-         part = min(1.0_dp, longest_shape_change/max(change, tiny(change)))
-         call add_step(now, part*step, equations)
-      end associate
-      valid = now%shape%b(0) > 0.0_dp &
+      self%change = maxval(abs(whole(equations%before_shape + 1:)))/now%shape%b(0)
+      call add_step(now, min(1.0_dp, longest_shape_change/max(self%change, tiny(1.0_dp)))*whole, equations)
+      self%valid = now%shape%b(0) > 0.0_dp &
          .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
-   end subroutine gauss_newton_step
+   end subroutine step
 
    !> The first and second derivatives of the unknowns with respect to the load, at a solution: (I7a), (I7b) of
    !> src/beyond/README.md.

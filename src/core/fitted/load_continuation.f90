@@ -7,7 +7,7 @@ module wavycon_load_continuation
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
    use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, start_degree
-   use wavycon_gauss_newton, only: change_per_square, solve_equations
+   use wavycon_gauss_newton, only: change_per_square, newton_steps
    use wavycon_kinds, only: dp
    use wavycon_expansion_size, only: merging_ratio
    use wavycon_wave_lattice, only: wave_lattice
@@ -39,7 +39,8 @@ contains
       type(fitted_answer), intent(in), optional :: start   !! a solution of another load
 
       type(contact_equations) :: equations
-      real(dp) :: at, change, contraction, misfit, next, remaining, residual
+      type(newton_steps) :: newton
+      real(dp) :: at, next
       integer :: steps
 
       degree = first_degree
@@ -60,9 +61,9 @@ contains
       do
          call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp)
-         contraction = 0.0_dp
-         call solve_equations(equations, lattice, at, now, change_per_square*start_shape_change**2, contraction, &
-                              change, remaining, residual, misfit, iterations, found)
+         newton%contraction = 0.0_dp
+         call newton%solve(equations, lattice, at, now, change_per_square*start_shape_change**2)
+         found = newton%valid
          if (.not. found) exit
          ! The start of a load that was solved has come to a ratio of 0.92 at most, of many next to merging.
          merged = merging_ratio(lattice, now) >= 1.0_dp
@@ -77,6 +78,7 @@ contains
          now = scaled_to_load(lattice, now, at, next)
          at = next
       end do
+      iterations = iterations + newton%iterations
    end subroutine start_at_load
 
    !> Whether a solution of another load is a start: in the same regime, within one step, and still apart from its

@@ -19,8 +19,8 @@
 !>
 !> Source: P. P. Ewald, Ann. Phys. 369 (1921) 253-287, for the potential 1/r in the plane.
 module wavycon_periodic_kernel
+   use wavycon_chebyshev_table, only: chebyshev_table, square_nodes
    use wavycon_constants, only: pi
-   use wavycon_even_polynomial, only: even_polynomial, fit_degree, fit_nodes, start_even_polynomial
    use wavycon_kinds, only: dp
    use wavycon_row_lattice, only: row_lattice
    implicit none (type, external)
@@ -32,15 +32,16 @@ module wavycon_periodic_kernel
    type :: periodic_kernel
       integer :: power = 1                         !! of 1/r: 1 or 3
       type(row_lattice) :: rows
-      real(dp), allocatable :: point(:, :)         !! summed one by one, x along the rows, shape (2, m) [s]
-      type(even_polynomial), allocatable :: fit    !! of the smooth part without them; x along the rows
+      real(dp), allocatable :: point(:, :)         !! summed one by one, x and y, shape (2, m) [s]
+      type(chebyshev_table), allocatable :: fit    !! of the smooth part without them
       logical :: whole = .false.                   !! with the origin's own term, for places on no lattice point
    contains
       procedure :: evaluate
-      procedure, private :: evaluate_by_rows
       procedure, private :: add_points
    end type periodic_kernel
 
+   !> Of the fit in the square of either coordinate: the first term left out is below rounding.
+   integer, parameter :: nodes = 13
    !> Rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
    real(dp), parameter :: rounding(2) = [32, 320]*epsilon(1.0_dp)
    !> Least square of a distance. The inverse powers of a place and of the same place reduced must be equal and finite.
@@ -58,29 +59,29 @@ contains
       type(row_lattice), intent(in) :: rows
       type(periodic_kernel), intent(out) :: kernels(2)     !! Gp and its Laplacian
 
-      integer, parameter :: n = fit_degree
-      real(dp) :: values(0:n, 0:n, 2), x(0:n, 0:n), y(0:n, 0:n)
+      real(dp), dimension(nodes, nodes) :: x, y
+      real(dp) :: half(2), values(nodes, nodes, 2)
       complex(dp), allocatable :: z(:)
-      real(dp), allocatable :: near(:, :)
       integer :: i, k
 
       ! Fewer would take a fit of higher degree.
       z = rows%points_about(0.75_dp + 0.6_dp*max(rows%spacing, 1.0_dp), (0.0_dp, 0.0_dp))
       z = pack(z, abs(z) > 0.0_dp)
-      near = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
-      if (rows%along_y) near = near([2, 1], :)
-      call fit_nodes(rows%spacing, x, y)
+      half = rows%half_sides()
+      x = spread(square_nodes(nodes, half(1)), 2, nodes)
+      y = spread(square_nodes(nodes, half(2)), 1, nodes)
       call ewald_sum(rows, size(x), x, y, values(:, :, 1), values(:, :, 2))
       do i = 1, 2
          associate (kernel => kernels(i))
             kernel%power = 2*i - 1
             kernel%rows = rows
-            kernel%point = near
-            do k = 1, size(near, 2)
-               values(:, :, i) = values(:, :, i) - 1.0_dp/hypot(x - near(1, k), y - near(2, k))**kernel%power
+            kernel%point = reshape([z%re, z%im], [2, size(z)], order=[2, 1])
+            do k = 1, size(z)
+               values(:, :, i) = values(:, :, i) - 1.0_dp/hypot(x - z(k)%re, y - z(k)%im)**kernel%power
             end do
             allocate (kernel%fit)
-            call start_even_polynomial(kernel%fit, rows%spacing, values(:, :, i), rounding(i))
+            call kernel%fit%set(values(:, :, i:i))
+            call kernel%fit%set_powers(rounding(i))
          end associate
       end do
    end subroutine start_periodic_kernels
@@ -94,50 +95,39 @@ contains
       real(dp), intent(out) :: value(n)                              !! [s^-power]
       real(dp), intent(out), optional :: slope_x(n), slope_y(n)      !! both or none [s^-(power+1)]
 
-      if (self%rows%along_y) then
-         call self%evaluate_by_rows(n, y, x, value, slope_y, slope_x)
-      else
-         call self%evaluate_by_rows(n, x, y, value, slope_x, slope_y)
-      end if
-   end subroutine evaluate
-
-   !> The same with x along the rows.
-   pure subroutine evaluate_by_rows(self, n, x, y, value, slope_x, slope_y)
-      class(periodic_kernel), intent(in) :: self
-      integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)
-      real(dp), intent(out) :: value(n)
-      real(dp), intent(out), optional :: slope_x(n), slope_y(n)
-
-      real(dp), dimension(n) :: xr, yr
-      real(dp) :: at_place, at_reduced
+      real(dp) :: at_place, at_reduced, reduced(n, 2)
       logical :: moved
       integer :: i
 
-      if (.not. allocated(self%fit)) then
-         value = 0.0_dp
-         if (present(slope_x)) slope_x = 0.0_dp
-         if (present(slope_x)) slope_y = 0.0_dp
-         call self%add_points(n, x, y, value, slope_x, slope_y)
-         return
-      end if
-      call self%rows%reduce_along_rows(n, x, y, xr, yr, moved)
-      call self%fit%evaluate(n, xr, yr, value, slope_x, slope_y)
-      call self%add_points(n, xr, yr, value, slope_x, slope_y)
-      if (.not. (moved .or. self%whole)) return
-      ! The origin's term is taken out at the place itself, not at the reduced place; for most places they are the same.
-      do i = 1, n
-         at_reduced = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
-         at_place = merge(0.0_dp, 1.0_dp/max(x(i)**2 + y(i)**2, least_square), self%whole)
-         value(i) = value(i) + (inverse_power(self%power, at_reduced) - inverse_power(self%power, at_place))
-         if (present(slope_x)) then
-            at_reduced = self%power*at_reduced*inverse_power(self%power, at_reduced)
-            at_place = self%power*at_place*inverse_power(self%power, at_place)
-            slope_x(i) = slope_x(i) - (xr(i)*at_reduced - x(i)*at_place)
-            slope_y(i) = slope_y(i) - (yr(i)*at_reduced - y(i)*at_place)
+      reduced(:, 1) = x
+      reduced(:, 2) = y
+      associate (xr => reduced(:, 1), yr => reduced(:, 2))
+         if (allocated(self%fit)) then
+            call self%rows%reduce(n, reduced, moved)
+            call self%fit%evaluate_even(self%rows%half_sides(), n, xr, yr, value, slope_x, slope_y)
+         else
+            moved = .false.
+            value = 0.0_dp
+            if (present(slope_x)) slope_x = 0.0_dp
+            if (present(slope_x)) slope_y = 0.0_dp
          end if
-      end do
-   end subroutine evaluate_by_rows
+         call self%add_points(n, xr, yr, value, slope_x, slope_y)
+         if (.not. (moved .or. self%whole)) return
+         ! The origin's term is taken out at the place itself, not at the reduced place; for most places they are the
+         ! same.
+         do i = 1, n
+            at_reduced = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
+            at_place = merge(0.0_dp, 1.0_dp/max(x(i)**2 + y(i)**2, least_square), self%whole)
+            value(i) = value(i) + (inverse_power(self%power, at_reduced) - inverse_power(self%power, at_place))
+            if (present(slope_x)) then
+               at_reduced = self%power*at_reduced*inverse_power(self%power, at_reduced)
+               at_place = self%power*at_place*inverse_power(self%power, at_place)
+               slope_x(i) = slope_x(i) - (xr(i)*at_reduced - x(i)*at_place)
+               slope_y(i) = slope_y(i) - (yr(i)*at_reduced - y(i)*at_place)
+            end if
+         end do
+      end associate
+   end subroutine evaluate
 
    !> Adds what the points do.
    pure subroutine add_points(self, n, x, y, value, slope_x, slope_y)
@@ -185,58 +175,47 @@ contains
 
    !> Gp - 1/r, README.md (F20), and its Laplacian less 1/r^3, which is the sum of 1/|x - n|^3 over all lattice points
    !> but the origin.
-   pure subroutine ewald_sum(rows, n, along, across, value, laplacian)
+   !>
+   !> The wave vectors of the reciprocal lattice are the lattice points n, turned by a right angle, over A. So with
+   !> e^2 = pi/A the factor erfc(pi |k|/e)/(A |k|) of a wave is erfc(e |n|)/|n|.
+   pure subroutine ewald_sum(rows, n, x, y, value, laplacian)
       type(row_lattice), intent(in) :: rows
       integer, intent(in) :: n
-      real(dp), intent(in) :: along(n), across(n)   !! along and across the rows, in the rectangle about the origin [s]
+      real(dp), intent(in) :: x(n), y(n)            !! in the rectangle about the origin [s]
       real(dp), intent(out) :: value(n)             !! [1/s]
       real(dp), intent(out) :: laplacian(n)         !! [1/s^3]
 
-      real(dp) :: bell, e, farthest, k_across, k_along, length, r, square, term, weight
-      integer :: columns, i, j, k, most_rows
+      complex(dp), allocatable :: point(:)
+      real(dp) :: bell, e, farthest, r, square, term, weight
+      integer :: i, k
 
       e = sqrt(pi/rows%spacing)
       do i = 1, n
-         r = e*hypot(along(i), across(i))
+         r = e*hypot(x(i), y(i))
          ! What remains of the origin's term erfc(r)/r when 1/r is taken out.
          value(i) = -2*sqrt(pi)/(e*rows%spacing) - e*merge(erf(r)/max(r, tiny(r)), 2/sqrt(pi), r > 0.0_dp)
          laplacian(i) = e**3*origin_remainder_laplacian(r)
       end do
-      ! The terms erfc(e r)/r of the lattice points but the origin, and their Laplacian by README.md (F21).
       farthest = cut_off/e
-      most_rows = ceiling(farthest/rows%spacing + 0.5_dp)
-      columns = ceiling(farthest + 1.0_dp + 0.5_dp*most_rows)
-      do j = -most_rows, most_rows
-         do i = -columns, columns
-            if (i == 0 .and. j == 0) cycle
-            do k = 1, n
-               square = (along(k) - i - rows%shift*j)**2 + (across(k) - rows%spacing*j)**2
-               if (square >= farthest**2) cycle
-               associate (r => sqrt(square))
-                  term = erfc(e*r)/r
-               end associate
-               bell = 2*e/sqrt(pi)*exp(-e**2*square)
-               value(k) = value(k) + term
-               laplacian(k) = laplacian(k) + term/square + bell*(1/square + 2*e**2)
-            end do
+      allocate (point, source=rows%points_about(farthest, (0.0_dp, 0.0_dp)))
+      do k = 1, size(point)
+         if (2*k == size(point) + 1) cycle
+         ! The terms erfc(e r)/r of the lattice points but the origin, and their Laplacian by README.md (F21).
+         do i = 1, n
+            square = (x(i) - point(k)%re)**2 + (y(i) - point(k)%im)**2
+            if (square >= farthest**2) cycle
+            term = erfc(e*sqrt(square))/sqrt(square)
+            bell = 2*e/sqrt(pi)*exp(-e**2*square)
+            value(i) = value(i) + term
+            laplacian(i) = laplacian(i) + term/square + bell*(1/square + 2*e**2)
          end do
-      end do
-      ! The waves of the reciprocal lattice, k = (i, (j - i shift)/spacing), once for k and -k.
-      farthest = cut_off*e/pi
-      columns = ceiling(farthest)
-      most_rows = ceiling(farthest*rows%spacing + 0.5_dp*columns)
-      do j = -most_rows, most_rows
-         do i = 0, columns
-            k_along = i
-            k_across = (j - i*rows%shift)/rows%spacing
-            length = hypot(k_along, k_across)
-            if ((i == 0 .and. j <= 0) .or. length >= farthest) cycle
-            weight = 2*erfc(pi*length/e)/(length*rows%spacing)
-            do k = 1, n
-               term = weight*cos(2*pi*(k_along*along(k) + k_across*across(k)))
-               value(k) = value(k) + term
-               laplacian(k) = laplacian(k) - (2*pi*length)**2*term
-            end do
+         ! The waves, once for n and -n.
+         if (2*k > size(point) .or. abs(point(k)) >= farthest) cycle
+         weight = 2*erfc(e*abs(point(k)))/abs(point(k))
+         do i = 1, n
+            term = weight*cos(2*pi/rows%spacing*(y(i)*point(k)%re - x(i)*point(k)%im))
+            value(i) = value(i) + term
+            laplacian(i) = laplacian(i) - (2*pi/rows%spacing*abs(point(k)))**2*term
          end do
       end do
    end subroutine ewald_sum

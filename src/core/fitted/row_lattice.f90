@@ -16,71 +16,79 @@ module wavycon_row_lattice
       real(dp) :: shift = 0.0_dp       !! of the next row along itself [s]: 0 or 1/2
       logical :: along_y = .false.     !! whether rows are along y; otherwise along x
    contains
-      procedure :: reduce_along_rows
+      procedure :: half_sides
+      procedure :: reduce
       procedure :: reduced
       procedure :: points_about
    end type row_lattice
 
 contains
 
-   !> Translates n places by lattice vectors into the rectangle |along| <= 1/2, |across| <= spacing/2 about the origin.
-   pure subroutine reduce_along_rows(self, n, along, across, reduced_along, reduced_across, moved)
+   !> Half the sides, along x and y, of the rectangle about the origin that places are reduced to [s].
+   pure function half_sides(self) result(half)
+      class(row_lattice), intent(in) :: self
+      real(dp) :: half(2)
+
+      half = 0.5_dp*[1.0_dp, self%spacing]
+      if (self%along_y) half = half([2, 1])
+   end function half_sides
+
+   !> Translates n places by lattice vectors into that rectangle.
+   pure subroutine reduce(self, n, place, moved)
       class(row_lattice), intent(in) :: self
       integer, intent(in) :: n
-      real(dp), intent(in) :: along(n), across(n)                        !! coordinates along and across the rows [s]
-      real(dp), intent(out) :: reduced_along(n), reduced_across(n)       !! [s]
-      logical, intent(out) :: moved                                      !! whether any place was outside
+      real(dp), intent(inout) :: place(n, 2)    !! x and y [s]
+      logical, intent(out) :: moved             !! whether any place was outside
 
-      integer :: column, i, moves, row
+      integer :: across, along, column, i, moves, row
 
+      along = merge(2, 1, self%along_y)
+      across = 3 - along
       moves = 0
       do i = 1, n
-         row = int(across(i)/self%spacing + sign(0.5_dp, across(i)))
-         reduced_across(i) = across(i) - row*self%spacing
-         reduced_along(i) = along(i) - row*self%shift
-         column = int(reduced_along(i) + sign(0.5_dp, reduced_along(i)))
-         reduced_along(i) = reduced_along(i) - column
+         row = int(place(i, across)/self%spacing + sign(0.5_dp, place(i, across)))
+         place(i, across) = place(i, across) - row*self%spacing
+         place(i, along) = place(i, along) - row*self%shift
+         column = int(place(i, along) + sign(0.5_dp, place(i, along)))
+         place(i, along) = place(i, along) - column
          moves = ior(moves, ior(row, column))
       end do
       moved = moves /= 0
-   end subroutine reduce_along_rows
+   end subroutine reduce
 
-   !> The place of the rectangle about the origin that differs from z by a lattice vector.
+   !> The place of the rectangle that differs from z by a lattice vector.
    pure complex(dp) function reduced(self, z)
       class(row_lattice), intent(in) :: self
       complex(dp), intent(in) :: z  !! x + i y [s]
 
-      real(dp) :: across(1), along(1)
+      real(dp) :: place(1, 2)
       logical :: moved
 
-      along = merge(z%im, z%re, self%along_y)
-      across = merge(z%re, z%im, self%along_y)
-      call self%reduce_along_rows(1, [along], [across], along, across, moved)
-      reduced = cmplx(merge(across(1), along(1), self%along_y), merge(along(1), across(1), self%along_y), dp)
+      place(1, :) = [z%re, z%im]
+      call self%reduce(1, place, moved)
+      reduced = cmplx(place(1, 1), place(1, 2), dp)
    end function reduced
 
-   !> The lattice points, all moved by an offset, that are not farther than `distance` from the rectangle about the
-   !> origin: the cell of places that are reduced.
+   !> The lattice points, all moved by an offset, that are not farther than `distance` from that rectangle. Without an
+   !> offset the second half of them are the opposites of the first, with the origin between them.
    pure function points_about(self, distance, offset) result(point)
       class(row_lattice), intent(in) :: self
       real(dp), intent(in) :: distance             !! >= 0 [s]
       complex(dp), intent(in) :: offset            !! x + i y [s]
       complex(dp), allocatable :: point(:)         !! x + i y [s]
 
-      complex(dp) :: half, z
+      complex(dp) :: z
       integer :: columns, i, j, rows
 
-      half = 0.5_dp*cmplx(1.0_dp, self%spacing, dp)
       rows = ceiling((distance + abs(offset))/self%spacing + 0.5_dp)
       columns = ceiling(distance + abs(offset) + 0.5_dp + self%shift*rows)
-      if (self%along_y) half = cmplx(half%im, half%re, dp)
       allocate (point(0))
       do j = -rows, rows
          do i = -columns, columns
             z = cmplx(i + self%shift*j, self%spacing*j, dp)
             if (self%along_y) z = cmplx(z%im, z%re, dp)
             z = z + offset
-            if (norm2(max(abs([z%re, z%im]) - [half%re, half%im], 0.0_dp)) <= distance) point = [point, z]
+            if (norm2(max(abs([z%re, z%im]) - self%half_sides(), 0.0_dp)) <= distance) point = [point, z]
          end do
       end do
    end function points_about

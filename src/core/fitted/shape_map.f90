@@ -35,7 +35,6 @@ module wavycon_shape_map
       procedure :: analytic_part
       procedure :: slopes
       procedure :: jacobian
-      procedure :: linearise_jacobian
       procedure :: tangent
       procedure :: area
       procedure :: radius
@@ -214,27 +213,6 @@ contains
       call self%slopes(1, [w], slope, conjugate_slope)
       jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
    end function jacobian
-
-   !> The Jacobian and its derivatives with respect to the coefficients.
-   pure subroutine linearise_jacobian(self, w, jacobian, derivative)
-      class(shape_map), intent(in) :: self
-      complex(dp), intent(in) :: w
-      real(dp), intent(out) :: jacobian         !! [s^2]
-      real(dp), intent(out) :: derivative(0:)   !! d jacobian/d b_k [s], shape (0:K)
-
-      complex(dp) :: conjugate_slope(1), power, slope(1), step
-      integer :: k
-
-      call self%slopes(1, [w], slope, conjugate_slope)
-      derivative(0) = 2*(slope(1)%re**2 + slope(1)%im**2)/self%b(0)
-      jacobian = 0.5_dp*self%b(0)*derivative(0) - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
-      power = conjg(w)**(self%fold - 2)
-      step = power*conjg(w)**2
-      do k = 1, ubound(self%b, 1)
-         derivative(k) = -2*(self%fold*k - 1)*(conjugate_slope(1)%re*power%re + conjugate_slope(1)%im*power%im)
-         power = power*step
-      end do
-   end subroutine linearise_jacobian
 
    !> -i dz/dphi at w = e^(i phi): the edge's tangent, turned to the outward normal [s].
    elemental complex(dp) function tangent(self, w)

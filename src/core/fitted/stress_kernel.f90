@@ -81,10 +81,7 @@ contains
          im = 2*x(i)*y(i)
          total = total + [third, third - 3*z**2*fifth, l*re, l*im, fifth*re, fifth*im, fifth*x(i), fifth*y(i)]
       end do
-      total(1:2) = z*total(1:2)
-      total(5:6) = 3*z*total(5:6)
-      total(7:8) = -3*z**2*total(7:8)
-      total = total/(2*pi)
+      total = total*[z, z, 1.0_dp, 1.0_dp, 3*z, 3*z, -3*z**2, -3*z**2]/(2*pi)
    end function pressure_sums
 
    !> The fields of a gap by its gradient at n points, README.md (F53).
@@ -109,11 +106,7 @@ contains
          total = total + [along*third, along*fifth, difference*third, cross*third, difference*fifth, cross*fifth, &
                           gradient_x(i)*of_dh, gradient_y(i)*of_dh]
       end do
-      total(2) = -3*z**2*total(2)
-      total(3:4) = -total(3:4)
-      total(5:6) = -3*z**2*total(5:6)
-      total(7:8) = -z*total(7:8)
-      total = total/(4*pi**2)
+      total = total*[1.0_dp, -3*z**2, -1.0_dp, -1.0_dp, -3*z**2, -3*z**2, -z, -z]/(4*pi**2)
    end function gradient_sums
 
    !> The fields of a gap at n points, README.md (F56).
@@ -137,11 +130,7 @@ contains
          total = total + [fifth*(2*z**2 - x(i)**2 - y(i)**2), 9*fifth - 15*z**2*seventh, fifth*re, fifth*im, &
                           seventh*re, seventh*im, of_dh*x(i), of_dh*y(i)]
       end do
-      total(2) = z**2*total(2)
-      total(3:4) = 3*total(3:4)
-      total(5:6) = 15*z**2*total(5:6)
-      total(7:8) = z*total(7:8)
-      total = total/(4*pi**2)
+      total = total*[1.0_dp, z**2, 3.0_dp, 3.0_dp, 15*z**2, 15*z**2, z, z]/(4*pi**2)
    end function gap_sums
 
    !> The stresses from the fields, README.md (F51), as parts(:, 1) + nu parts(:, 2).

@@ -92,15 +92,10 @@ contains
             ky = j*self%base_y
             length = sqrt(kx**2 + ky**2)
             p = self%pressure(i, j)*exp(-length*depth)
-            associate (cc => p*x(i)%re*y(j)%re, ss => p*x(i)%im*y(j)%im, depth_waves => depth*length)
-               total(1) = total(1) + cc
-               total(2) = total(2) - depth_waves*cc
-               total(3) = total(3) + (ky - kx)*(ky + kx)*cc/length**2
-               total(4) = total(4) + 2*kx*ky*ss/length**2
-               total(5) = total(5) + (ky - kx)*(ky + kx)*depth*cc/length
-               total(6) = total(6) + 2*kx*ky*depth*ss/length
-               total(7) = total(7) - kx*depth*p*x(i)%im*y(j)%re
-               total(8) = total(8) - ky*depth*p*x(i)%re*y(j)%im
+            associate (cc => p*x(i)%re*y(j)%re, along => (ky - kx)*(ky + kx)*p*x(i)%re*y(j)%re/length**2, &
+                       across => 2*kx*ky*p*x(i)%im*y(j)%im/length**2)
+               total = total + [cc, -depth*length*cc, along, across, depth*length*along, depth*length*across, &
+                                -kx*depth*p*x(i)%im*y(j)%re, -ky*depth*p*x(i)%re*y(j)%im]
             end associate
          end do
       end do

@@ -74,10 +74,8 @@ contains
       real(dp), intent(in) :: amplitude_x  !! a_x, between 0 and 1 [Delta]
       type(wave_lattice) :: lattice
 
-      lattice%area = side_ratio
-      allocate (lattice%wave(2, 2), lattice%amplitude(2))
-      lattice%wave(:, :) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/side_ratio], [2, 2])
-      lattice%amplitude(:) = [amplitude_x, 1.0_dp - amplitude_x]
+      lattice%wave = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp/side_ratio], [2, 2])
+      lattice%amplitude = [amplitude_x, 1.0_dp - amplitude_x]
       ! Two saddles are equally low: the one on the longer side is taken, as spots extend that way.
       if (amplitude_x >= 0.5_dp) lattice%saddle = cmplx(0.0_dp, 0.5_dp*side_ratio, dp)
       lattice%trough = cmplx(0.5_dp, 0.5_dp*side_ratio, dp)
@@ -91,10 +89,8 @@ contains
       real(dp), intent(in) :: side_ratio   !! longer wavelength, along y, over the shorter, s: 1 to 3
       type(wave_lattice) :: lattice
 
-      lattice%area = 0.5_dp*side_ratio
-      allocate (lattice%wave(2, 2), lattice%amplitude(2))
-      lattice%wave(:, :) = reshape([1.0_dp, 1.0_dp/side_ratio, 1.0_dp, -1.0_dp/side_ratio], [2, 2])
-      lattice%amplitude(:) = [0.5_dp, 0.5_dp]
+      lattice%wave = reshape([1.0_dp, 1.0_dp/side_ratio, 1.0_dp, -1.0_dp/side_ratio], [2, 2])
+      lattice%amplitude = [0.5_dp, 0.5_dp]
       lattice%saddle = cmplx(0.25_dp, 0.25_dp*side_ratio, dp)
       lattice%trough = 0.5_dp
       lattice%to_next_crest = [lattice%saddle]
@@ -113,10 +109,8 @@ contains
       lattice%fold = 6
       lattice%trough_fold = 3
       lattice%troughs = 2
-      lattice%area = 0.5_dp*root3
-      allocate (lattice%wave(2, 3), lattice%amplitude(3))
-      lattice%wave(:, :) = reshape([2.0_dp, 0.0_dp, 1.0_dp, root3, 1.0_dp, -root3]/root3, [2, 3])
-      lattice%amplitude(:) = [1.0_dp, 1.0_dp, 1.0_dp]/3
+      lattice%wave = reshape([2.0_dp, 0.0_dp, 1.0_dp, root3, 1.0_dp, -root3]/root3, [2, 3])
+      lattice%amplitude = [1.0_dp, 1.0_dp, 1.0_dp]/3
       lattice%saddle = cmplx(0.25_dp*root3, 0.25_dp, dp)
       lattice%trough = 1.0_dp/root3
       lattice%to_next_crest = [lattice%saddle]
@@ -140,6 +134,8 @@ contains
       complex(dp), allocatable :: middle(:)
 
       lattice%rows = rows
+      ! Points of a row are 1 apart.
+      lattice%area = rows%spacing
       call start_periodic_kernels(rows, lattice%kernel)
       if (.not. allocated(lattice%to_next_trough)) lattice%to_next_trough = lattice%to_next_crest
       if (.not. allocated(lattice%phase)) lattice%phase = [(-1.0_dp, 0.0_dp), (-1.0_dp, 0.0_dp)]
