@@ -55,7 +55,7 @@ contains
          plan%base = surface%points/parts
          plan%first = coarsest(plan%base, least)
       else
-         plan%first = least*fast_size(max(1, ubound(surface%shape%c)))
+         plan%first = least*fast_size(max(1, surface%shape%last([1, 2])))
          if (surface%dimension == 1) plan%first(2) = 1
          plan%trusted = plan%first
          plan%base = plan%first

@@ -140,10 +140,8 @@ contains
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
 
-      allocate (own)
       if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
-         own%exist = .false.
-         call move_alloc(own, answer)
+         allocate (answer, source=stress_fields(exist=.false.))
          return
       end if
       if (surface%has_free_edges) then
@@ -160,6 +158,7 @@ contains
       call transform%series(values, pressure)
       deallocate (values)
       if (self%rotated) pressure = to_difference_angles(pressure)
+      allocate (own)
       call start_series_stress(own, surface, pressure, record%pbar_over_pstar, pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)
    end subroutine stresses

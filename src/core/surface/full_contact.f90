@@ -34,7 +34,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar   !! P >= 1
 
       pressure = pressure_of(surface, surface%shape)
-      pressure%c(0, 0) = pbar_over_pstar
+      call pressure%set_mean(pbar_over_pstar)
    end function full_contact_series
 
    !> The elastic energy per nominal area in full contact, half the mean of p times the shape [p* Delta], by Parseval.
