@@ -7,7 +7,7 @@ module wavycon_fourier_series
    implicit none (type, external)
    private
 
-   public :: fourier_series, divide_series, divided, evaluate_line, turn, wave_factor, weighted
+   public :: fourier_series, divide_series, evaluate_line, turn, wave_factor, weighted
 
    !> f(X, Y) = Re sum_kl W_kl exp(i (kX + lY)), k = 0..m, l = -n..n; in 1-D l = 0 only. For k = 0 the waves of l and -l
    !> are one: each of W_0l and its conjugate W_0,-l is half of it.
@@ -21,7 +21,6 @@ module wavycon_fourier_series
       !> wavycon_grid_transform. 0: it is whole.
       integer :: distributed_waves = 0
    contains
-      procedure :: exists
       procedure :: is_even
       procedure :: is_distributed
       procedure :: first
@@ -37,12 +36,6 @@ module wavycon_fourier_series
    end type fourier_series
 
 contains
-
-   pure logical function exists(self)
-      class(fourier_series), intent(in) :: self
-
-      exists = allocated(self%c) .or. allocated(self%wave)
-   end function exists
 
    pure logical function is_even(self)
       class(fourier_series), intent(in) :: self
@@ -65,7 +58,7 @@ contains
       if (allocated(self%wave)) first = lbound(self%wave, 1)
    end function first
 
-   !> The last own wave number in X or that in Y.
+   !> The last own wave number in X or that in Y; below 0 if there is no series.
    elemental integer function last(self, way)
       class(fourier_series), intent(in) :: self
       integer, intent(in) :: way   !! 1: in X, 2: in Y
@@ -252,28 +245,22 @@ contains
       end if
    end function wave_factor
 
-   !> A series with each wave multiplied by that.
-   pure type(fourier_series) function weighted(series, length, power)
+   !> A series with each wave multiplied by that and by a number.
+   pure type(fourier_series) function weighted(series, length, power, number)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
       integer, intent(in) :: power        !! as of `wave_factor`
+      real(dp), intent(in) :: number
 
+      real(dp) :: factor(series%first():series%last(1), 0:series%last(2))
       integer :: k, l
 
+      do l = 0, series%last(2)
+         factor(:, l) = number*wave_factor([(k/length(1), k=series%first(), series%last(1))], l/length(2), power)
+      end do
       weighted = series
-      call weighted%multiply(reshape([((wave_factor(k/length(1), l/length(2), power), &
-                                        k=series%first(), series%last(1)), l=0, series%last(2))], &
-                                     [series%last(1) - series%first() + 1, series%last(2) + 1]))
+      call weighted%multiply(factor)
    end function weighted
-
-   !> A series divided by a number; unchanged if that is 0.
-   pure type(fourier_series) function divided(series, unit)
-      type(fourier_series), intent(in) :: series
-      real(dp), intent(in) :: unit
-
-      divided = series
-      if (abs(unit) > 0.0_dp) call divide_series(divided, unit)
-   end function divided
 
    !> Divides a series by a number in place.
    pure subroutine divide_series(series, unit)

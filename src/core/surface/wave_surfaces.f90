@@ -1,7 +1,7 @@
 !> Surfaces of cosine waves: sums of any, and those of the named kinds.
 module wavycon_wave_surfaces
    use wavycon_constants, only: sqrt3
-   use wavycon_fourier_series, only: divided, fourier_series, turn, weighted
+   use wavycon_fourier_series, only: divide_series, fourier_series, turn, weighted
    use wavycon_kinds, only: dp
    use wavycon_series_peak, only: find_peak
    use wavycon_surface, only: surface_type
@@ -89,20 +89,18 @@ contains
       real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
       type(fourier_series), intent(in) :: height   !! [length]; its mean is ignored
 
-      type(fourier_series) :: waves
       real(dp) :: lowest, unused(2)
 
-      waves = height
-      call waves%set_mean(0.0_dp)
+      surface%shape = height
+      call surface%shape%set_mean(0.0_dp)
       surface%length = length
       surface%dimension = merge(1, 2, height%last(2) == 0)
-      call find_peak(waves, surface%amplitude, surface%crest)
+      call find_peak(surface%shape, surface%amplitude, surface%crest)
       if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
-      surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
-      waves = weighted(surface%shape, surface%length, 1)
-      call find_peak(waves, surface%full_contact_peak, unused)
-      call find_peak(divided(waves, -1.0_dp), lowest, unused)
+      call divide_series(surface%shape, surface%amplitude)
+      call find_peak(weighted(surface%shape, surface%length, 1, 1.0_dp), surface%full_contact_peak, unused)
+      call find_peak(weighted(surface%shape, surface%length, 1, -1.0_dp), lowest, unused)
       surface%stiffness = 1.0_dp/lowest
       surface%full_contact_peak = surface%full_contact_peak/lowest
    end function surface_of_series
