@@ -131,12 +131,13 @@ contains
 
       if (allocated(self%source)) then
          call self%source%stresses(self%solution_record, surface, answer)
+      else if (self%status /= full_contact .and. self%status /= no_load) then
+         allocate (answer, source=stress_fields(exist=.false.))
       else
          call self%coefficients(surface, pressure)
          allocate (own)
          call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
                                   pressure_error=rounding*self%measures%peak_pressure_over_pstar, is_sampled=.false.)
-         own%exist = self%status == full_contact .or. self%status == no_load
          call move_alloc(own, answer)
       end if
    end subroutine stresses
@@ -174,8 +175,7 @@ contains
       else if (self%status == full_contact) then
          series = full_contact_series(surface, self%pbar_over_pstar)
       else
-         allocate (series%c, mold=surface%shape%c)
-         series%c = 0.0_dp
+         allocate (series%c(0:surface%shape%last(1), 0:surface%shape%last(2)), source=0.0_dp)
       end if
    end subroutine coefficients
 

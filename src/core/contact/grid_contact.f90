@@ -66,7 +66,7 @@ contains
          call assert(options%residual >= 0.0_dp, 'residual >= 0')
       end associate
       self%surface = surface
-      self%is_started = allocated(surface%shape%c)
+      self%is_started = surface%shape%last(1) >= 0
       self%keep_fields = keep_fields
       if (any(self%options%points > 0) .or. .not. has_smaller_cell(surface)) return
       allocate (self%smaller)

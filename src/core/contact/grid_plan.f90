@@ -45,7 +45,7 @@ contains
       else if (surface%is_height_map()) then
          grid = surface%points/parts
       else
-         grid = least*fast_size(max(1, ubound(surface%shape%c)))
+         grid = least*fast_size(max(1, surface%shape%last([1, 2])))
          if (surface%dimension == 1) grid(2) = 1
          least = grid
       end if

@@ -146,26 +146,27 @@ contains
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
 
-      allocate (own)
-      own%exist = has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))
-      if (own%exist) then
-         parts = merge(2, 1, surface%has_free_edges)
-         associate (points => self%edge%slab%points)
-            allocate (values(parts*points(1), parts*points(2)), source=0.0_dp)
-            values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
-         end associate
-         ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there
-         ! would be P - 1.
-         error = record%measures%peak_pressure_error
-         if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
-         call transform%start(shape(values), self%edge%even .and. parts == 1, whole=.true.)
-         call transform%series(values, pressure)
-         deallocate (values)
-         if (self%rotated) pressure = to_difference_angles(pressure)
-         call start_series_stress(own, surface, pressure, record%pbar_over_pstar/parts**2, or_nan(error), &
-                                  is_sampled=.true.)
-         if (parts > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
+      if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
+         allocate (answer, source=stress_fields(exist=.false.))
+         return
       end if
+      parts = merge(2, 1, surface%has_free_edges)
+      associate (points => self%edge%slab%points)
+         allocate (values(parts*points(1), parts*points(2)), source=0.0_dp)
+         values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
+      end associate
+      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would be
+      ! P - 1.
+      error = record%measures%peak_pressure_error
+      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
+      call transform%start(shape(values), self%edge%even .and. parts == 1, whole=.true.)
+      call transform%series(values, pressure)
+      deallocate (values)
+      if (self%rotated) pressure = to_difference_angles(pressure)
+      allocate (own)
+      call start_series_stress(own, surface, pressure, record%pbar_over_pstar/parts**2, or_nan(error), &
+                               is_sampled=.true.)
+      if (parts > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses
 

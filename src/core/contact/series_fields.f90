@@ -44,8 +44,7 @@ contains
          fields%displacement = surface%shape
          fields%mean_gap = 0.0_dp
       else
-         allocate (fields%pressure%c, mold=surface%shape%c)
-         fields%pressure%c = 0.0_dp
+         allocate (fields%pressure%c(0:surface%shape%last(1), 0:surface%shape%last(2)), source=0.0_dp)
          if (.not. fields%is_edgeless) fields%pressure%c = ieee_value(pbar_over_pstar, ieee_quiet_nan)
          fields%displacement = fields%pressure
       end if

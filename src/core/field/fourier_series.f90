@@ -3,22 +3,33 @@ module wavycon_fourier_series
    use wavycon_cosine_table, only: cosine_table
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
+   use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private
 
-   public :: fourier_series, divide_series, divided, evaluate_line, weighted
+   public :: fourier_series, divide_series, evaluate_line, turn, wave_factor, weighted
 
-   !> f(X, Y) = sum_ij  c_ij cos iX cos jY + cs_ij cos iX sin jY + sc_ij sin iX cos jY + ss_ij sin iX sin jY.
-   !> An even field, f(-X, Y) = f(X, -Y) = f(X, Y), has the first term only. In 1-D j = 0 only.
+   !> f(X, Y) = Re sum_kl W_kl exp(i (kX + lY)), k = 0..m, l = -n..n; in 1-D l = 0 only. For k = 0 the waves of l and -l
+   !> are one: each of W_0l and its conjugate W_0,-l is half of it.
+   !>
+   !> The waves of an even field, f(-X, Y) = f(X, -Y) = f(X, Y), are kept as f = sum_kl c_kl cos kX cos lY, k, l >= 0:
+   !> they are real, W_k,-l = W_kl = c_kl/2 for l > 0, and W_k0 = c_k0.
    type :: fourier_series
-      real(dp), allocatable :: c(:, :)   !! shape (0:m, 0:n)
-      real(dp), allocatable :: cs(:, :), sc(:, :), ss(:, :)   !! of the same shape; not allocated for an even field
+      real(dp), allocatable :: c(:, :)         !! of an even field, shape (0:m, 0:n)
+      complex(dp), allocatable :: wave(:, :)   !! W of any other field, shape (0:m, -n:n)
       !> m + 1 for a series that is distributed as grids are, where the rank has some of the first indices only, see
       !> wavycon_grid_transform. 0: it is whole.
       integer :: distributed_waves = 0
    contains
       procedure :: is_even
       procedure :: is_distributed
+      procedure :: first
+      procedure :: last
+      procedure :: row
+      procedure :: frequencies
+      procedure :: multiply
+      procedure :: set_mean
+      procedure :: add_wave
       procedure :: at
       procedure :: on_line
       procedure :: evaluate_on_grid
@@ -29,7 +40,7 @@ contains
    pure logical function is_even(self)
       class(fourier_series), intent(in) :: self
 
-      is_even = .not. allocated(self%ss)
+      is_even = .not. allocated(self%wave)
    end function is_even
 
    pure logical function is_distributed(self)
@@ -38,23 +49,113 @@ contains
       is_distributed = self%distributed_waves > 0
    end function is_distributed
 
+   !> The first own wave number in X.
+   pure integer function first(self)
+      class(fourier_series), intent(in) :: self
+
+      first = 0
+      if (allocated(self%c)) first = lbound(self%c, 1)
+      if (allocated(self%wave)) first = lbound(self%wave, 1)
+   end function first
+
+   !> The last own wave number in X or that in Y; below 0 if there is no series.
+   elemental integer function last(self, way)
+      class(fourier_series), intent(in) :: self
+      integer, intent(in) :: way   !! 1: in X, 2: in Y
+
+      last = -1
+      if (allocated(self%c)) last = ubound(self%c, way)
+      if (allocated(self%wave)) last = ubound(self%wave, way)
+   end function last
+
+   !> W_kl of the own k up to a highest one.
+   pure function row(self, l, highest) result(waves)
+      class(fourier_series), intent(in) :: self
+      integer, intent(in) :: l
+      integer, intent(in) :: highest   !! up to last(1)
+      complex(dp) :: waves(self%first():highest)
+
+      if (self%is_even()) then
+         waves = merge(1.0_dp, 0.5_dp, l == 0)*self%c(:highest, abs(l))
+      else
+         waves = self%wave(:highest, l)
+      end if
+   end function row
+
+   !> The frequency of each wave, one over its wavelength.
+   pure function frequencies(self, length) result(frequency)
+      class(fourier_series), intent(in) :: self
+      real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
+      real(dp) :: frequency(self%first():self%last(1), 0:self%last(2))
+
+      integer :: k, l
+
+      do l = 0, self%last(2)
+         frequency(:, l) = hypot([(k/length(1), k=self%first(), self%last(1))], l/length(2))
+      end do
+   end function frequencies
+
+   !> Multiplies the waves of k, l and of k, -l by a factor.
+   pure subroutine multiply(self, factor)
+      class(fourier_series), intent(inout) :: self
+      real(dp), intent(in) :: factor(:, 0:)   !! shape of `frequencies`
+
+      integer :: l
+
+      do l = -self%last(2), self%last(2)
+         if (.not. self%is_even()) self%wave(:, l) = factor(:, abs(l))*self%wave(:, l)
+      end do
+      if (self%is_even()) self%c = factor*self%c
+   end subroutine multiply
+
+   !> Sets the mean, if that is an own wave.
+   pure subroutine set_mean(self, mean)
+      class(fourier_series), intent(inout) :: self
+      real(dp), intent(in) :: mean
+
+      if (self%first() > 0) return
+      if (self%is_even()) then
+         self%c(0, 0) = mean
+      else
+         self%wave(0, 0) = mean
+      end if
+   end subroutine set_mean
+
+   !> Adds Re w exp(i (kX + lY)) to a series that is not even.
+   pure subroutine add_wave(self, k, l, w)
+      class(fourier_series), intent(inout) :: self
+      integer, intent(in) :: k, l      !! k an own wave number; not both zero
+      complex(dp), intent(in) :: w
+
+      if (k > 0) then
+         self%wave(k, l) = self%wave(k, l) + w
+      else
+         self%wave(0, l) = self%wave(0, l) + 0.5_dp*w
+         self%wave(0, -l) = self%wave(0, -l) + 0.5_dp*conjg(w)
+      end if
+   end subroutine add_wave
+
+   !> exp(i angle).
+   elemental complex(dp) function turn(angle)
+      real(dp), intent(in) :: angle   !! [rad]
+
+      turn = exp(cmplx(0.0_dp, angle, dp))
+   end function turn
+
    !> The field at a point. The series is whole.
    pure real(dp) function at(self, x, y)
       class(fourier_series), intent(in) :: self
       real(dp), intent(in) :: x, y   !! X, Y [rad]
 
-      real(dp), dimension(0:ubound(self%c, 1)) :: cosines, sines
-      integer :: i, j
+      integer :: k, l
 
-      cosines = [(cos(i*x), i=0, ubound(self%c, 1))]
-      if (.not. self%is_even()) sines = [(sin(i*x), i=0, ubound(self%c, 1))]
-      at = 0.0_dp
-      do j = 0, ubound(self%c, 2)
-         at = at + cos(j*y)*dot_product(self%c(:, j), cosines)
-         if (self%is_even()) cycle
-         at = at + sin(j*y)*(dot_product(self%cs(:, j), cosines) + dot_product(self%ss(:, j), sines)) &
-              + cos(j*y)*dot_product(self%sc(:, j), sines)
-      end do
+      associate (turn_x => turn([(k*x, k=0, self%last(1))]), turn_y => turn([(l*y, l=0, self%last(2))]))
+         if (self%is_even()) then
+            at = dot_product(matmul(self%c, real(turn_y)), real(turn_x))
+         else
+            at = real(sum(turn_x*matmul(self%wave, [conjg(turn_y(size(turn_y):2:-1)), turn_y])))
+         end if
+      end associate
    end function at
 
    !> The field along a line, X = X_0 + d_x t, Y = Y_0 + d_y t. Its waves are first added up to those of equal wave
@@ -67,36 +168,26 @@ contains
       real(dp) :: values(size(t))
 
       complex(dp), allocatable :: along(:)
-      complex(dp) :: down, phase, turn, turn_x(0:ubound(self%c, 1)), turn_y, up
-      integer :: i, j, last(2), n
+      complex(dp) :: phase, step, turn_x(0:self%last(1)), waves(0:self%last(1))
+      integer :: i, k, l, n
 
-      last = direction*ubound(self%c)
-      allocate (along(-last(2):sum(last)), source=(0.0_dp, 0.0_dp))
-      turn_x = [(exp(cmplx(0.0_dp, i*start(1), dp)), i=0, ubound(self%c, 1))]
-      do j = 0, ubound(self%c, 2)
-         turn_y = exp(cmplx(0.0_dp, j*start(2), dp))
-         do i = 0, ubound(self%c, 1)
-            ! The amplitudes of exp(i (iX + jY)) and exp(i (iX - jY)).
-            up = 0.5_dp*self%c(i, j)
-            down = up
-            if (.not. self%is_even()) then
-               up = up - 0.5_dp*cmplx(self%ss(i, j), self%sc(i, j) + self%cs(i, j), dp)
-               down = down + 0.5_dp*cmplx(self%ss(i, j), self%cs(i, j) - self%sc(i, j), dp)
-            end if
-            n = direction(1)*i
-            associate (m => direction(2)*j)
-               along(n + m) = along(n + m) + up*turn_x(i)*turn_y
-               along(n - m) = along(n - m) + down*turn_x(i)*conjg(turn_y)
-            end associate
+      n = dot_product(direction, self%last([1, 2]))
+      allocate (along(-n:n), source=(0.0_dp, 0.0_dp))
+      turn_x = turn([(k*start(1), k=0, self%last(1))])
+      do l = -self%last(2), self%last(2)
+         waves = self%row(l, self%last(1))*turn_x*turn(l*start(2))
+         do k = 0, self%last(1)
+            n = direction(1)*k + direction(2)*l
+            along(n) = along(n) + waves(k)
          end do
       end do
       do i = 1, size(t)
-         turn = exp(cmplx(0.0_dp, t(i), dp))
-         phase = exp(cmplx(0.0_dp, lbound(along, 1)*t(i), dp))
+         phase = turn(lbound(along, 1)*t(i))
+         step = turn(t(i))
          values(i) = 0.0_dp
          do n = lbound(along, 1), ubound(along, 1)
             values(i) = values(i) + real(along(n)*phase)
-            phase = phase*turn
+            phase = phase*step
          end do
       end do
    end function on_line
@@ -140,46 +231,47 @@ contains
       end do
    end subroutine evaluate_line
 
-   !> A series with each term multiplied by a power of its frequency, one over its wavelength; the mean becomes 0.
-   pure type(fourier_series) function weighted(series, length, power)
+   !> What a wave is multiplied by: its stiffness, which makes the pressure of a displacement, one over that, or the
+   !> square of its frequency; 0 for the mean.
+   elemental real(dp) function wave_factor(frequency_x, frequency_y, power)
+      real(dp), intent(in) :: frequency_x, frequency_y
+      integer, intent(in) :: power   !! 1, -1 or 2
+
+      wave_factor = hypot(frequency_x, frequency_y)
+      if (power == 2) then
+         wave_factor = wave_factor**2
+      else if (wave_factor > 0.0_dp) then
+         wave_factor = wave_stiffness(frequency_x, frequency_y)**power
+      end if
+   end function wave_factor
+
+   !> A series with each wave multiplied by that and by a number.
+   pure type(fourier_series) function weighted(series, length, power, number)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
-      integer, intent(in) :: power        !! not 0
+      integer, intent(in) :: power        !! as of `wave_factor`
+      real(dp), intent(in) :: number
 
-      real(dp) :: weight(lbound(series%c, 1):ubound(series%c, 1))
-      integer :: i, j
+      real(dp) :: factor(series%first():series%last(1), 0:series%last(2))
+      integer :: k, l
 
-      weighted = series
-      do j = 0, ubound(series%c, 2)
-         weight = hypot([(i, i=lbound(series%c, 1), ubound(series%c, 1))]/length(1), j/length(2))
-         where (weight > 0.0_dp) weight = weight**power
-         weighted%c(:, j) = weight*series%c(:, j)
-         if (series%is_even()) cycle
-         weighted%cs(:, j) = weight*series%cs(:, j)
-         weighted%sc(:, j) = weight*series%sc(:, j)
-         weighted%ss(:, j) = weight*series%ss(:, j)
+      do l = 0, series%last(2)
+         factor(:, l) = number*wave_factor([(k/length(1), k=series%first(), series%last(1))], l/length(2), power)
       end do
+      weighted = series
+      call weighted%multiply(factor)
    end function weighted
-
-   !> A series divided by a number; unchanged if that is 0.
-   pure type(fourier_series) function divided(series, unit)
-      type(fourier_series), intent(in) :: series
-      real(dp), intent(in) :: unit
-
-      divided = series
-      if (abs(unit) > 0.0_dp) call divide_series(divided, unit)
-   end function divided
 
    !> Divides a series by a number in place.
    pure subroutine divide_series(series, unit)
       type(fourier_series), intent(inout) :: series
       real(dp), intent(in) :: unit   !! not 0
 
-      series%c = series%c/unit
-      if (series%is_even()) return
-      series%cs = series%cs/unit
-      series%sc = series%sc/unit
-      series%ss = series%ss/unit
+      if (series%is_even()) then
+         series%c = series%c/unit
+      else
+         series%wave = series%wave/unit
+      end if
    end subroutine divide_series
 
 end module wavycon_fourier_series

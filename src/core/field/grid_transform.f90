@@ -3,7 +3,7 @@
 !> The points are those of wavycon_grid_points. The values of an even field on a quarter of its cell are a sum of
 !> cosines (DCT-II and III), those of any other field a sum of waves. Columns are transformed along x, then rows of the
 !> spectrum along y. On a distributed grid the field has the own columns, and the series the coefficients of own wave
-!> numbers in X: a series of the shape c(first:last, 0:n), whose component `distributed_waves` is the number of all wave
+!> numbers in X: a series of the shape (first:last, :), whose component `distributed_waves` is the number of all wave
 !> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is distributed.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_f_pointer, c_loc, c_ptr
@@ -73,10 +73,11 @@ contains
       rows = slab_of_waves(self%waves, self%slab%is_distributed)
       associate (first => rows%first - 1, last => rows%last - 1, &
                  last_y => merge(self%points(2) - 1, self%points(2)/2, self%even))
-         allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
-         if (self%even) return
-         allocate (answer%cs(first:last, 0:last_y), answer%sc(first:last, 0:last_y), answer%ss(first:last, 0:last_y), &
-                   source=0.0_dp)
+         if (self%even) then
+            allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
+         else
+            allocate (answer%wave(first:last, -last_y:last_y), source=(0.0_dp, 0.0_dp))
+         end if
       end associate
    end subroutine new_series
 
@@ -93,7 +94,7 @@ contains
       allocate (spectrum(self%numbers, self%waves, self%slab%columns()))
       call columns_to_waves(self, field, spectrum)
       if (self%slab%is_distributed) then
-         allocate (own_rows(self%numbers, size(answer%c, 1), self%points(2)))
+         allocate (own_rows(self%numbers, answer%last(1) - answer%first() + 1, self%points(2)))
          call self%slab%exchange_rows(slab_of_waves(self%waves, .true.), 8*self%numbers, spectrum, own_rows, &
                                       to_rows=.true.)
          call move_alloc(own_rows, spectrum)
@@ -108,13 +109,12 @@ contains
 
    !> The values of a series at the points. Waves beyond the grid's highest wave number are left out.
    !>
-   !> With `power` each harmonic is first multiplied by that power of its frequency, the root of the sum of the squares
-   !> of its wave numbers times `per_wave`, and the mean becomes 0.
+   !> With `power` each harmonic is first multiplied by the `wave_factor` of its wave numbers times `per_wave`.
    subroutine sample(self, from, field, power, per_wave)
       class(grid_transform), intent(in) :: self
       type(fourier_series), intent(in) :: from                !! even, if the points are those of a quarter
       real(dp), intent(out), contiguous :: field(:, :)        !! shape (M, slab%columns())
-      integer, intent(in), optional :: power                  !! not 0
+      integer, intent(in), optional :: power                  !! as of `wave_factor`
       real(dp), intent(in), optional :: per_wave(2)           !! with power
 
       real(c_double), allocatable :: own_columns(:, :, :), spectrum(:, :, :)
@@ -123,8 +123,9 @@ contains
       integer :: carried
 
       call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
-      carried = max(min(self%waves - 1, ubound(from%c, 1)) - lbound(from%c, 1) + 1, 0)
-      allocate (spectrum(self%numbers, merge(size(from%c, 1), carried, from%is_distributed()), self%points(2)))
+      carried = max(min(self%waves - 1, from%last(1)) - from%first() + 1, 0)
+      allocate (spectrum(self%numbers, merge(from%last(1) - from%first() + 1, carried, from%is_distributed()), &
+                         self%points(2)))
       spectrum(:, carried + 1:, :) = 0.0_dp
       if (self%even) then
          call give_cosines(self%points, from, spectrum(:, :carried, :), power, per_wave)

@@ -14,7 +14,7 @@ contains
    type(grid_slab) function wave_slab(series)
       type(fourier_series), intent(in) :: series
 
-      wave_slab = slab_of_waves(merge(series%distributed_waves, size(series%c, 1), series%is_distributed()), &
+      wave_slab = slab_of_waves(merge(series%distributed_waves, series%last(1) + 1, series%is_distributed()), &
                                 series%is_distributed())
    end function wave_slab
 
@@ -34,39 +34,35 @@ contains
       type(fourier_series), intent(inout) :: series
       logical, intent(in) :: first_only   !! whether only where tables are written
 
-      logical :: is_whole
+      real(dp), allocatable :: own(:, :), whole(:, :)   ! real parts of the waves, and then the imaginary ones
+      integer :: last, numbers
       type(grid_slab) :: rows
 
       rows = wave_slab(series)
       if (.not. rows%any(rows%is_distributed .and. rows%first == 1)) return
-      call gather_array(series%c)
-      if (.not. series%is_even()) then
-         call gather_array(series%cs)
-         call gather_array(series%sc)
-         call gather_array(series%ss)
+      last = series%last(2)
+      if (series%is_even()) then
+         own = transpose(series%c)
+      else
+         own = transpose(reshape([series%wave%re, series%wave%im], [size(series%wave, 1), 2*size(series%wave, 2)]))
       end if
-      if (is_whole) series%distributed_waves = 0
-
-   contains
-
-      subroutine gather_array(values)
-         real(dp), allocatable, intent(inout) :: values(:, :)
-
-         real(dp), allocatable :: own(:, :), whole(:, :)
-
-         allocate (own, source=transpose(values))
-         if (first_only) then
-            call rows%gather_to_first(own, whole)
-         else
-            allocate (whole(size(values, 2), rows%points(2)))
-            call rows%gather(8*size(own, 1), own, whole, first_only=.false.)
-         end if
-         is_whole = allocated(whole)
-         if (.not. is_whole) return
-         deallocate (values)
-         allocate (values(0:size(whole, 2) - 1, 0:size(whole, 1) - 1), source=transpose(whole))
-      end subroutine gather_array
-
+      if (first_only) then
+         call rows%gather_to_first(own, whole)
+      else
+         allocate (whole(size(own, 1), rows%points(2)))
+         call rows%gather(8*size(own, 1), own, whole, first_only=.false.)
+      end if
+      if (.not. allocated(whole)) return
+      series%distributed_waves = 0
+      if (series%is_even()) then
+         deallocate (series%c)
+         allocate (series%c(0:size(whole, 2) - 1, 0:last), source=transpose(whole))
+      else
+         numbers = 2*last + 1
+         deallocate (series%wave)
+         allocate (series%wave(0:size(whole, 2) - 1, -last:last), &
+                   source=transpose(cmplx(whole(:numbers, :), whole(numbers + 1:, :), dp)))
+      end if
    end subroutine gather_series
 
 end module wavycon_own_waves

@@ -17,19 +17,7 @@ contains
    pure type(fourier_series) function to_sum_angles(series) result(rotated)
       type(fourier_series), intent(in) :: series   !! in phi and theta; terms with odd i + j are zero but for rounding
 
-      integer :: i, j, low, high, last
-
-      last = sum(ubound(series%c))/2
-      allocate (rotated%c(0:last, 0:last), source=0.0_dp)
-      do j = 0, ubound(series%c, 2)
-         do i = 0, ubound(series%c, 1)
-            if (mod(i + j, 2) /= 0) cycle
-            high = (i + j)/2
-            low = abs(i - j)/2
-            rotated%c(high, low) = rotated%c(high, low) + 0.5_dp*series%c(i, j)
-            rotated%c(low, high) = rotated%c(low, high) + 0.5_dp*series%c(i, j)
-         end do
-      end do
+      rotated = in_other_angles(series, 2)
    end function to_sum_angles
 
    !> The inverse, from X and Y to phi and theta. The terms (i, j) and (j, i) become the terms (i + j, |i - j|) and (|i
@@ -37,16 +25,27 @@ contains
    pure type(fourier_series) function to_difference_angles(series) result(rotated)
       type(fourier_series), intent(in) :: series   !! in X and Y; does not change when these are exchanged
 
+      rotated = in_other_angles(series, 1)
+   end function to_difference_angles
+
+   !> Both: the wave numbers are the sum and the difference over a divisor, which divides those of all terms.
+   pure type(fourier_series) function in_other_angles(series, divisor) result(rotated)
+      type(fourier_series), intent(in) :: series
+      integer, intent(in) :: divisor
+
       integer :: i, j, last
 
-      last = sum(ubound(series%c))
+      last = sum(ubound(series%c))/divisor
       allocate (rotated%c(0:last, 0:last), source=0.0_dp)
       do j = 0, ubound(series%c, 2)
          do i = 0, ubound(series%c, 1)
-            rotated%c(i + j, abs(i - j)) = rotated%c(i + j, abs(i - j)) + 0.5_dp*series%c(i, j)
-            rotated%c(abs(i - j), i + j) = rotated%c(abs(i - j), i + j) + 0.5_dp*series%c(i, j)
+            if (mod(i + j, divisor) /= 0) cycle
+            associate (high => (i + j)/divisor, low => abs(i - j)/divisor)
+               rotated%c(high, low) = rotated%c(high, low) + 0.5_dp*series%c(i, j)
+               rotated%c(low, high) = rotated%c(low, high) + 0.5_dp*series%c(i, j)
+            end associate
          end do
       end do
-   end function to_difference_angles
+   end function in_other_angles
 
 end module wavycon_rotated_series

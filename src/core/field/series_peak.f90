@@ -1,7 +1,7 @@
 !> The largest value of a Fourier series.
 module wavycon_series_peak
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
@@ -43,8 +43,8 @@ contains
       real(dp) :: crest(2), found, hidden, largest
       integer :: best(2), i, k, l, points(2)
 
-      points = points_per_wave*max(1, ubound(series%c))
-      if (ubound(series%c, 2) == 0) points(2) = 1
+      points = points_per_wave*max(1, series%last([1, 2]))
+      if (series%last(2) == 0) points(2) = 1
       allocate (values(points(1), points(2)))
       call transform%start(points, even=.false., whole=.true.)
       call transform%sample(series, values)
@@ -78,30 +78,21 @@ contains
       real(dp), intent(in) :: place(2)
       real(dp), intent(out) :: height, gradient(2), hessian(3)
 
-      !> The factors of a term in X and in Y, of itself and of its derivatives by iX, by jY and by both.
-      real(dp), dimension(4) :: cosine_x, cosine_y, sine_x, sine_y, term
-      integer :: i, j
+      complex(dp) :: waves(0:self%series%last(1))
+      integer :: k, l
+      real(dp) :: numbers(0:self%series%last(1))
 
       height = 0.0_dp
       gradient = 0.0_dp
       hessian = 0.0_dp
-      associate (series => self%series)
-         do j = 0, ubound(series%c, 2)
-            cosine_y = cos(j*place(2))*[1, 1, 0, 0] - sin(j*place(2))*[0, 0, 1, 1]
-            sine_y = sin(j*place(2))*[1, 1, 0, 0] + cos(j*place(2))*[0, 0, 1, 1]
-            do i = 0, ubound(series%c, 1)
-               cosine_x = cos(i*place(1))*[1, 0, 1, 0] - sin(i*place(1))*[0, 1, 0, 1]
-               sine_x = sin(i*place(1))*[1, 0, 1, 0] + cos(i*place(1))*[0, 1, 0, 1]
-               term = series%c(i, j)*cosine_x*cosine_y
-               if (.not. series%is_even()) term = term + series%cs(i, j)*cosine_x*sine_y &
-                                                  + series%sc(i, j)*sine_x*cosine_y + series%ss(i, j)*sine_x*sine_y
-               height = height + term(1)
-               gradient = gradient + [i, j]*term(2:3)
-               hessian = hessian + [-real(i, dp)**2, real(i*j, dp), -real(j, dp)**2]*term([1, 4, 1])
-            end do
-         end do
-         if (ubound(series%c, 2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]
-      end associate
+      numbers = [(real(k, dp), k=0, self%series%last(1))]
+      do l = -self%series%last(2), self%series%last(2)
+         waves = self%series%row(l, self%series%last(1))*turn(numbers*place(1) + l*place(2))
+         height = height + sum(waves%re)
+         gradient = gradient - [sum(numbers*waves%im), l*sum(waves%im)]
+         hessian = hessian - [sum(numbers**2*waves%re), l*sum(numbers*waves%re), l**2*sum(waves%re)]
+      end do
+      if (self%series%last(2) == 0) hessian(2:3) = [0.0_dp, hessian(1)]
    end subroutine expand
 
 end module wavycon_series_peak

@@ -1,12 +1,12 @@
 !> Converts between the coefficients of a Fourier series and the spectrum of its values on a grid of
 !> wavycon_grid_points. The rows of the spectrum are cosines for an even field, waves for any other.
 module wavycon_wave_packing
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: fourier_series, wave_factor
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: give_cosines, give_waves, take_cosines, take_waves
+   public :: fold_waves, give_cosines, give_waves, take_cosines, take_waves
 
 contains
 
@@ -26,34 +26,21 @@ contains
       end do
    end subroutine take_cosines
 
-   !> The coefficients of any other field.
+   !> The waves of any other field. At the points those of 2l = N are equal for l and -l.
    pure subroutine take_waves(points, spectrum, answer)
       integer, intent(in) :: points(2)                  !! M, N
       real(dp), intent(in) :: spectrum(:, :, :)         !! real and imaginary part, shape (2, wave numbers, N)
       type(fourier_series), intent(inout) :: answer
 
-      complex(dp) :: down, up
-      real(dp) :: weight
-      integer :: k, l, r
+      real(dp) :: weight(answer%first():answer%last(1))
+      integer :: k, l, place
 
-      associate (m => points(1), n => points(2))
-         do l = 0, n/2
-            do r = 1, size(spectrum, 2)
-               k = lbound(answer%c, 1) + r - 1
-               ! Of e^(i(kX + lY)) and e^(i(kX - lY)), which are equal for l = 0, and at all points for 2l = N.
-               weight = merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == m)/(real(m, dp)*n)
-               up = weight*cmplx(spectrum(1, r, l + 1), spectrum(2, r, l + 1), dp)
-               down = 0.0_dp
-               if (l > 0 .and. 2*l < n) down = weight*cmplx(spectrum(1, r, n - l + 1), spectrum(2, r, n - l + 1), dp)
-               answer%c(k, l) = real(up + down)
-               answer%sc(k, l) = -aimag(up + down)
-               if (l > 0 .and. 2*l < n) then
-                  answer%cs(k, l) = aimag(down - up)
-                  answer%ss(k, l) = real(down - up)
-               end if
-            end do
-         end do
-      end associate
+      do l = -answer%last(2), answer%last(2)
+         weight = [(merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == points(1)), k=answer%first(), answer%last(1))] &
+                  *merge(0.5_dp, 1.0_dp, 2*abs(l) == points(2))/(real(points(1), dp)*points(2))
+         place = modulo(l, points(2)) + 1
+         answer%wave(:, l) = weight*cmplx(spectrum(1, :, place), spectrum(2, :, place), dp)
+      end do
    end subroutine take_waves
 
    !> The inverse of `take_cosines`; the number of points may differ.
@@ -84,56 +71,59 @@ contains
       integer, intent(in), optional :: power              !! as of `grid_transform%sample`
       real(dp), intent(in), optional :: per_wave(2)
 
-      !> One half where k and -k are two waves, and whether they have sines.
-      real(dp), dimension(size(spectrum, 2)) :: halves, sines
-      real(dp) :: weight
-      real(dp) :: of_c, of_cs, of_sc, of_ss
-      integer :: k, l, last, r
-      logical :: even
+      complex(dp) :: waves(from%first():from%first() + size(spectrum, 2) - 1)
+      integer :: k, l, last, opposite, place, r
 
-      even = from%is_even()
-      of_cs = 0.0_dp
-      of_sc = 0.0_dp
-      of_ss = 0.0_dp
-      associate (m => points(1), n => points(2))
-         last = min(n/2, ubound(from%c, 2))
-         spectrum(:, :, last + 2:n - last) = 0.0_dp
-         do r = 1, size(spectrum, 2)
-            k = lbound(from%c, 1) + r - 1
-            halves(r) = merge(1.0_dp, 0.5_dp, k == 0 .or. 2*k == m)
-            sines(r) = merge(0.0_dp, 1.0_dp, halves(r) > 0.5_dp)
+      spectrum = 0.0_dp
+      last = min(points(2)/2, from%last(2))
+      do l = -last, last
+         waves = 0.5_dp*[(factor(k, l, power, per_wave), k=lbound(waves, 1), ubound(waves, 1))] &
+                 *from%row(l, ubound(waves, 1))
+         place = modulo(l, points(2)) + 1
+         opposite = modulo(-l, points(2)) + 1
+         spectrum(1, :, place) = spectrum(1, :, place) + waves%re
+         spectrum(2, :, place) = spectrum(2, :, place) + waves%im
+         do k = lbound(waves, 1), ubound(waves, 1)
+            ! The transform takes the waves -k from the others, unless they are the same ones.
+            if (k > 0 .and. 2*k /= points(1)) cycle
+            r = k - lbound(waves, 1) + 1
+            spectrum(:, r, opposite) = spectrum(:, r, opposite) + [waves(k)%re, -waves(k)%im]
          end do
-         do l = 0, last
-            do r = 1, size(spectrum, 2)
-               k = lbound(from%c, 1) + r - 1
-               weight = halves(r)*factor(k, l, power, per_wave)
-               of_c = weight*from%c(k, l)
-               if (.not. even) then
-                  of_cs = weight*from%cs(k, l)
-                  of_sc = weight*sines(r)*from%sc(k, l)
-                  of_ss = weight*sines(r)*from%ss(k, l)
-               end if
-               if (l == 0 .or. 2*l == n) then
-                  spectrum(:, r, l + 1) = [of_c, -of_sc]
-               else
-                  spectrum(:, r, l + 1) = 0.5_dp*[of_c - of_ss, -of_sc - of_cs]
-                  spectrum(:, r, n - l + 1) = 0.5_dp*[of_c + of_ss, of_cs - of_sc]
-               end if
-            end do
-         end do
-      end associate
+      end do
    end subroutine give_waves
 
-   !> A power of the frequency of a harmonic: 1 without a power, and 0 for the mean.
+   !> Adds the waves of one wave number in Y to a spectrum as of `grid_transform%sample_waves`. Waves that the points
+   !> cannot tell from slower ones are added to those.
+   pure subroutine fold_waves(points, l, waves, spectrum)
+      integer, intent(in) :: points(2)                   !! M, N
+      integer, intent(in) :: l
+      complex(dp), intent(in) :: waves(0:)               !! half of W_kl, k = 0..m
+      complex(dp), intent(inout) :: spectrum(0:, 0:)     !! shape (0:M/2, 0:N - 1)
+
+      integer :: half, k, place, opposite, r
+
+      half = min(ubound(waves, 1), points(1)/2)
+      place = modulo(l, points(2))
+      opposite = modulo(-l, points(2))
+      spectrum(:half, place) = spectrum(:half, place) + waves(:half)
+      ! The transform takes the waves -k from the others, unless they are the same ones.
+      spectrum(0, opposite) = spectrum(0, opposite) + conjg(waves(0))
+      do k = (points(1) + 1)/2, ubound(waves, 1)
+         r = modulo(k, points(1))
+         if (k > half .and. 2*r <= points(1)) spectrum(r, place) = spectrum(r, place) + waves(k)
+         r = modulo(-k, points(1))
+         if (2*r <= points(1)) spectrum(r, opposite) = spectrum(r, opposite) + conjg(waves(k))
+      end do
+   end subroutine fold_waves
+
+   !> The factor of a harmonic: 1 without a power.
    pure real(dp) function factor(k, l, power, per_wave)
-      integer, intent(in) :: k, l                         !! wave numbers, >= 0
+      integer, intent(in) :: k, l                         !! wave numbers
       integer, intent(in), optional :: power
       real(dp), intent(in), optional :: per_wave(2)
 
       factor = 1.0_dp
-      if (.not. present(power)) return
-      factor = 0.0_dp
-      if (k > 0 .or. l > 0) factor = sqrt((k*per_wave(1))**2 + (l*per_wave(2))**2)**power
+      if (present(power)) factor = wave_factor(k*per_wave(1), l*per_wave(2), power)
    end function factor
 
 end module wavycon_wave_packing

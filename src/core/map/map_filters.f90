@@ -136,22 +136,11 @@ contains
       type(fourier_series) :: waves
       type(grid_transform) :: transform
       real(dp), allocatable :: smooth(:, :)
-      real(dp) :: length(2), squares(1)
-      integer :: k, l
+      real(dp) :: squares(1)
 
-      length = merge(2, 1, mirrored)*sides
       call transform%start(points, even=mirrored)
       call transform%series(height, waves)
-      do l = 0, ubound(waves%c, 2)
-         do k = lbound(waves%c, 1), ubound(waves%c, 1)
-            if (shortest*hypot(k/length(1), l/length(2)) <= 1 + rounding) cycle
-            waves%c(k, l) = 0.0_dp
-            if (waves%is_even()) cycle
-            waves%cs(k, l) = 0.0_dp
-            waves%sc(k, l) = 0.0_dp
-            waves%ss(k, l) = 0.0_dp
-         end do
-      end do
+      call waves%multiply(merge(1.0_dp, 0.0_dp, shortest*waves%frequencies(merge(2, 1, mirrored)*sides) <= 1 + rounding))
       allocate (smooth, mold=height)
       call transform%sample(waves, smooth)
       squares = transform%slab%column_totals(reshape(sum((height - smooth)**2, dim=1), [1, size(height, 2)]))

@@ -42,17 +42,17 @@ contains
       integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
 
       !> (M22) to (M25a), in the order of roughness_type, of the waves of each wave number in X.
-      real(dp) :: moments(4, lbound(series%c, 1):ubound(series%c, 1))
-      real(dp), dimension(lbound(series%c, 1):ubound(series%c, 1)) :: powers, q_squared, x_squared
+      real(dp) :: moments(4, series%first():series%last(1))
+      real(dp), dimension(series%first():series%last(1)) :: powers, q_squared, x_squared
       real(dp) :: sums(4), unit
       integer :: k, l
       type(grid_slab) :: rows
 
       ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
       unit = minval(length)
-      x_squared = [((k*(unit/length(1)))**2, k=lbound(series%c, 1), ubound(series%c, 1))]
+      x_squared = [((k*(unit/length(1)))**2, k=series%first(), series%last(1))]
       moments = 0.0_dp
-      do l = 0, ubound(series%c, 2)
+      do l = 0, series%last(2)
          powers = wave_powers(series, points, l)
          q_squared = x_squared + (l*(unit/length(2)))**2
          moments(1, :) = moments(1, :) + powers
@@ -63,7 +63,7 @@ contains
       rows = wave_slab(series)
       sums = rows%column_totals(moments)
       sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))
-      if (ubound(series%c, 2) > 0) sums(3) = 0.5_dp*sums(3)
+      if (series%last(2) > 0) sums(3) = 0.5_dp*sums(3)
       roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit)
    end function roughness_of
 
@@ -78,16 +78,16 @@ contains
       type(power_spectrum) :: spectrum
 
       real(dp), allocatable :: bins(:, :)
-      real(dp) :: highest, powers(0:ubound(series%c, 1)), unit, width
+      real(dp) :: highest, powers(0:series%last(1)), unit, width
       integer :: bin, k, l
 
       unit = minval(length)
-      highest = number(ubound(series%c, 1), ubound(series%c, 2))
+      highest = number(series%last(1), series%last(2))
       width = max(unit/maxval(length), highest/most_bins)
       allocate (bins(5, nint(highest/width)), source=0.0_dp)
-      do l = 0, ubound(series%c, 2)
+      do l = 0, series%last(2)
          powers = wave_powers(series, points, l)
-         do k = merge(1, 0, l == 0), ubound(series%c, 1)
+         do k = merge(1, 0, l == 0), series%last(1)
             bin = max(1, nint(number(k, l)/width))
             bins(:, bin) = bins(:, bin) + sums_of(number(k, l), waves_of_number(k, points(1))* &
                                                   waves_of_number(l, points(2)), powers(k))
@@ -116,12 +116,12 @@ contains
       integer, intent(in) :: direction             !! 1 or 2: along x or y
       type(power_spectrum) :: spectrum
 
-      real(dp) :: bins(5, 0:ubound(series%c, direction))
-      real(dp) :: of_lines(0:ubound(series%c, direction)), powers(0:ubound(series%c, 1))
+      real(dp) :: bins(5, 0:series%last(direction))
+      real(dp) :: of_lines(0:series%last(direction)), powers(0:series%last(1))
       integer :: first, k, l
 
       of_lines = 0.0_dp
-      do l = 0, ubound(series%c, 2)
+      do l = 0, series%last(2)
          powers = wave_powers(series, points, l)
          if (direction == 1) of_lines = of_lines + powers
          if (direction == 2) of_lines(l) = sum(powers)
@@ -129,7 +129,7 @@ contains
       do k = 0, ubound(bins, 2)
          bins(:, k) = sums_of(real(k, dp), waves_of_number(k, points(direction)), of_lines(k))
       end do
-      first = merge(1, 0, ubound(series%c, 2) == 0)
+      first = merge(1, 0, series%last(2) == 0)
       spectrum = spectrum_of(bins(:, first:), amplitude, length(direction), length(direction))
    end function line_spectrum
 
@@ -176,13 +176,17 @@ contains
    pure function wave_powers(series, points, l) result(powers)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: points(2)             !! as of roughness_of
-      integer, intent(in) :: l                     !! 0 to ubound(series%c, 2)
-      real(dp) :: powers(lbound(series%c, 1):ubound(series%c, 1))
+      integer, intent(in) :: l                     !! 0 to series%last(2)
+      real(dp) :: powers(series%first():series%last(1))
 
       integer :: k
 
-      powers = series%c(:, l)**2
-      if (.not. series%is_even()) powers = powers + series%cs(:, l)**2 + series%sc(:, l)**2 + series%ss(:, l)**2
+      if (series%is_even()) then
+         powers = series%c(:, l)**2
+      else
+         powers = series%wave(:, l)%re**2 + series%wave(:, l)%im**2
+         if (l > 0) powers = 2*(powers + series%wave(:, -l)%re**2 + series%wave(:, -l)%im**2)
+      end if
       powers = powers/(waves_of_number([(k, k=lbound(powers, 1), ubound(powers, 1))], points(1))* &
                        waves_of_number(l, points(2)))
       if (l == 0 .and. lbound(powers, 1) == 0) powers(0) = 0.0_dp

@@ -2,13 +2,14 @@
 !>
 !> Equations (S1) to (S5) and (S9) of README.md in this directory.
 module wavycon_series_stress
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_load_tree, only: load_tree, plant_load_tree
+   use wavycon_series_samples, only: sample_series
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
@@ -31,7 +32,7 @@ module wavycon_series_stress
 
    !> The Taylor series (S9) of the moments about a place.
    type :: taylor_series
-      complex(dp), allocatable :: moment(:, :, :, :)
+      complex(dp), allocatable :: moment(:, :, :)
       real(dp) :: centre(3) = 0.0_dp   !! [rad]
    end type taylor_series
 
@@ -73,6 +74,7 @@ contains
       stress%side_ratio = surface%length(2)/surface%length(1)
       if (surface%dimension == 1) stress%side_ratio = 1.0_dp
       call stress%waves%start(pressure, stress%side_ratio, is_sampled)
+      call stress%waves%pressure%set_mean(0.0_dp)
       stress%pressure_error = pressure_error
       if (.not. ieee_is_nan(pressure_error)) &
          stress%waves%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), coarsest))
@@ -85,16 +87,16 @@ contains
 
       real(dp), allocatable :: pressure(:, :)
       real(dp) :: scale(2), shift
-      integer :: k, l, points(2)
+      integer :: points(2)
 
       self%first(:2) = first
       scale = [1.0_dp, self%side_ratio]
       self%whole = self%waves
-      self%whole%wave(0, 0) = self%pbar_over_pstar
+      call self%whole%pressure%set_mean(self%pbar_over_pstar)
       shift = pi*minval(scale)*shift_of_smooth
-      points = 2*ubound(self%waves%wave)
+      points = 2*self%waves%pressure%last([1, 2])
       points = points*ceiling(2*pi*scale*steps_in_shift/(points*shift))
-      call find_pressures(self%whole, points, pressure)
+      call sample_series(self%whole%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
       ! Rounding between the loads; between finer points than those of the series its ringing is all over the cell.
       where (abs(pressure) <= rounding*maxval(pressure)) pressure = 0.0_dp
       pressure = cshift(cshift(pressure, -points(1)/4, 1), -points(2)/4, 2)
@@ -102,16 +104,12 @@ contains
       associate (step => 2*pi*scale/points)
          call plant_load_tree(self%load, pressure, first*scale - (points/4)*step, step, shift)
       end associate
-      do l = lbound(self%waves%wave, 2), ubound(self%waves%wave, 2)
-         do k = 0, ubound(self%waves%wave, 1)
-            self%waves%wave(k, l) = self%waves%wave(k, l)*self%load%left_out(norm2([real(k, dp), l/self%side_ratio]))
-         end do
-      end do
+      call self%waves%pressure%multiply(self%load%left_out(self%waves%pressure%frequencies(scale)))
       self%pressure_error = self%pressure_error + 120*self%pbar_over_pstar*shift_of_smooth**4
       self%pbar_over_pstar = 0.0_dp
    end subroutine remove_images
 
-   !> The sums (S4) at one point.
+   !> At one point, which is a line of no length.
    subroutine at(self, x, y, depth, parts, error)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -119,25 +117,11 @@ contains
       real(dp), intent(out) :: parts(6, 2)
       real(dp), intent(out), optional :: error
 
-      complex(dp), allocatable :: moment(:, :, :, :)
-      real(dp) :: octave(3)
-      integer :: sets
+      real(dp) :: errors(1), parts_on_line(6, 2, 1)
 
-      if (.not. self%exist) then
-         parts = ieee_value(parts, ieee_quiet_nan)
-         if (present(error)) error = ieee_value(error, ieee_quiet_nan)
-         return
-      end if
-      sets = 1
-      if (present(error) .and. .not. ieee_is_nan(self%pressure_error) .and. self%waves%octave_reaches(depth)) sets = 2
-      call self%waves%find_moments([x, y, depth] - self%first, 0, sets, moment)
-      parts = parts_of(sums_near(moment(:, :, :, 1), [0.0_dp, 0.0_dp, 0.0_dp], depth) &
-                       + smooth_sums(self, [x, y, depth]))
-      octave = 0.0_dp
-      if (sets == 2) octave = [real(moment(0, 0, 0, 2) + depth*moment(0, 0, 1, 2)), &
-                               -aimag(moment(1, 0, -1, 2) + depth*moment(1, 0, 0, 2)), &
-                               -aimag(moment(0, 1, -1, 2) + depth*moment(0, 1, 0, 2))]
-      if (present(error)) error = error_of(self, parts(zz, 1) - self%pbar_over_pstar, octave)
+      call self%on_line([x, y], [0, 0], [0.0_dp], depth, parts_on_line, errors)
+      parts = parts_on_line(:, :, 1)
+      if (present(error)) error = errors(1)
    end subroutine at
 
    !> Prepares the Taylor series (S9) about a place, unless a known one is accurate enough there.
@@ -158,7 +142,7 @@ contains
       if (noise <= noise_part*(reach/width)**2) return
       self%known = [self%known, taylor_series(centre=place)]
       self%used = size(self%known)
-      call self%waves%find_moments(place - self%first, expansion_order, 1, self%known(self%used)%moment)
+      call self%waves%find_moments(place - self%first, expansion_order, self%known(self%used)%moment)
       noise = noise_at(0.0_dp)
 
    contains
@@ -175,7 +159,7 @@ contains
    pure real(dp) function least_width(stress)
       class(series_stress), intent(in) :: stress
 
-      least_width = pi/max(plane_points/2.0_dp, maxval(ubound(stress%waves%wave)/[1.0_dp, stress%side_ratio]))
+      least_width = pi/max(plane_points/2.0_dp, maxval(stress%waves%pressure%last([1, 2])/[1.0_dp, stress%side_ratio]))
    end function least_width
 
    !> By that Taylor series.
@@ -185,7 +169,7 @@ contains
       real(dp), intent(out) :: parts(6, 2)
 
       associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
-         parts = parts_of(sums_near(known%moment(:, :, :, 1), (place - known%centre)*scale, place(3)) &
+         parts = parts_of(sums_near(known%moment, (place - known%centre)*scale, place(3)) &
                           + smooth_sums(self, place))
       end associate
    end subroutine near
@@ -261,47 +245,43 @@ contains
       real(dp), intent(in) :: depth
       real(dp), intent(out) :: parts(:, :, :), error(:)
 
-      complex(dp), allocatable :: along(:, :)
-      complex(dp) :: turn_x(0:ubound(self%waves%wave, 1)), wave, weights(number_of_sums)
-      real(dp) :: n_x, n_y, q, q_y, sums(number_of_sums)
+      complex(dp), allocatable :: along(:, :), turn_x(:), waves(:)
+      complex(dp) :: turned, wave
+      real(dp) :: even(6), n_x, n_y, q, q_y, sums(number_of_sums)
       integer :: i, k, l, last(2), m
 
-      if (.not. self%exist) then
-         parts = ieee_value(parts, ieee_quiet_nan)
-         error = ieee_value(error, ieee_quiet_nan)
-         return
-      end if
       last = self%waves%last_waves(depth)
-      turn_x(:last(1)) = [(exp(cmplx(0.0_dp, k*(start(1) - self%first(1)), dp)), k=0, last(1))]
       m = dot_product(abs(direction), last)
       allocate (along(number_of_sums, -m:m), source=(0.0_dp, 0.0_dp))
+      allocate (turn_x(0:last(1)), waves(0:last(1)))
+      turn_x(:) = turn([(k*(start(1) - self%first(1)), k=0, last(1))])
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
-         associate (turn_y => exp(cmplx(0.0_dp, l*(start(2) - self%first(2)), dp)))
-            do k = merge(1, 0, l <= 0), last(1)
-               if (max(abs(self%waves%wave(k, l)%re), abs(self%waves%wave(k, l)%im)) <= 0.0_dp) cycle
-               q = sqrt(k**2 + q_y**2)
-               if (q*depth > self%waves%faintest) exit
-               wave = exp(-q*depth)*self%waves%wave(k, l)*turn_x(k)*turn_y
-               n_x = k/q
-               n_y = q_y/q
-               weights(1:5:2) = [1.0_dp, n_x**2, n_x*n_y]
-               weights(2:6:2) = q*depth*weights(1:5:2)
-               weights(7:8) = cmplx(0.0_dp, [real(k, dp), q_y]*depth, dp)
-               weights(9:) = 0.0_dp
-               if (q > self%waves%sampled_from) &
-                  weights(9:) = (1.0_dp + q*depth)*[(1.0_dp, 0.0_dp), cmplx(0.0_dp, n_x, dp), cmplx(0.0_dp, n_y, dp)]
-               m = direction(1)*k + direction(2)*l
-               along(:, m) = along(:, m) + weights*wave
-            end do
-         end associate
+         waves(:) = self%waves%pressure%row(l, last(1))*turn_x*turn(l*(start(2) - self%first(2)))
+         do k = merge(1, 0, l == 0), last(1)
+            if (max(abs(waves(k)%re), abs(waves(k)%im)) <= 0.0_dp) cycle
+            q = sqrt(k**2 + q_y**2)
+            if (q*depth > self%waves%faintest) exit
+            wave = exp(-q*depth)*waves(k)
+            turned = cmplx(-wave%im, wave%re, dp)
+            n_x = k/q
+            n_y = q_y/q
+            even(:3) = [1.0_dp, n_x**2, n_x*n_y]
+            even(4:) = q*depth*even(:3)
+            m = direction(1)*k + direction(2)*l
+            along(:6, m) = along(:6, m) + even*wave
+            along(7, m) = along(7, m) + k*depth*turned
+            along(8, m) = along(8, m) + q_y*depth*turned
+            if (q > self%waves%sampled_from) &
+               along(9:, m) = along(9:, m) + (1.0_dp + q*depth)*[wave, n_x*turned, n_y*turned]
+         end do
       end do
       do i = 1, size(t)
          sums = 0.0_dp
-         sums(:8) = smooth_sums(self, [start + direction*t(i), depth])
          do m = lbound(along, 2), ubound(along, 2)
-            sums = sums + real(along(:, m)*exp(cmplx(0.0_dp, m*t(i), dp)))
+            sums = sums + real(along(:, m)*turn(m*t(i)))
          end do
+         sums(:8) = sums([1, 4, 2, 5, 3, 6, 7, 8]) + smooth_sums(self, [start + direction*t(i), depth])
          parts(:, :, i) = parts_of(sums(:8))
          error(i) = error_of(self, parts(zz, 1, i) - self%pbar_over_pstar, sums(9:))
       end do
@@ -335,11 +315,6 @@ contains
       type(grid_transform) :: plane
       integer :: i, k, l, number
 
-      if (.not. self%exist) then
-         allocate (stress(points(1), points(2), 6), error(points(1), points(2)), &
-                   source=ieee_value(1.0_dp, ieee_quiet_nan))
-         return
-      end if
       number = merge(9, 6, self%waves%octave_reaches(depth))
       mean = body%stress(no_waves, self%pbar_over_pstar)
       associate (whole => self%parts*points)
@@ -392,10 +367,10 @@ contains
       if (allocated(self%whole)) all_waves = self%whole
       points = points_of(all_waves, 0.0_dp)
       ! An even field is that of its quarter, and one with free edges has its load there.
-      region = merge(0.5_dp, 1.0_dp, self%waves%is_even .or. allocated(self%whole))
+      region = merge(0.5_dp, 1.0_dp, self%waves%pressure%is_even() .or. allocated(self%whole))
       shallow = -1
       if (all(points >= 4*window)) then
-         call find_pressures(all_waves, points, pressure)
+         call sample_series(all_waves%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
          pressure = pressure + self%pbar_over_pstar
          call find_highest()
          if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
@@ -410,10 +385,10 @@ contains
          if (highest(block(1), block(2)) <= largest) exit
          highest(block(1), block(2)) = -1.0_dp
          associate (corner => (block - 1)*middle - middle/2, from => [(i, i=0, window_points - 1)], n => points)
-            call plane%series(pressure(modulo(corner(1) + from, n(1)), modulo(corner(2) + from, n(2))), series)
-            call waves%start(series, self%side_ratio*n(1)/n(2), is_sampled=.true.)
             ! What the mean of the window exceeds that of the cell by is a long wave.
-            waves%wave(0, 0) = series%c(0, 0) - self%pbar_over_pstar
+            call plane%series(pressure(modulo(corner(1) + from, n(1)) + 1, modulo(corner(2) + from, n(2)) + 1) &
+                              - self%pbar_over_pstar, series)
+            call waves%start(series, self%side_ratio*n(1)/n(2), is_sampled=.true.)
             call scan(waves, 0, shallow, corner, window, 0.25_dp, 0.75_dp)
          end associate
       end do
@@ -430,7 +405,7 @@ contains
          integer, parameter :: multiple = 8
          real(dp) :: most(2)
 
-         most = 2.0_dp*ubound(waves%wave)
+         most = 2.0_dp*waves%pressure%last([1, 2])
          if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, waves%side_ratio])
          number = max(plane_points, multiple*ceiling(most/multiple))
          if (self%dimension == 1) number(2) = 1
@@ -470,26 +445,11 @@ contains
       subroutine find_highest()
          integer :: j, seen(2)
 
-         seen = min(floor(region*points), points - 1)
+         seen = min(floor(region*points) + 1, points)
          highest = reshape([((maxval(pressure(i:min(i + middle, seen(1)), j:min(j + middle, seen(2)))), &
-                              i=0, seen(1), middle), j=0, seen(2), middle)], seen/middle + 1)
+                              i=1, seen(1), middle), j=1, seen(2), middle)], (seen - 1)/middle + 1)
       end subroutine find_highest
 
    end subroutine start_places
-
-   !> The pressure of waves at points of the cell.
-   subroutine find_pressures(waves, points, pressure)
-      type(stress_waves), intent(in) :: waves
-      integer, intent(in) :: points(2)
-      real(dp), allocatable, intent(out) :: pressure(:, :)   !! shape (0:N_x - 1, 0:N_y - 1) [p*]
-
-      complex(dp), allocatable :: spectrum(:, :, :)
-      type(grid_transform) :: plane
-
-      allocate (spectrum(points(1)/2 + 1, points(2), 1), pressure(0:points(1) - 1, 0:points(2) - 1))
-      call plane%start(points, even=.false., whole=.true.)
-      call waves%find_spectra(points, [0.0_dp, 0.0_dp], 0.0_dp, 0.0_dp, spectrum)
-      call plane%sample_waves(spectrum(:, :, 1), pressure)
-   end subroutine find_pressures
 
 end module wavycon_series_stress

@@ -3,6 +3,7 @@
 !> Positions are the angles X, Y of the surface's cell and the depth Z = 2 pi z/L_x, z into the body; stresses are in
 !> p*, tension positive. Those of the mean pressure are left out: `elastic_body` adds them.
 module wavycon_stress_fields
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
    use wavycon_equivalent_points, only: equivalent_points, point_image
@@ -13,7 +14,8 @@ module wavycon_stress_fields
 
    public :: stress_fields
 
-   type, abstract :: stress_fields
+   !> Extensions have the stresses of a solution, by `at` and `start_places`. This type is for a load without one.
+   type :: stress_fields
       real(dp) :: pbar_over_pstar = 0.0_dp    !! P
       logical :: exist = .true.               !! whether there is a solution; if not all stresses are NaN
       integer :: dimension = 2                !! 1: nothing depends on Y
@@ -21,8 +23,8 @@ module wavycon_stress_fields
       type(equivalent_points) :: symmetry     !! of the stresses, for on_plane
       integer :: parts(2) = 1                 !! of the surface: how often the points of on_plane fit into the cell
    contains
-      procedure(parts_at_point), deferred :: at
-      procedure(find_start_places), deferred :: start_places
+      procedure :: at
+      procedure :: start_places
       procedure :: expand
       procedure :: near
       procedure :: on_line
@@ -30,32 +32,35 @@ module wavycon_stress_fields
       procedure :: at_places
    end type stress_fields
 
-   abstract interface
-      !> At one point.
-      subroutine parts_at_point(self, x, y, depth, parts, error)
-         import :: dp, stress_fields
-         class(stress_fields), intent(inout) :: self
-         real(dp), intent(in) :: x, y            !! X, Y [rad]
-         real(dp), intent(in) :: depth           !! Z >= 0 [rad]
-         !> xx, yy, zz, xy, xz, yz [p*] of the waves: the stress is parts(:, 1) + nu*parts(:, 2).
-         real(dp), intent(out) :: parts(6, 2)
-         !> Estimate of the largest error of a component for 0 <= nu <= 1/2 [p*]; NaN if there is none.
-         real(dp), intent(out), optional :: error
-      end subroutine parts_at_point
-
-      !> Places from which the search for the largest stress starts, the best of them close to it, and about the
-      !> stresses there.
-      subroutine find_start_places(self, body, places, widths, stresses)
-         import :: dp, elastic_body, stress_fields
-         class(stress_fields), intent(inout) :: self
-         type(elastic_body), intent(in) :: body
-         real(dp), allocatable, intent(out) :: places(:, :)   !! X, Y, Z, shape (3, n) [rad]
-         real(dp), allocatable, intent(out) :: widths(:)      !! distance over which the stress changes, shape (n) [rad]
-         real(dp), allocatable, intent(out) :: stresses(:, :) !! or their deviators, shape (6, n) [p*]
-      end subroutine find_start_places
-   end interface
-
 contains
+
+   !> At one point.
+   subroutine at(self, x, y, depth, parts, error)
+      class(stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y            !! X, Y [rad]
+      real(dp), intent(in) :: depth           !! Z >= 0 [rad]
+      !> xx, yy, zz, xy, xz, yz [p*] of the waves: the stress is parts(:, 1) + nu*parts(:, 2).
+      real(dp), intent(out) :: parts(6, 2)
+      !> Estimate of the largest error of a component for 0 <= nu <= 1/2 [p*]; NaN if there is none.
+      real(dp), intent(out), optional :: error
+
+      associate (unused => self, unused_too => [x, y, depth]); end associate
+      parts = ieee_value(parts, ieee_quiet_nan)
+      if (present(error)) error = ieee_value(error, ieee_quiet_nan)
+   end subroutine at
+
+   !> Places from which the search for the largest stress starts, the best of them close to it, and about the stresses
+   !> there.
+   subroutine start_places(self, body, places, widths, stresses)
+      class(stress_fields), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: places(:, :)   !! X, Y, Z, shape (3, n) [rad]
+      real(dp), allocatable, intent(out) :: widths(:)      !! distance over which the stress changes, shape (n) [rad]
+      real(dp), allocatable, intent(out) :: stresses(:, :) !! or their deviators, shape (6, n) [p*]
+
+      allocate (places(3, 0), widths(0))
+      call self%at_places(body, places, stresses)
+   end subroutine start_places
 
    !> Prepares `near` for places about a place. Here nothing needs it.
    subroutine expand(self, place, width, reach, noise)

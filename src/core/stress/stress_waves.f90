@@ -4,12 +4,13 @@ module wavycon_stress_waves
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: faintest_on_planes
+   use wavycon_wave_packing, only: fold_waves
    implicit none (type, external)
    private
 
@@ -20,9 +21,7 @@ module wavycon_stress_waves
 
    type :: stress_waves
       real(dp) :: side_ratio = 1.0_dp           !! L_y/L_x
-      logical :: is_even = .false.              !! W_k,-l = W_kl, both real; for k = 0 the sum is half of W_0l
-      !> W of (S3), p = P + sum of Re W exp(i(kX + lY)) over k > 0, and over l > 0 for k = 0; shape (0:m, -n:n) [p*].
-      complex(dp), allocatable :: wave(:, :)
+      type(fourier_series) :: pressure          !! less its mean: the waves W of (S3) [p*]
       real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
       real(dp) :: faintest = deepest            !! waves with q Z above this are left out
    contains
@@ -38,38 +37,16 @@ contains
 
    subroutine start(self, pressure, side_ratio, is_sampled)
       class(stress_waves), intent(out) :: self
-      type(fourier_series), intent(in) :: pressure    !! p/p*; the mean is ignored
+      type(fourier_series), intent(in) :: pressure    !! less its mean [p*]
       real(dp), intent(in) :: side_ratio              !! L_y/L_x, > 0
       logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
 
-      complex(dp) :: down, up
-      integer :: k, l, m, n
-
       call assert(side_ratio > 0.0_dp, 'side_ratio > 0')
-      m = ubound(pressure%c, 1)
-      n = ubound(pressure%c, 2)
       self%side_ratio = side_ratio
-      self%is_even = pressure%is_even()
-      if (is_sampled) then
-         self%sampled_from = 0.5_dp*m
-         if (n > 0) self%sampled_from = 0.5_dp*min(real(m, dp), n/self%side_ratio)
-      end if
-      allocate (self%wave(0:m, -n:n), source=(0.0_dp, 0.0_dp))
-      do l = 0, n
-         do k = merge(1, 0, l == 0), m
-            up = 0.5_dp*pressure%c(k, l)
-            down = up
-            if (.not. self%is_even) then
-               up = up - 0.5_dp*cmplx(pressure%ss(k, l), pressure%sc(k, l) + pressure%cs(k, l), dp)
-               down = down + 0.5_dp*cmplx(pressure%ss(k, l), pressure%cs(k, l) - pressure%sc(k, l), dp)
-            end if
-            if (k > 0) self%wave(k, -l) = down
-            self%wave(k, l) = up
-            ! Both are the same wave on the axes.
-            if (k == 0) self%wave(0, l) = up + conjg(down)
-            if (l == 0) self%wave(k, 0) = up + down
-         end do
-      end do
+      self%pressure = pressure
+      if (.not. is_sampled) return
+      self%sampled_from = 0.5_dp*pressure%last(1)
+      if (pressure%last(2) > 0) self%sampled_from = min(self%sampled_from, 0.5_dp*pressure%last(2)/side_ratio)
    end subroutine start
 
    !> The highest wave numbers along X and Y that reach a depth.
@@ -78,7 +55,7 @@ contains
       real(dp), intent(in) :: depth      !! Z >= 0 [rad]
       integer :: last(2)
 
-      last = ubound(self%wave)
+      last = self%pressure%last([1, 2])
       if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
    end function last_waves
 
@@ -90,34 +67,35 @@ contains
       octave_reaches = norm2(self%last_waves(depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
    end function octave_reaches
 
-   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z), of all waves
-   !> and, if there are two sets, of the last octave.
+   !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z).
    !>
    !> Those with c = -2 and c = -1 are added up, over k by a product of matrices. The others follow from them, as
    !> q^2 = k^2 + l'^2.
-   subroutine find_moments(self, place, order, sets, moment)
+   subroutine find_moments(self, place, order, moment)
       class(stress_waves), intent(in) :: self
-      real(dp), intent(in) :: place(3)                             !! X, Y, Z [rad]
-      integer, intent(in) :: order                                 !! of the Taylor series, >= 0
-      integer, intent(in) :: sets                                  !! 1 or 2
-      complex(dp), allocatable, intent(out) :: moment(:, :, :, :)  !! shape (0:n, 0:n, -2:n - 2, sets), n = order + 3
+      real(dp), intent(in) :: place(3)                          !! X, Y, Z [rad]
+      integer, intent(in) :: order                              !! of the Taylor series, >= 0
+      complex(dp), allocatable, intent(out) :: moment(:, :, :)  !! shape (0:n, 0:n, -2:n - 2), n = order + 3
 
-      real(dp), allocatable :: factor(:), powers(:, :, :), q(:), weighted(:, :, :, :)
-      complex(dp) :: along_y, sum_x(0:order + 3, -2:-1, sets), turn
-      real(dp) :: q_y, sums(2, 0:order + 3, 2, sets, 2)
+      complex(dp), allocatable :: waves(:)
+      real(dp), allocatable :: factor(:), powers(:, :, :), q(:), weighted(:, :, :)
+      complex(dp) :: along_y, sum_x(0:order + 3, -2:-1), turn_x, turn_y
+      real(dp) :: q_y, sums(2, 0:order + 3, 2, 2)
       integer :: a, b, c, k, l, last(2), n, number
+      logical :: is_even
 
       n = order + 3
       last = self%last_waves(place(3))
-      allocate (moment(0:n, 0:n, -2:n - 2, sets), source=(0.0_dp, 0.0_dp))
-      allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, sets, 2), q(0:last(1)), factor(0:last(1)))
+      is_even = self%pressure%is_even()
+      allocate (moment(0:n, 0:n, -2:n - 2), source=(0.0_dp, 0.0_dp))
+      allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, 2), q(0:last(1)), factor(0:last(1)), waves(0:last(1)))
       do k = 0, last(1)
-         turn = exp(cmplx(0.0_dp, k*place(1), dp))
-         powers(1, :, k) = [(turn%re*real(k, dp)**a, a=0, n)]
-         powers(2, :, k) = [(turn%im*real(k, dp)**a, a=0, n)]
+         turn_x = turn(k*place(1))
+         powers(1, :, k) = [(turn_x%re*real(k, dp)**a, a=0, n)]
+         powers(2, :, k) = [(turn_x%im*real(k, dp)**a, a=0, n)]
       end do
       sums = 0.0_dp
-      do l = merge(0, -last(2), self%is_even), last(2)
+      do l = merge(0, -last(2), is_even), last(2)
          q_y = l/self%side_ratio
          do k = 0, last(1)
             q(k) = sqrt(real(k, dp)**2 + q_y**2)
@@ -126,33 +104,30 @@ contains
          if (number == 0) cycle
          q(0) = max(q(0), tiny(q))
          associate (m => number - 1)
+            waves(:m) = self%pressure%row(l, m)
             factor(:m) = exp(-q(:m)*place(3))/q(:m)
             if (l == 0) factor(0) = 0.0_dp
-            if (self%is_even .and. l > 0) factor(0) = 0.5_dp*factor(0)
-            weighted(:m, 2, 1, 1) = factor(:m)*self%wave(:m, l)%re
-            weighted(:m, 1, 1, 1) = weighted(:m, 2, 1, 1)/q(:m)
-            if (.not. self%is_even) then
-               weighted(:m, 2, 1, 2) = factor(:m)*self%wave(:m, l)%im
-               weighted(:m, 1, 1, 2) = weighted(:m, 2, 1, 2)/q(:m)
+            weighted(:m, 2, 1) = factor(:m)*waves(:m)%re
+            weighted(:m, 1, 1) = weighted(:m, 2, 1)/q(:m)
+            if (.not. is_even) then
+               weighted(:m, 2, 2) = factor(:m)*waves(:m)%im
+               weighted(:m, 1, 2) = weighted(:m, 2, 2)/q(:m)
             end if
-            do k = 0, merge(m, -1, sets == 2)
-               weighted(k, :, 2, :) = merge(weighted(k, :, 1, :), 0.0_dp, q(k) > self%sampled_from)
-            end do
          end associate
-         call dgemm('N', 'N', 2*(n + 1), 2*sets*merge(1, 2, self%is_even), number, 1.0_dp, powers, 2*(n + 1), &
-                    weighted, last(1) + 1, 0.0_dp, sums, 2*(n + 1))
-         sum_x = cmplx(sums(1, :, :, :, 1) - sums(2, :, :, :, 2), sums(2, :, :, :, 1) + sums(1, :, :, :, 2), dp)
-         turn = exp(cmplx(0.0_dp, l*place(2), dp))
+         call dgemm('N', 'N', 2*(n + 1), merge(2, 4, is_even), number, 1.0_dp, powers, 2*(n + 1), weighted, last(1) + 1, &
+                    0.0_dp, sums, 2*(n + 1))
+         sum_x = cmplx(sums(1, :, :, 1) - sums(2, :, :, 2), sums(2, :, :, 1) + sums(1, :, :, 2), dp)
+         turn_y = turn(l*place(2))
          do b = 0, n
-            along_y = q_y**b*turn
-            if (self%is_even .and. l > 0) along_y = along_y + (-q_y)**b*conjg(turn)
-            moment(:n - b, b, :-1, :) = moment(:n - b, b, :-1, :) + along_y*sum_x(:n - b, :, :)
+            along_y = q_y**b*turn_y
+            if (is_even .and. l > 0) along_y = along_y + (-q_y)**b*conjg(turn_y)
+            moment(:n - b, b, :-1) = moment(:n - b, b, :-1) + along_y*sum_x(:n - b, :)
          end do
       end do
       do c = 0, n - 2
          do b = 0, n - 2 - c
             do a = 0, n - 2 - c - b
-               moment(a, b, c, :) = moment(a + 2, b, c - 2, :) + moment(a, b + 2, c - 2, :)
+               moment(a, b, c) = moment(a + 2, b, c - 2) + moment(a, b + 2, c - 2)
             end do
          end do
       end do
@@ -160,38 +135,33 @@ contains
 
    !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
    !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
-   !> sum of the other four; waves that hardly reach the plane are left out of these. Of one they are those of the
-   !> pressure.
+   !> sum of the other four; waves that hardly reach the plane are left out of these.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 1, 2, 5, 6 or 9)
+      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
 
       complex(dp), allocatable :: here(:, :), turn_x(:), wave(:)
       real(dp), allocatable :: k(:), q(:), q_z(:), shear(:)
-      complex(dp) :: turn_y
       real(dp) :: limit, q_y
-      integer :: down, half, i, j, l, last(2), number, row, up
+      integer :: i, j, l, last(2), number
 
       spectra = 0.0_dp
       number = size(spectra, 3)
       limit = merge(faintest_on_planes, self%faintest, number <= 5)
       last = self%last_waves(depth*max(1.0_dp, self%faintest/limit))
       allocate (here(0:last(1), 9), k(0:last(1)), q(0:last(1)), q_z(0:last(1)), shear(0:last(1)), wave(0:last(1)))
-      half = min(last(1), points(1)/2)
       k = [(real(i, dp), i=0, last(1))]
-      turn_x = [(exp(cmplx(0.0_dp, 2*pi*modulo(i*offset(1)/points(1), 1.0_dp), dp)), i=0, last(1))]
+      turn_x = turn(2*pi*modulo(k*offset(1)/points(1), 1.0_dp))
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
          q = sqrt(max(k**2 + q_y**2, tiny(q)))
          q_z = q*depth
-         turn_y = exp(cmplx(0.0_dp, 2*pi*modulo(l*offset(2)/points(2), 1.0_dp), dp))
-         wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%wave(:last(1), l)*turn_x*turn_y
+         wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%pressure%row(l, last(1))*turn_x &
+                *turn(2*pi*modulo(l*offset(2)/points(2), 1.0_dp))
          shear = -(1.0_dp - 2*nu - q_z)/q**2
          select case (number)
-         case (1)
-            here(:, 1) = wave
          case (2)
             here(:, 1) = sqrt3*cmplx((0.5_dp*(k**2 - q_y**2) + k*q_y)*shear, (k + q_y)*depth, dp)*wave
             here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
@@ -212,18 +182,8 @@ contains
             here(:, 8) = cmplx(0.0_dp, k/q, dp)*here(:, 7)
             here(:, 9) = cmplx(0.0_dp, q_y/q, dp)*here(:, 7)
          end select
-         up = modulo(l, points(2))
-         down = modulo(-l, points(2))
          do j = 1, number
-            spectra(:half, up, j) = spectra(:half, up, j) + here(:half, j)
-            ! The transform takes the waves -k from the others, unless they are the same ones.
-            spectra(0, down, j) = spectra(0, down, j) + conjg(here(0, j))
-            do i = (points(1) + 1)/2, last(1)
-               row = modulo(i, points(1))
-               if (i > half .and. 2*row <= points(1)) spectra(row, up, j) = spectra(row, up, j) + here(i, j)
-               row = modulo(-i, points(1))
-               if (2*row <= points(1)) spectra(row, down, j) = spectra(row, down, j) + conjg(here(i, j))
-            end do
+            call fold_waves(points, l, here(:, j), spectra(:, :, j))
          end do
       end do
    end subroutine find_spectra
@@ -245,7 +205,7 @@ contains
       type(grid_transform) :: plane
       integer :: i, j, number
 
-      number = merge(2, 5, self%is_even)
+      number = merge(2, 5, self%pressure%is_even())
       allocate (spectra(0:points(1)/2, 0:points(2) - 1, number))
       call self%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
       mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
@@ -260,7 +220,7 @@ contains
          do i = 1, number
             call plane%sample_column(spectra(:, j, i), values(:, i))
          end do
-         if (self%is_even) then
+         if (self%pressure%is_even()) then
             above = values(:, 1)
             call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
             do i = first(1), last(1)

@@ -1,7 +1,7 @@
 !> The pressure of a displacement on a half-space and back, in the units of a surface, and full contact, where the
 !> displacement is the shape.
 module wavycon_full_contact
-   use wavycon_fourier_series, only: divided, fourier_series, weighted
+   use wavycon_fourier_series, only: fourier_series, weighted
    use wavycon_kinds, only: dp
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_surface, only: surface_type
@@ -17,7 +17,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: displacement
 
-      pressure = divided(weighted(displacement, surface%length, 1), 1.0_dp/surface%stiffness)
+      pressure = weighted(displacement, surface%length, 1, surface%stiffness)
    end function pressure_of
 
    !> The displacement (u - ubar)/Delta of a pressure (p - pbar)/p*: the inverse of `pressure_of`.
@@ -25,7 +25,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure
 
-      displacement = divided(weighted(pressure, surface%length, -1), surface%stiffness)
+      displacement = weighted(pressure, surface%length, -1, 1.0_dp/surface%stiffness)
    end function displacement_of
 
    !> p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.
@@ -34,7 +34,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar   !! P >= 1
 
       pressure = pressure_of(surface, surface%shape)
-      pressure%c(0, 0) = pbar_over_pstar
+      call pressure%set_mean(pbar_over_pstar)
    end function full_contact_series
 
    !> The elastic energy per nominal area in full contact, half the mean of p times the shape [p* Delta], by Parseval.

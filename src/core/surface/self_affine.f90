@@ -3,7 +3,7 @@ module wavycon_self_affine
    use, intrinsic :: iso_c_binding, only: c_long, c_ptr
    use wavycon_constants, only: largest_number, pi, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_gsl, only: gsl_rng_alloc, gsl_rng_free, gsl_rng_mt19937, gsl_rng_set, gsl_rng_uniform
@@ -151,8 +151,8 @@ contains
       call gsl_rng_set(generator, int(spectrum%seed, c_long))
       highest = highest_waves(spectrum)
       call transform%new_series(waves)
-      first = lbound(waves%c, 1)
-      last = ubound(waves%c, 1)
+      first = waves%first()
+      last = waves%last(1)
       ! Each wave number has its own sum, so that rounding grows with the square root of the number of waves.
       allocate (moments(1, first:last), source=0.0_dp)
       do k = 1, maxval(highest)
@@ -185,9 +185,9 @@ contains
 
          !> Half of the generator's step: no number is 0, and its logarithm exists.
          real(dp), parameter :: half_step = 2.0_dp**(-33)
-         real(dp) :: cosine, f, sine, square, turn, uniform
+         real(dp) :: f, phase, square, uniform
 
-         turn = 2*pi*gsl_rng_uniform(generator)
+         phase = 2*pi*gsl_rng_uniform(generator)
          uniform = gsl_rng_uniform(generator) + half_step
          if (any(abs([m, n]) > highest) .or. m < first .or. m > last) return
          f = frequency(spectrum, m, n)
@@ -195,16 +195,7 @@ contains
          if (square <= 0.0_dp) return
          if (spectrum%random_amplitudes) square = -log(uniform)*square
          moments(1, m) = moments(1, m) + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
-         ! cos(mX + nY + turn), in the sines and cosines of each angle.
-         cosine = sqrt(2*square)*cos(turn)
-         sine = sqrt(2*square)*sin(turn)
-         associate (l => abs(n))
-            waves%c(m, l) = waves%c(m, l) + cosine
-            waves%sc(m, l) = waves%sc(m, l) - sine
-            if (n == 0) return
-            waves%cs(m, l) = waves%cs(m, l) - sign(1, n)*sine
-            waves%ss(m, l) = waves%ss(m, l) - sign(1, n)*cosine
-         end associate
+         call waves%add_wave(m, n, sqrt(2*square)*turn(phase))
       end subroutine add_wave
 
    end subroutine make_heights

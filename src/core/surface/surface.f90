@@ -122,7 +122,7 @@ contains
          largest = maxval(values)
          call transform%slab%largest(largest)
       else
-         call find_peak(weighted(self%shape, self%length, 2), largest(1), unused)
+         call find_peak(weighted(self%shape, self%length, 2, 1.0_dp), largest(1), unused)
       end if
       curvature = largest(1)
       if (self%has_free_edges) curvature = curvature + 2*sum(self%form%c/self%length**2)

@@ -48,7 +48,7 @@ contains
       surface%points = surface%parts()*grid
       call transform%start(grid, even=surface%mirrored)
       call transform%series(height, surface%shape)
-      if (lbound(surface%shape%c, 1) == 0) surface%shape%c(0, 0) = 0.0_dp
+      call surface%shape%set_mean(0.0_dp)
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
       if (present(radii)) surface%form = form_of_radii(surface, radii)
       ! A flat map on a ball is the ball.
@@ -65,7 +65,7 @@ contains
       if (surface%has_steps .and. surface%amplitude <= 0.0_dp) then
          ! A flat map is a punch, h = 0. It has no depth: a length of the map is the unit.
          surface%amplitude = surface%nominal_area()**(1.0_dp/surface%dimension)
-         surface%shape%c(0, 0) = surface%amplitude
+         call surface%shape%set_mean(surface%amplitude)
       end if
       surface%crest = point_angle(crest, transform%points, transform%even)
       if (surface%dimension == 1) surface%crest(2) = 0.0_dp

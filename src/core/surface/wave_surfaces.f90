@@ -1,7 +1,7 @@
 !> Surfaces of cosine waves: sums of any, and those of the named kinds.
 module wavycon_wave_surfaces
    use wavycon_constants, only: sqrt3
-   use wavycon_fourier_series, only: divided, fourier_series, weighted
+   use wavycon_fourier_series, only: divide_series, fourier_series, turn, weighted
    use wavycon_kinds, only: dp
    use wavycon_series_peak, only: find_peak
    use wavycon_surface, only: surface_type
@@ -62,29 +62,25 @@ contains
       integer, intent(in) :: m(:), n(:)      !! wave numbers, shape of a; not both zero; all n = 0 for a profile
       real(dp), intent(in) :: phase(:)       !! phases [rad], shape of a
 
-      !> If all sine coefficients are below this fraction of the sum of the amplitudes they are rounding: the sum is
-      !> even.
+      !> The sum is even if its waves miss the symmetry by less than this part of the sum of the amplitudes.
       real(dp), parameter :: rounding = 1e-15_dp
       type(fourier_series) :: waves
-      integer :: k, l, q
-      real(dp) :: turn
+      integer :: last, q, sense
 
-      allocate (waves%c(0:maxval(abs(m)), 0:maxval(abs(n))), source=0.0_dp)
-      allocate (waves%cs, waves%sc, waves%ss, source=waves%c)
+      last = maxval(abs(n))
+      allocate (waves%wave(0:maxval(abs(m)), -last:last), source=(0.0_dp, 0.0_dp))
       do q = 1, size(a)
-         k = abs(m(q))
-         l = abs(n(q))
          ! cos(mX + nY - phase) with m >= 0.
-         turn = merge(phase(q), -phase(q), m(q) >= 0)
-         associate (up => sign(1, n(q))*merge(1, -1, m(q) >= 0))
-            waves%c(k, l) = waves%c(k, l) + a(q)*cos(turn)
-            if (k > 0 .and. l > 0) waves%ss(k, l) = waves%ss(k, l) - up*a(q)*cos(turn)
-            if (k > 0) waves%sc(k, l) = waves%sc(k, l) + a(q)*sin(turn)
-            if (l > 0) waves%cs(k, l) = waves%cs(k, l) + up*a(q)*sin(turn)
-         end associate
+         sense = merge(1, -1, m(q) >= 0)
+         call waves%add_wave(abs(m(q)), sense*n(q), a(q)*turn(-sense*phase(q)))
       end do
-      if (max(maxval(abs(waves%cs)), maxval(abs(waves%sc)), maxval(abs(waves%ss))) <= rounding*sum(abs(a))) &
-         deallocate (waves%cs, waves%sc, waves%ss)
+      associate (mirrored => waves%wave(:, last:-last:-1))
+         if (max(maxval(abs(waves%wave%im)), maxval(abs(waves%wave - mirrored))) <= rounding*sum(abs(a))) then
+            allocate (waves%c(0:ubound(waves%wave, 1), 0:last), source=real(waves%wave(:, 0:)))
+            waves%c(:, 1:) = waves%c(:, 1:) + real(waves%wave(:, -1:-last:-1))
+            deallocate (waves%wave)
+         end if
+      end associate
       surface = surface_of_series(length, waves)
    end function wave_sum
 
@@ -93,20 +89,18 @@ contains
       real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
       type(fourier_series), intent(in) :: height   !! [length]; its mean is ignored
 
-      type(fourier_series) :: waves
       real(dp) :: lowest, unused(2)
 
-      waves = height
-      waves%c(0, 0) = 0.0_dp
+      surface%shape = height
+      call surface%shape%set_mean(0.0_dp)
       surface%length = length
-      surface%dimension = merge(1, 2, ubound(height%c, 2) == 0)
-      call find_peak(waves, surface%amplitude, surface%crest)
+      surface%dimension = merge(1, 2, height%last(2) == 0)
+      call find_peak(surface%shape, surface%amplitude, surface%crest)
       if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
-      surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
-      waves = weighted(surface%shape, surface%length, 1)
-      call find_peak(waves, surface%full_contact_peak, unused)
-      call find_peak(divided(waves, -1.0_dp), lowest, unused)
+      call divide_series(surface%shape, surface%amplitude)
+      call find_peak(weighted(surface%shape, surface%length, 1, 1.0_dp), surface%full_contact_peak, unused)
+      call find_peak(weighted(surface%shape, surface%length, 1, -1.0_dp), lowest, unused)
       surface%stiffness = 1.0_dp/lowest
       surface%full_contact_peak = surface%full_contact_peak/lowest
    end function surface_of_series

@@ -345,26 +345,29 @@ contains
    integer(int64) function surface_checksum(results) result(total)
       type(results_type), intent(in) :: results
 
-      integer(int64) :: sums(4)
+      integer(int64) :: sums(2)
 
       associate (surface => results%solver%surface, shape => results%solver%surface%shape)
-         sums = [sum_over_waves(shape%c), 0_int64, 0_int64, 0_int64]
-         if (.not. shape%is_even()) sums(2:) = [sum_over_waves(shape%cs), sum_over_waves(shape%sc), &
-                                                sum_over_waves(shape%ss)]
+         if (shape%is_even()) then
+            sums = [sum_over_waves(shape%c, shape%first()), 0_int64]
+         else
+            sums = [sum_over_waves(shape%wave%re, shape%first()), sum_over_waves(shape%wave%im, shape%first())]
+         end if
          if (results%sharing%kind == distributed_grids .and. surface%is_distributed()) call results%sharing%add(sums)
          total = checksum([transfer([surface%amplitude, surface%length], sums(:0)), sums])
       end associate
    end function surface_checksum
 
    !> The sum of the checksums of the coefficients of each wave number in X.
-   pure integer(int64) function sum_over_waves(values) result(total)
-      real(dp), allocatable, intent(in) :: values(:, :)   !! shape (own wave numbers in X, wave numbers in Y)
+   pure integer(int64) function sum_over_waves(values, first) result(total)
+      real(dp), intent(in) :: values(:, :)   !! shape (own wave numbers in X, wave numbers in Y)
+      integer, intent(in) :: first           !! of the own wave numbers
 
       integer(int64) :: of_wave(size(values, 1))
       integer :: i, j
 
-      of_wave = [(lbound(values, 1) + i, i=1, size(values, 1))]
-      do j = lbound(values, 2), ubound(values, 2)
+      of_wave = [(first + i, i=1, size(values, 1))]
+      do j = 1, size(values, 2)
          of_wave = with_word(of_wave, transfer(values(:, j), of_wave))
       end do
       total = sum(of_wave)
