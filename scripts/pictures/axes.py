@@ -1,4 +1,5 @@
 """Scales, labels and ranges of axes, and the loads to be shown."""
+import dataclasses
 import math
 import re
 
@@ -18,6 +19,11 @@ def quoted(text):
     return "'" + re.sub(r"[\x00-\x1f\x7f]", "?", text).replace("'", "''") + "'"
 
 
+def lines_of(label):
+    """The same for a label, which may be a tuple of lines."""
+    return '."\\n".'.join(map(quoted, label)) if isinstance(label, tuple) else quoted(label)
+
+
 def marked_up(text):
     """A text for gnuplot's enhanced mode, in which exponents are raised and nothing else has a meaning."""
     text = re.sub(r"([\\{}_@&~])", r"\\\1", text)
@@ -30,12 +36,17 @@ def label_of_unit(unit):
     return marked_up(SHOWN[PREFIXES[known[1]]] + known[2] if known else unit)
 
 
+def ten_to(power):
+    """A power of ten in gnuplot's enhanced mode."""
+    return "10^{" + str(power).replace("-", "−") + "}"
+
+
 class Scale:
     """How the numbers of an axis are shown: times `factor`, beside a label.
 
-    most: the largest number. unit: its label, '' if it has none. over: a name of gnuplot's for that by which numbers
-    without a label are divided, '' if they are not. size: the number that is to be 1 to 1000 in the unit shown, None
-    for the largest: all pictures of a run then have the same unit.
+    most: the largest number. unit: its label, '' if it has none. over: the symbol of that by which numbers without a
+    label are divided, '' if they are not. size: the number that is to be 1 to 1000 in the unit shown, None for the
+    largest: all pictures of a run then have the same unit.
     """
 
     def __init__(self, most, unit="", over="", size=None):
@@ -57,32 +68,52 @@ class Scale:
         self.factor = 10.0**-power
 
     def label(self, symbol, words=""):
-        """A gnuplot expression for the label; symbol: the name of gnuplot's variable that holds it."""
-        parts = [quoted(words + " ")] if words else []
-        if self.power and not self.unit:
-            parts.append(quoted(ten_to(-self.power) + " "))
-        parts.append(symbol)
-        if self.over:
-            parts.append("'/'." + self.over)
-        if self.unit:
-            power = ten_to(self.power) + " " if self.power else ""
-            parts.append(quoted(f" [{power}{marked_up(self.unit)}]"))
-        return ".".join(parts)
+        """The label of the axis in gnuplot's enhanced mode."""
+        power = ten_to(-self.power) + " " if self.power and not self.unit else ""
+        over = "/" + self.over if self.over else ""
+        unit = f" [{ten_to(self.power) + ' ' if self.power else ''}{marked_up(self.unit)}]" if self.unit else ""
+        return (words + " " if words else "") + power + symbol + over + unit
 
     def value(self, symbol, number):
-        """A gnuplot expression that says what a quantity is, such as p/p* = 0.2 or p = 3 MPa; number: on the axis."""
+        """What a quantity is, such as p/p* = 0.2 or p = 3 MPa; number: on the axis."""
         shown = f"{number*10.0**self.power:.4g}"
         if "e" in shown:
             mantissa, exponent = shown.split("e")
             shown = ("" if mantissa == "1" else f"{mantissa}·") + ten_to(int(exponent))
-        over = ".'/'." + self.over if self.over else ""
-        unit = " " + marked_up(self.unit) if self.unit else ""
-        return symbol + over + "." + quoted(f" = {shown}{unit}")
+        over, unit = "/" + self.over if self.over else "", " " + marked_up(self.unit) if self.unit else ""
+        return f"{symbol}{over} = {shown}{unit}"
 
 
-def ten_to(power):
-    """A power of ten in gnuplot's enhanced mode."""
-    return "10^{" + str(power).replace("-", "−") + "}"
+@dataclasses.dataclass(frozen=True)
+class Axis:
+    """Range, step of the tics (None: gnuplot's), whether it is logarithmic, label, and whether tics have numbers.
+
+    font: of the tics. options: of the label.
+    """
+
+    low: float
+    high: float
+    step: float = None
+    wide: bool = False
+    label: object = ""
+    numbers: bool = True
+    font: str = ",14"
+    options: str = "offset 0, 0"
+
+    def commands(self, name):
+        form = ("10^{%T}" if self.wide else "%h") if self.numbers else ""
+        minor = "default" if not (self.wide and self.step) else 1 if self.step > 10 else 10
+        return [f"set {name}range [{self.low!r}:{self.high!r}]", f"{'' if self.wide else 'un'}set logscale {name}",
+                f"set {name}tics {repr(self.step) if self.step else 'autofreq'} font '{self.font}'",
+                f"set m{name}tics {minor}", f"set format {name} '{form}'",
+                f"set {name}label {lines_of(self.label)} {self.options}"]
+
+    def with_label(self, label, **others):
+        return dataclasses.replace(self, label=label, **others)
+
+    def bare(self, is_bare=True):
+        """The axis without label and numbers, beside one that has them."""
+        return dataclasses.replace(self, label="", numbers=False) if is_bare else self
 
 
 def axis(numbers, may_be_wide=True, up_to=None):
@@ -108,6 +139,12 @@ def axis(numbers, may_be_wide=True, up_to=None):
     if up_to and 0.7*up_to < high < 1.15*up_to:
         high = up_to
     return low, high, step_of(high - low), False
+
+
+def decades(numbers, label, widen=1.0):
+    """A logarithmic axis from power of ten to power of ten."""
+    return Axis(10.0**math.floor(math.log10(min(numbers))), 10.0**math.ceil(math.log10(widen*max(numbers))), wide=True,
+                label=label)
 
 
 def step_of(span):

@@ -1,27 +1,24 @@
-"""What the pictures of stresses below the surface show. See facts.py."""
-import array
+"""The pictures of stresses below the surface."""
 import bisect
 import math
-import os
 import sys
 
-from axes import axis, chosen, quoted, step_of
-from fields import MOST_PIXELS, cell_of, matched, outlines, write_closed
-from loading import ends_of_bars
-from variables import MOST_CURVES, MOST_PANELS, CannotBeDrawn, array_of, load_facts, \
-    mean_pressure_axis, names_of, numbers_in, of_column, put_range, put_scale, scaled, shown
+from axes import Axis, axis, chosen, step_of
+from fields import CELL, cell_of, closed, matched, outline, panel_of
+from loading import NOT_ACCURATE, curve_of_bars, curve_of_points, with_errors
+from picture import DEPTH, MOST_CURVES, MOST_PANELS, MOST_PIXELS, OPEN, OPEN_ENTRY, P_STAR, X, Y, CannotBeDrawn, \
+    Picture, Quantity, bars, entry, load_names, mean_pressure_axis, runs_of, shaded, shown
 
-# The columns of stresses that can be shown, and their labels: gnuplot's symbol and words.
-SYMBOLS = {"von_mises": ("'{/:Italic σ}_{vM}'", "von Mises stress"),
-           "largest_shear": ("'{/:Italic τ}_{max}'", "shear stress"),
-           "stress_pressure": ("'−{/:Italic σ_{kk}}/3'", ""),
-           **{f"stress_{axes}": (f"'{{/:Italic σ_{{{axes}}}}}'", "") for axes in ("xx", "yy", "zz", "xy", "xz", "yz")},
-           **{f"principal_{i}": (f"'{{/:Italic σ}}_{i}'", "") for i in (1, 2, 3)}}
+# The columns of stresses that can be shown, and their labels: symbol and words.
+SYMBOLS = {"von_mises": ("{/:Italic σ}_{vM}", "von Mises stress"),
+           "largest_shear": ("{/:Italic τ}_{max}", "shear stress"),
+           "stress_pressure": ("−{/:Italic σ_{kk}}/3", ""),
+           **{f"stress_{axes}": (f"{{/:Italic σ_{{{axes}}}}}", "") for axes in ("xx", "yy", "zz", "xy", "xz", "yz")},
+           **{f"principal_{i}": (f"{{/:Italic σ}}_{i}", "") for i in (1, 2, 3)}}
 # The order of panels below the crest; those of shear components are left out where symmetry makes them vanish.
 BELOW_CREST = ("stress_xx", "stress_yy", "stress_zz", "von_mises", "stress_xy", "stress_xz", "stress_yz",
                "largest_shear")
 VANISHING = 1e-6   # of the largest stress
-SHEAR = "largest_shear_over_pstar"
 LEAST_ROWS = 161   # of the picture of a section
 
 
@@ -32,57 +29,58 @@ def of_body(table, choice):
     if not blocks:
         raise CannotBeDrawn(f"it has no stresses of body {body}")
     if choice.body is None and len(blocks) < len(table.blocks):
-        if any(block.body != body for block in table.blocks):
-            print(f"plot: {table.path}: the first body is shown; --body 2 shows the second", file=sys.stderr)
+        print(f"plot: {table.path}: the first body is shown; --body 2 shows the second", file=sys.stderr)
     return table.with_blocks(blocks)
 
 
 def below_crest(tables, beside, choice, folder):
     """Stresses on the line below the crest: a panel for each, depth downwards."""
-    tables = [of_body(table, choice) for table in tables]
-    places = matched(tables, choice.loads, MOST_PANELS if len(tables) > 1 else MOST_CURVES)
-    facts = load_facts(tables[0], [place[0] for place in places])
-    facts += array_of("block_of", [str(table.blocks[place[r]].place)
-                                   for r, table in enumerate(tables) for place in places])
+    alone, tables = len(tables) == 1, [of_body(table, choice) for table in tables]
+    places = matched(tables, choice.loads, MOST_CURVES if alone else MOST_PANELS)
+    loads = load_names(tables[0], [place[0] for place in places])
     size = {name: max((abs(number) for table in tables for number in table.column(name)), default=0.0)
             for name in BELOW_CREST}
     names = [name for name in BELOW_CREST if size[name] > VANISHING*max(size.values())] or ["von_mises"]
-    found = numbers_in(tables, lambda table: [number for name in names for number in table.column(name)],
-                       "p*", "p_star")
-    facts += array_of("column_of", [quoted(name) for name in names])
-    facts += array_of("label_of", [found[0].label(SYMBOLS[name][0]) for name in names])
-    facts += array_of("stress_factor", [repr(factor) for factor in found[1]])
-    limits = [axis(scaled(tables, found[1], name), may_be_wide=False) for name in names]
-    for word, k in (("low", 0), ("high", 1)):
-        facts += array_of(f"{word}_of", [repr(limit[k]) for limit in limits])
-    # Panels are narrow: fewer tics, even fewer of numbers of four characters.
-    facts += array_of("step_of", [repr(step_of((2.2 if max(-10*limit[0], limit[1]) >= 1000 else 1.5)
-                                               *(limit[1] - limit[0]))) for limit in limits])
-    depth = numbers_in(tables, of_column("depth"), "cell_x", "")
-    facts += put_scale("depth", depth, "depth_symbol", "depth")
-    deepest = max(scaled(tables, depth[1], "depth")) or 1.0
-    facts += [f"deepest = {deepest!r}", f"depth_step = {step_of(deepest)!r}"]
+    stress = Quantity(tables, lambda table: [number for name in names for number in table.column(name)], "p*", P_STAR)
+    depth = Quantity(tables, "depth", "cell_x")
+    deepest = max(depth.all()) or 1.0
     across = min(len(names), 5 if len(names) < 6 else 4)
-    down = math.ceil(len(names)/across)
-    return "stress_line", (228 + 132*across, 45 + 235*down), \
-        facts + [f"panels = {len(names)}", f"across = {across}", f"down = {down}"]
+    picture = Picture(folder, (228 + 132*across, 45 + 235*math.ceil(len(names)/across)), tables, ", ".join(loads))
+    y = Axis(deepest, 0, step_of(deepest), label=depth.label(DEPTH, "depth"), font=",12")
+    for n, name in enumerate(names):
+        low, high, *_ = axis(stress.all(name), may_be_wide=False)
+        # Panels are narrow: fewer tics, even fewer of numbers of four characters.
+        x = Axis(low, high, step_of((2.2 if max(-10*low, high) >= 1000 else 1.5)*(high - low)),
+                 label=stress.label(SYMBOLS[name][0]), font=",12")
+        curves = []
+        for i, place in enumerate(places):
+            for run, table in enumerate(tables):
+                columns = table.blocks[place[run]].columns
+                curves.append(picture.curve("lines " + (shaded(i, len(places)) if alone else f"ls {31 + run}"),
+                                            stress.of(columns[name], run), depth.of(columns["depth"], run),
+                                            title=loads[i] if alone else None))
+        curves += runs_of(tables, "lines")
+        left, top = 78 + 132*(n % across), picture.height - 38 - 235*(n//across)
+        picture.panel(picture.box(left, left + 98, top - 175, top), x, y.bare(n % across > 0), curves,
+                      key=key_at(picture, 78 + 132*across) if n + 1 == across else "")
+    return picture
+
+
+def key_at(picture, left):
+    return f"at screen {left/picture.width}, graph 1 left top samplen 2"
 
 
 def section(tables, beside, choice, folder):
     """A vertical section: a panel for each load, depth downwards."""
     table = of_body(tables[0], choice)
     places = shown(table, choice.loads, MOST_PANELS)
-    length = numbers_in(tables, lambda table: table.column("distance") + table.column("depth"), "cell_x", "")
-    facts = colours(table, choice.variable, places) + load_facts(table, places)
-    facts += put_scale("length", length, quoted("distance"))
-    facts += [f"y_label = {length[0].label('depth_symbol', 'depth')}", "downwards = 1", "depths_shown = 1"]
-    facts += array_of("depth_name", [quoted("")])
-    for number, place in enumerate(places, 1):
-        columns, rows = write_section(table.blocks[place].columns, choice.variable,
-                                      os.path.join(folder, f"map{number}-1"))
-    sides = [length[1][0]*max(table.column(side)) for side in ("distance", "depth")]
-    facts += [f"columns = {columns}", f"rows = {rows}"] + outlines(None, table, places, 1.0, 1.0, folder)
-    return "stress_map", *panels(sides, len(places), facts)
+    stress = stress_of(table, choice.variable, places)
+    length = Quantity([table], lambda table: table.column("distance") + table.column("depth"), "cell_x")
+    wide, deep = (length.of((max(table.column(side)),))[0] for side in ("distance", "depth"))
+    images = [[resampled(table.blocks[place].columns, choice.variable, length.factors[0], stress.factors[0])]
+              for place in places]
+    return panels(folder, tables, (wide, deep), images, load_names(table, places), [""], stress, (0, deep)[::-1],
+                  [length.label("distance"), length.label(DEPTH, "depth")], choice.variable)
 
 
 def planes(tables, beside, choice, folder):
@@ -95,22 +93,27 @@ def planes(tables, beside, choice, folder):
     flat = len(set(table.blocks[0].columns["y"])) == 1
     places = shown(at_depth[0], choice.loads, MOST_CURVES if flat else MOST_PANELS)
     table = table.with_blocks([at_depth[k].blocks[place] for k in numbers for place in places])
-    length = numbers_in([table], lambda table: cell_of(table) + depths, "cell_x", "")
-    facts = colours(table, choice.variable, range(len(table.blocks))) + load_facts(at_depth[0], places)
-    facts += put_scale("length", length, "x_symbol") + [f"y_label = {length[0].label('y_symbol')}", "downwards = 0"]
-    facts += array_of("depth_name", [length[0].value("depth_symbol", length[1][0]*depths[k]) for k in numbers])
-    facts.append(f"depths_shown = {len(numbers)}")
-    for i, place in enumerate(places, 1):
-        for j, k in enumerate(numbers, 1):
-            columns, rows = write_closed(at_depth[k], place, os.path.join(folder, f"map{i}-{j}"), (choice.variable,))
-    facts += [f"columns = {columns}", f"rows = {rows}"]
-    sides = [length[1][0]*side for side in cell_of(table)]
-    if flat:
-        facts += [f"longest = {sides[0]!r}", f"length_step = {step_of(1.5*sides[0])!r}"]
-        return "stress_planes_1d", (221 + 190*len(numbers), 290), facts
-    size, variables = panels(sides, len(places), facts, len(numbers))
-    return "stress_map", size, variables + outlines(beside.get("contour"), at_depth[0], places, length[1][0],
-                                                    panel_of(sides)[0], folder)
+    length = Quantity([table], lambda table: cell_of(table) + depths, "cell_x")
+    stress = stress_of(table, choice.variable, range(len(table.blocks)))
+    loads = load_names(at_depth[0], places)
+    names = [length.scale.value(DEPTH, length.factors[0]*depths[k]) for k in numbers]
+    images = [[closed(at_depth[k], place, length.factors[0], lambda number: stress.of((number,)), (choice.variable,))
+               for k in numbers] for place in places]
+    sides = length.of(cell_of(table))
+    if not flat:
+        factor, contour = length.factors[0], beside.get("contour")
+        return panels(folder, tables, sides, images, loads, names, stress, (0, sides[1]),
+                      [length.label(X), length.label(Y)], choice.variable, lambda picture, i, wide: outline(
+                          picture, contour, at_depth[0], places[i], factor, wide, dashes="dt (3, 3)"))
+    picture = Picture(folder, (221 + 190*len(numbers), 290), tables)
+    x = Axis(0, sides[0], step_of(1.5*sides[0]), label=length.label(X), font=",12")
+    y = stress.axis(*SYMBOLS[choice.variable], may_be_wide=False)
+    for j, name in enumerate(names):
+        curves = [picture.curve("lines " + shaded(i, len(places)), rows[0][::3], rows[0][2::3], title=loads[i])
+                  for i, (rows, *_) in enumerate(of_load[j] for of_load in images)]
+        picture.panel(picture.box(78 + 190*j, 236 + 190*j, 56, 240), x, y.bare(j > 0), curves, title=name,
+                      key=key_at(picture, 78 + 190*len(names)) if j + 1 == len(names) else "")
+    return picture
 
 
 def shown_depths(table, count, wanted):
@@ -127,38 +130,56 @@ def shown_depths(table, count, wanted):
     return places
 
 
-def colours(table, name, places):
-    """Label, factor and range of the stress that is shown."""
+def stress_of(table, name, places):
+    """The stress that is shown."""
     if name not in SYMBOLS:
         raise CannotBeDrawn(f"there is no stress '{name}'; there are {', '.join(SYMBOLS)}")
-    numbers = table.column(name, places)
-    found = numbers_in([table], lambda table: numbers, "p*", "p_star")
-    on_axis = [found[1][0]*number for number in numbers] or [0.0]
-    most = max(map(abs, on_axis)) or 1.0
-    return put_scale("stress", found, *SYMBOLS[name]) + put_range("stress", on_axis, may_be_wide=False) + \
-        [f"negative = {int(min(on_axis) < -VANISHING*most)}", f"positive = {int(max(on_axis) > VANISHING*most)}",
-         f"most = {most!r}"]
+    return Quantity([table.with_blocks([table.blocks[place] for place in places])], name, "p*", P_STAR)
 
 
-def panel_of(sides):
-    """Width and height of a panel in points: about the same area, whatever the sides."""
-    stretch = min(max(math.sqrt(sides[1]/sides[0]), 0.7), 1.5)
-    return 150/stretch, 150*stretch
+def panels(folder, tables, sides, images, loads, depths, stress, range_y, labels, variable, edge=lambda *_: None):
+    """A stress as colours: a panel for each load and depth, side by side if there is one load; edges over it.
+
+    sides: of a panel. images: rows and their numbers for Picture.image, of each load for each depth. loads, depths:
+    what they are called. range_y: from the lower edge to the upper one. labels: of the axes. edge: makes a curve.
+    """
+    wide, tall = panel_of(sides, 150, 0.7, 1.5)
+    by_load = len(loads) > 1
+    across, down = (len(loads), len(depths)) if by_load else (len(depths), 1)
+    picture = Picture(folder, (112 + across*(wide + 24) + 75, max(46 + down*(tall + 16) + 60, 230)), tables)
+    numbers = stress.all() or [0.0]
+    most = max(map(abs, numbers)) or 1.0
+    negative, positive = min(numbers) < -VANISHING*most, max(numbers) > VANISHING*most
+    # Where there is tension and compression the first is orange.
+    colours = ["eval of_sign" if negative and positive else "eval of_size"] + ["set palette negative"]*(not positive)
+    colours.append(f"set cbrange [{-most if negative else 0}:{most if positive or not negative else 0}]")
+    x = Axis(0, sides[0], step_of(2*sides[0]), label=labels[0], font=",12")
+    y = Axis(*range_y, step_of(2*sides[1]), label=labels[1], font=",12")
+    top = picture.height - 46
+    bar = picture.box(102 + across*(wide + 24) - 16, 0, top - (down - 1)*(tall + 16) - tall, top)
+    bar = picture.colours(bar, 9, stress.label(*SYMBOLS[variable]), "font ',11' offset -0.6, 0",
+                          "font ',11'" if tall < 160 and down == 1 else "font ',14'")
+    for r in range(down):
+        for c in range(across):
+            i, j = (c, r) if by_load else (0, c)
+            above, beside_it = (loads[i], depths[j]) if by_load else (depths[j], loads[i])
+            # One panel has its load above; a section has no depths.
+            if not above:
+                above, beside_it = beside_it, ""
+            left, upper = 102 + c*(wide + 24), top - r*(tall + 16)
+            y_axis = y.bare(c > 0)
+            if beside_it and c == 0:
+                y_axis = y.with_label((beside_it, y.label), options="offset -1.2, 0")
+            picture.panel(picture.box(left, left + wide, upper - tall, upper), x.bare(r + 1 < down), y_axis,
+                          [picture.image(*images[i][j]) + ":3 with image", edge(picture, i, wide)], *CELL[:2], *colours,
+                          *(bar if c + 1 == across and r + 1 == down else ["unset colorbox"]),
+                          title=above if r == 0 else "")
+    return picture
 
 
-def panels(sides, loads, facts, depths=1):
-    """The size of a picture of panels for loads and depths, side by side if there is one load, and its variables."""
-    wide, tall = panel_of(sides)
-    across, down = (loads, depths) if loads > 1 else (depths, 1)
-    size = (112 + across*(wide + 24) + 75, max(46 + down*(tall + 16) + 60, 230))
-    return size, facts + array_of("side", [repr(side) for side in sides]) + \
-        array_of("step_of", [repr(step_of(2*side)) for side in sides]) + \
-        [f"panel_wide = {wide!r}", f"panel_tall = {tall!r}", f"across = {across}", f"down = {down}"]
-
-
-def write_section(block, name, path):
-    """Writes distance, depth and a column of a section for gnuplot's binary format, interpolated to equally spaced
-    depths, which an image needs. Returns the numbers of points.
+def resampled(block, name, factor, factor_of_stress):
+    """Distance and depth times a factor, and a column of a section, interpolated to equally spaced depths, which an
+    image needs: rows for Picture.image and the numbers of points.
     """
     depths = sorted(set(block["depth"]))
     columns = len(block["depth"])//len(depths)
@@ -167,72 +188,77 @@ def write_section(block, name, path):
     steps = [after - before for before, after in zip(depths, depths[1:])]
     rows = min(MOST_PIXELS, max(LEAST_ROWS, 1 + math.ceil((depths[-1] - depths[0])/min(steps) - 1e-6)))
     order = sorted(range(len(depths)), key=lambda k: block["depth"][k*columns])
-    with open(path, "wb") as file:
-        for row in range(rows):
-            depth = depths[0] + (depths[-1] - depths[0])*row/(rows - 1)
-            k = min(max(bisect.bisect(depths, depth) - 1, 0), len(depths) - 2)
-            part = (depth - depths[k])/steps[k]
-            numbers = array.array("d")
-            for i in range(columns):
-                above, below = (block[name][order[m]*columns + i] for m in (k, k + 1))
-                numbers.extend((block["distance"][i], depth, above + part*(below - above)))
-            numbers.tofile(file)
-    return columns, rows
+    records = []
+    for row in range(rows):
+        depth = depths[0] + (depths[-1] - depths[0])*row/(rows - 1)
+        k = min(max(bisect.bisect(depths, depth) - 1, 0), len(depths) - 2)
+        part, record = (depth - depths[k])/steps[k], []
+        for i in range(columns):
+            above, below = (block[name][order[m]*columns + i] for m in (k, k + 1))
+            record += (factor*block["distance"][i], factor*depth, factor_of_stress*(above + part*(below - above)))
+        records.append(record)
+    return records, columns, rows
 
 
 def largest(tables, beside, choice, folder):
     """The largest stresses against the mean pressure, with error bars, their depth, their ratio to the yield stress."""
-    facts, wide = mean_pressure_axis(tables)
-    stress = numbers_in(tables, of_column("largest_von_mises"), "p*", "p_star", may_be_wide=wide)
-    depth = numbers_in(tables, lambda table: table.column("von_mises_depth") + table.column("shear_depth"),
-                       "cell_x", "", may_be_wide=wide)
-    ratio = numbers_in(tables, of_column("stress_over_yield_stress"), "", "")
-    labels, limits, factors = [], [], []
-    for name, found, label in (
-            ("largest_von_mises", stress, stress[0].label(*SYMBOLS["von_mises"])),
-            ("largest_shear", stress, stress[0].label(*SYMBOLS["largest_shear"])),
-            ("von_mises_depth", depth, depth[0].label("depth_symbol", "depth")),
-            ("stress_over_yield_stress", ratio, quoted("largest stress over yield stress"))):
-        numbers = scaled(tables, found[1], name)
-        if name.startswith("largest"):
-            numbers += ends_of_bars(tables, found[1], name, name + "_over_pstar_error", "p*")
-        elif name == "von_mises_depth":
-            numbers += scaled(tables, found[1], "shear_depth")
-        elif name == "stress_over_yield_stress":
-            if not numbers:
-                break
-            numbers.append(1.0)
-        labels.append(label)
-        # From 0, so that what differs by rounding looks equal.
-        limits.append(axis([0.0] + numbers, may_be_wide=wide))
-        factors += found[1]
-    facts += array_of("label_of", labels) + array_of("factor_of", [repr(factor) for factor in factors])
-    for word, k in (("low", 0), ("high", 1), ("step", 2)):
-        facts += array_of(f"{word}_of", [repr(limit[k]) for limit in limits])
-    facts += array_of("wide_of", [str(int(limit[3])) for limit in limits])
-    facts += array_of("p_star_of", [repr(table.numbers.get("p*", 0.0)) for table in tables])
+    alone, (load, x) = len(tables) == 1, mean_pressure_axis(tables)
     bodies = [int(max(table.column("body"))) for table in tables]
-    if choice.body:
-        least = most = choice.body
-    else:
-        least, most = 1, bodies[0] if len(tables) == 1 else 1
-    if most > min(bodies):
-        raise CannotBeDrawn(f"it has no stresses of body {most}")
-    facts += array_of("bodies_of", [str(count) for count in bodies]) + [f"first_body = {least}", f"last_body = {most}"]
-    entries = []
-    if len(tables) > 1:
-        entries += [(f"linespoints ls {30 + r}", name) for r, name in enumerate(names_of(tables), 1)]
-    elif most > least:
-        entries += [("linespoints ls 31", "first body"), ("linespoints ls 32", "second body")]
-    estimated = len(tables) == 1 and tables[0].method not in ("beale", "series")
-    facts.append(f"estimated = {int(estimated)}")
-    if estimated and any(not error < value for block in tables[0].blocks for value, error, code in zip(
-            *(block.columns[name] for name in (SHEAR, SHEAR + "_error", "status_code"))) if 0 < value and code < 10):
-        entries.append(("points lc rgb blue pt 6 ps 0.7*mark", "error unknown or as large as the value"))
-    if any(code >= 10 for table in tables for code in table.column("status_code")):
-        entries.append(("points ls 42", "not accurate or not solved"))
-    key = "".join(f", keyentry with {style} title key_title[{k}] noenhanced" for k, (style, _) in enumerate(entries, 1))
-    facts += array_of("key_title", [quoted(words) for _, words in entries] or ["''"])
-    title_high, key_high = (28, 24*bool(entries)) if len(tables) == 1 else (0, 40)
-    facts += [f"title_high = {title_high}", f"key_high = {key_high}", f"panels = {len(labels)}"]
-    return "stress_largest", (260*len(labels), 272 + title_high + key_high), facts + [f"key_entries = {quoted(key)}"]
+    first, last = (choice.body,)*2 if choice.body else (1, bodies[0] if alone else 1)
+    if last > min(bodies):
+        raise CannotBeDrawn(f"it has no stresses of body {last}")
+    # Runs that are compared show one body of each. A row of each body stands below that of the other.
+    shown_runs = [(run, table.of_rows("body", body), 30 + (body if alone else run + 1))
+                  for run, table in enumerate(tables) for body in range(first, last + 1)]
+    stress = Quantity(tables, "largest_von_mises", "p*", P_STAR, may_be_wide=x.wide)
+    depth = Quantity(tables, lambda table: table.column("von_mises_depth") + table.column("shear_depth"), "cell_x",
+                     may_be_wide=x.wide)
+    estimated = alone and tables[0].method not in ("beale", "series")
+    panels_of, is_open = [], False
+    for name, found, error_name, head, label in (
+            ("largest_von_mises", stress, "largest_von_mises_over_pstar_error", "p*", SYMBOLS["von_mises"]),
+            ("largest_shear", stress, "largest_shear_over_pstar_error", "p*", SYMBOLS["largest_shear"]),
+            ("von_mises_depth", depth, "shear_depth", "", (DEPTH, "depth")),
+            ("stress_over_yield_stress", Quantity(tables, "stress_over_yield_stress"), "stress_over_yield_stress_error",
+             "", ("largest stress over yield stress",))):
+        numbers, is_depth = found.all(name), name == "von_mises_depth"
+        runs = [(with_errors(table, load, found, run, name, error_name, head), look) for run, table, look in shown_runs]
+        if head:
+            numbers += [end for run, table in enumerate(tables) for _, value, error, _ in with_errors(
+                table, load, found, run, name, error_name, head) for end in bars(value, error)]
+        elif is_depth:
+            numbers += found.all("shear_depth")
+        elif numbers:
+            numbers.append(1.0)
+        else:
+            break
+        openings = [point for run, _ in runs for point in run
+                    if estimated and not is_depth and point[3] < NOT_ACCURATE and not point[2] < point[1]]
+        is_open = is_open or name == "largest_shear" and any(value > 0 for _, value, _, _ in openings)
+        # From 0, so that what differs by rounding looks equal.
+        panels_of.append((runs, openings, found.axis(*label, numbers=[0.0] + numbers, may_be_wide=x.wide), is_depth))
+    entries = runs_of(tables, "linespoints")
+    if alone and last > first:
+        entries += [entry("linespoints ls 31", "first body"), entry("linespoints ls 32", "second body")]
+    entries += [OPEN_ENTRY]*is_open
+    if any(code >= NOT_ACCURATE for table in tables for code in table.column("status_code")):
+        entries.append(entry("points ls 42", "not accurate or not solved"))
+    title_high, key_high = (28, 24*bool(entries)) if alone else (0, 40)
+    picture = Picture(folder, (260*len(panels_of), 272 + title_high + key_high), tables)
+    for n, (runs, openings, y, is_depth) in enumerate(panels_of):
+        curves = ["1 with lines ls 2"]*(n == 3)
+        curves += [curve_of_points(picture, f"lines ls {look}", run, joined=True) for run, look in runs]
+        curves += [curve_of_bars(picture, look, run) for run, look in runs if not is_depth]
+        curves += [curve_of_points(picture, f"points ls {look}", run) for run, look in runs]
+        curves.append(curve_of_points(picture, OPEN, openings))
+        if is_depth and alone:
+            curves += [curve_of_points(picture, "points ls 11 ps 1.3*mark", ((at, other) for at, _, other, _ in run))
+                       for run, _ in runs]
+        curves += [curve_of_points(picture, "points ls 42", (point for point in run if point[3] >= NOT_ACCURATE))
+                   for run, _ in runs]
+        if is_depth and alone:
+            curves += [entry("points ls 31", "von Mises"), entry("points ls 11 ps 1.3*mark", "shear")]
+        box = picture.box(260*n + 70, 260*n + 250, 67.5, picture.height - title_high - key_high - 10)
+        picture.panel(box, x, y, curves, key="bottom right samplen 2" if is_depth and alone else "")
+    picture.key(entries, title_high, key_high)
+    return picture

@@ -44,10 +44,10 @@ class Block:
 
     def __init__(self, names):
         self.load = None   # its number in the deck's order
-        self.place = 0     # in the file, as gnuplot's `index` counts
         self.pbar_over_pstar = math.nan   # with free edges, where there is no p*, the mean pressure
         self.body = 1      # the number of the body whose stresses these are
         self.columns = {name: array.array("d") for name in names}
+        self.words = {name: [] for name in names}   # of columns of words, whose numbers are NaN
 
     def add(self, words, names):
         if len(words) != len(names):
@@ -56,11 +56,12 @@ class Block:
             try:
                 self.columns[name].append(float(word))
             except ValueError:
-                self.columns[name].append(math.nan)   # a status, the name of a solver
+                self.columns[name].append(math.nan)
+                self.words[name].append(word)
 
 
 class Table:
-    """A table: kind, names of columns, `blocks` in the order of gnuplot's `index`, and what the head says.
+    """A table: kind, names of columns, `blocks`, and what the head says.
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
     `title` is the deck's, '' if it has none; `surface` and `method` are the first words of their lines; `mirrored` says
@@ -73,7 +74,7 @@ class Table:
         self.numbers, self.units, self.surface, self.method, self.title = {}, {}, "", "", ""
         self.mirrored = False
         self.summary = None   # that of the same run, if there is one
-        self.points = self.skip = self.endian = None   # of a map in numpy's format
+        self.points = None    # of a map in numpy's format
         with open(path, "rb") as file:
             binary = file.read(len(MAGIC)) == MAGIC
         if binary:
@@ -111,7 +112,6 @@ class Table:
                         self.names = words
                     if words == self.names:
                         self.blocks.append(Block(words))
-                        self.blocks[-1].place = len(self.blocks) - 1
                         if load is not None:
                             self.blocks[-1].load, self.blocks[-1].pbar_over_pstar = load, float(words_of_load)
                     else:
@@ -134,12 +134,12 @@ class Table:
         with open(self.path, "rb") as file:
             data = file.read()
         try:
-            self.skip = 10 + int.from_bytes(data[8:10], "little")
-            header = ast.literal_eval(data[10:self.skip].decode("latin-1").strip())
+            skip = 10 + int.from_bytes(data[8:10], "little")
+            header = ast.literal_eval(data[10:skip].decode("latin-1").strip())
             form = header["descr"]
             fields = [("height", form)] if isinstance(form, str) else form   # heights are no records
             self.names = [name for name, form in fields if form[1:] == "f8"]
-            self.endian = "little" if fields[0][1][0] == "<" else "big"
+            endian = "little" if fields[0][1][0] == "<" else "big"
             # within: of stresses, bodies and depths; of slip, tangential loads. Heights have no loads.
             loads, *within, rows, columns = (1, *header["shape"]) if isinstance(form, str) else header["shape"]
         except (ValueError, SyntaxError, TypeError, KeyError, IndexError, UnicodeDecodeError):
@@ -147,13 +147,13 @@ class Table:
         self.points = (columns, rows)
         size = len(self.names)*rows*columns
         for place in range(loads*math.prod(within)):
-            numbers = array.array("d", data[self.skip + 8*place*size:self.skip + 8*(place + 1)*size])
+            numbers = array.array("d", data[skip + 8*place*size:skip + 8*(place + 1)*size])
             if len(numbers) != size:
                 raise NotATable("the file is cut short")
-            if self.endian != sys.byteorder:
+            if endian != sys.byteorder:
                 numbers.byteswap()
             block = Block([])
-            block.load, block.place = place//math.prod(within) + 1, place
+            block.load = place//math.prod(within) + 1
             if len(within) == 2:
                 block.body = place//within[1] % within[0] + 1
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
@@ -191,6 +191,15 @@ class Table:
         part = copy.copy(self)
         part.blocks = blocks
         return part
+
+    def of_rows(self, name, number):
+        """The same table with the rows alone in which a column has a number."""
+        blocks = []
+        for block in self.blocks:
+            blocks.append(copy.copy(block))
+            places = [k for k, one in enumerate(block.columns[name]) if one == number]
+            blocks[-1].columns = {key: [column[k] for k in places] for key, column in block.columns.items()}
+        return self.with_blocks(blocks)
 
     def label(self, name):
         """The unit of a number of the head, '' if the deck gives it no label."""

@@ -26,17 +26,16 @@ contains
       integer(c_int), value :: keep_fields, points_x, points_y
       real(c_double), intent(in), optional :: heights(points_x, points_y)
 
-      character(:), allocatable :: deck_text, name
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: made
 
       call lock()
       made => new_handle('scene')
-      call text_at(deck, deck_text, trouble)
-      call text_at(path, name, trouble)
+      call check_arguments([present(deck), present(path)], trouble)
       if (present(heights) .and. min(points_x, points_y) < 1 .and. .not. allocated(trouble)) &
          call fatal_error(trouble, exit_bad_input, 'points_x and points_y must be 1 or more')
-      if (.not. allocated(trouble)) call made%scene%open(deck_text, name, keep_fields /= 0, trouble, heights)
+      if (.not. allocated(trouble)) &
+         call made%scene%open(text_at(deck), text_at(path), keep_fields /= 0, trouble, heights)
       handle = close_new(error, made, trouble)
    end function new_scene
 
@@ -45,15 +44,14 @@ contains
       character(kind=c_char), intent(in), optional :: path(*), settings(*)
       integer(c_int), value :: keep_fields
 
-      character(:), allocatable :: lines, name
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: made
 
       call lock()
       made => new_handle('scene')
-      call text_at(path, name, trouble)
-      call text_at(settings, lines, trouble)
-      if (.not. allocated(trouble)) call made%scene%open_file(name, lines, keep_fields /= 0, trouble)
+      call check_arguments([present(path), present(settings)], trouble)
+      if (.not. allocated(trouble)) &
+         call made%scene%open_file(text_at(path), text_at(settings), keep_fields /= 0, trouble)
       handle = close_new(error, made, trouble)
    end function read_scene
 
@@ -87,8 +85,8 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents, made
 
-      call begin_call(scene, 'scene', contents, trouble)
-      call text_at(quantity, key, trouble)
+      call begin_call(scene, 'scene', contents, trouble, [present(quantity)])
+      key = text_at(quantity)   ! in a variable: other threads come in meanwhile
       made => new_handle('solution', contents)
       if (.not. allocated(trouble)) call contents%scene%solve(key, value, made%solution, trouble)
       handle = close_new(error, made, trouble)
@@ -114,23 +112,21 @@ contains
       character(kind=c_char), intent(in), optional :: name(*)
       real(c_double), intent(inout), optional :: value
 
-      character(:), allocatable :: its_name
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
       call lock()
       contents => object_at(object)
-      call text_at(name, its_name, trouble)
-      call check_arguments([present(value)], trouble)
+      call check_arguments([present(name), present(value)], trouble)
       if (.not. allocated(trouble)) then
          select case (contents%kind)
          case ('scene')
-            call contents%scene%number(its_name, value, trouble)
+            call contents%scene%number(text_at(name), value, trouble)
          case ('solution')
-            call get_of_solution(contents, its_name, value, trouble)
+            call get_of_solution(contents, text_at(name), value, trouble)
          case ('table')
             call pick_number([character(7) :: 'rows', 'columns'], &
-                             real([contents%table%rows, size(contents%table%names)], dp), its_name, value, trouble)
+                             real([contents%table%rows, size(contents%table%names)], dp), text_at(name), value, trouble)
          case default
             call fatal_error(trouble, exit_bad_input, not_a_handle//'scene')
          end select
@@ -177,8 +173,9 @@ contains
 
       call lock()
       contents => object_at(object)
-      call text_at(name, its_name, trouble)
+      call check_arguments([present(name)], trouble)
       if (.not. allocated(trouble)) then
+         its_name = text_at(name)
          select case (contents%kind)
          case ('scene')
             call contents%scene%text(its_name, words, trouble)
@@ -202,15 +199,13 @@ contains
       type(c_ptr), value :: error, solution
       character(kind=c_char), intent(in), optional :: name(*)
 
-      character(:), allocatable :: its_name
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents, made
 
-      call begin_call(solution, 'solution', contents, trouble)
-      call text_at(name, its_name, trouble)
+      call begin_call(solution, 'solution', contents, trouble, [present(name)])
       made => new_handle('table')
       if (.not. allocated(trouble)) &
-         call contents%owner%scene%make_table(its_name, contents%solution, made%table, trouble)
+         call contents%owner%scene%make_table(text_at(name), contents%solution, made%table, trouble)
       handle = close_new(error, made, trouble)
    end function new_table
 
@@ -220,18 +215,15 @@ contains
       integer(c_int), value :: rows
       real(c_double), intent(inout), optional :: values(*)
 
-      character(:), allocatable :: its_name
       integer :: column
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
-      call begin_call(table, 'table', contents, trouble)
-      call text_at(name, its_name, trouble)
-      call check_arguments([present(values)], trouble)
+      call begin_call(table, 'table', contents, trouble, [present(name), present(values)])
       if (.not. allocated(trouble)) then
-         column = contents%table%find_column(its_name)
+         column = contents%table%find_column(text_at(name))
          if (column == 0) then
-            call fatal_error(trouble, exit_bad_input, "the table has no column '"//its_name//"'")
+            call fatal_error(trouble, exit_bad_input, "the table has no column '"//text_at(name)//"'")
          else if (rows /= contents%table%rows) then
             call fatal_error(trouble, exit_bad_input, 'rows is not the number of rows of the table')
          else
@@ -251,8 +243,7 @@ contains
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
-      call begin_call(solution, 'solution', contents, trouble)
-      call check_arguments([present(x), present(y)], trouble)
+      call begin_call(solution, 'solution', contents, trouble, [present(x), present(y)])
       if (.not. allocated(trouble)) &
          call fields_at(contents%owner%scene, contents%solution, int(points), x, y, trouble, pressure, gap, &
                         displacement)
@@ -285,16 +276,14 @@ contains
       character(kind=c_char), intent(in), optional :: lateral(*)
       real(c_double), intent(inout), optional :: stress(6, *), stress_error(*)
 
-      character(:), allocatable :: word
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
-      call begin_call(solution, 'solution', contents, trouble)
-      call text_at(lateral, word, trouble)
-      call check_arguments([present(x), present(y), present(depth), present(stress)], trouble)
+      call begin_call(solution, 'solution', contents, trouble, &
+                      [present(x), present(y), present(depth), present(lateral), present(stress)])
       if (.not. allocated(trouble)) &
-         call stresses_at(contents%owner%scene, contents%solution, int(points), x, y, depth, nu, word, stress, &
-                          trouble, stress_error)
+         call stresses_at(contents%owner%scene, contents%solution, int(points), x, y, depth, nu, text_at(lateral), &
+                          stress, trouble, stress_error)
       get_stresses = close_call(error, trouble)
    end function get_stresses
 
@@ -307,16 +296,13 @@ contains
       character(kind=c_char), intent(in), optional :: lateral(*)
       real(c_double), intent(inout), optional :: stress(*), stress_error(*)
 
-      character(:), allocatable :: word
       type(error_type), allocatable :: trouble
       type(handle_type), pointer :: contents
 
-      call begin_call(solution, 'solution', contents, trouble)
-      call text_at(lateral, word, trouble)
-      call check_arguments([present(stress)], trouble)
+      call begin_call(solution, 'solution', contents, trouble, [present(lateral), present(stress)])
       if (.not. allocated(trouble)) &
          call stresses_on_plane(contents%owner%scene, contents%solution, [points_x, points_y], offset, &
-                                depth, nu, word, stress, trouble, stress_error)
+                                depth, nu, text_at(lateral), stress, trouble, stress_error)
       get_stress_plane = close_call(error, trouble)
    end function get_stress_plane
 
@@ -349,14 +335,12 @@ contains
       integer(c_int), value :: quiet
       integer(c_int), intent(inout), optional :: exit_status
 
-      character(:), allocatable :: deck, tables
       type(error_type), allocatable :: trouble
 
       call lock()
-      call text_at(path, deck, trouble)
-      call text_at(directory, tables, trouble)
-      call check_arguments([present(exit_status)], trouble)
-      if (.not. allocated(trouble)) call run_deck(deck, tables, quiet /= 0, exit_status, trouble)
+      call check_arguments([present(path), present(directory), present(exit_status)], trouble)
+      if (.not. allocated(trouble)) &
+         call run_deck(text_at(path), text_at(directory), quiet /= 0, exit_status, trouble)
       c_run_deck = close_call(error, trouble)
    end function c_run_deck
 

@@ -72,16 +72,19 @@ module wavycon_c_handles
 
 contains
 
-   !> Begins a call with an object. Errors: exit_bad_input if the handle is none, or that of another kind.
-   subroutine begin_call(handle, kind, contents, error)
+   !> Begins a call with an object. Errors: exit_bad_input if the handle is none, or that of another kind, or if another
+   !> pointer is null.
+   subroutine begin_call(handle, kind, contents, error, are_there)
       type(c_ptr), intent(in) :: handle
       character(*), intent(in) :: kind
       type(handle_type), pointer, intent(out) :: contents
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: are_there(:)   !! as of check_arguments
 
       call lock()
       contents => object_at(handle)
       if (contents%kind /= kind) call fatal_error(error, exit_bad_input, not_a_handle//kind)
+      if (present(are_there)) call check_arguments(are_there, error)
    end subroutine begin_call
 
    !> Ends a call: stores its outcome in the caller's error object and returns its code, 0 for success. The error of a
@@ -156,22 +159,22 @@ contains
       if (.not. (allocated(error) .or. all(are_there))) call fatal_error(error, exit_bad_input, 'an argument is NULL')
    end subroutine check_arguments
 
-   !> A text from C. Errors: exit_bad_input if the pointer is null.
-   subroutine text_at(bytes, text, error)
+   !> A text from C; empty if the pointer is null.
+   pure function text_at(bytes) result(text)
       character(kind=c_char), intent(in), optional :: bytes(*)
-      character(:), allocatable, intent(out) :: text
-      type(error_type), allocatable, intent(inout) :: error   !! there is no text if it is allocated
+      character(:), allocatable :: text
 
       integer :: length
 
-      call check_arguments([present(bytes)], error)
-      if (allocated(error)) return
-      do length = 0, most_bytes - 1
-         if (bytes(length + 1) == c_null_char) exit
-      end do
+      length = 0
+      if (present(bytes)) then
+         do length = 0, most_bytes - 1
+            if (bytes(length + 1) == c_null_char) exit
+         end do
+      end if
       allocate (character(length) :: text)
-      text = transfer(bytes(:length), text)
-   end subroutine text_at
+      if (length > 0) text = transfer(bytes(:length), text)
+   end function text_at
 
    !> Copies a text to a buffer of C, cut to its size, with a null character at its end. Returns the bytes of the whole.
    integer(c_size_t) function put_text(text, buffer, bytes) result(needed)

@@ -21,11 +21,11 @@ from program import ProgramTest, main, skip
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT/"scripts"/"pictures"))
-import facts  # noqa: E402
 import fields  # noqa: E402
+import kinds  # noqa: E402
 import stresses  # noqa: E402
-import variables  # noqa: E402
 from axes import Scale, axis, chosen, marked_up  # noqa: E402
+from picture import fitted  # noqa: E402
 from table import NotATable, Table  # noqa: E402
 
 OUTLINE = "rgb( 48,  51,  56)"   # `outline` of figure_style.gp
@@ -120,7 +120,7 @@ class Plot(ProgramTest):
         return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", "", shown)))
 
     def test_every_kind_of_table(self):
-        self.assertEqual(set(facts.FACTS), {Table(self.folder/name).kind for name in self.tables})
+        self.assertEqual(set(kinds.DRAWN), {Table(self.folder/name).kind for name in self.tables})
         self.check_pictures("svg", self.at_once)
 
     def every_table_in_every_format(self):
@@ -241,8 +241,9 @@ class Plot(ProgramTest):
         self.drawn("line.contour.dat")
         text = (self.folder/"line.contour.svg").read_text(encoding="utf-8")
         strips = {}
-        for start, y, end in re.findall(r"stroke='rgb\([^)]*\)'  d='M([\d.]+),([\d.]+) L([\d.]+),\2  '", text):
-            strips.setdefault(y, []).append(float(end) - float(start))
+        for path in re.findall(r"<path stroke='rgb\(  0, 101, 163\)'\s+d='([^']*)'", text):
+            for start, y, end in re.findall(r"M([\d.]+),([\d.]+) L([\d.]+),\2\s", path):
+                strips.setdefault(y, []).append(float(end) - float(start))
         self.assertEqual([2, 2], [len(lengths) for lengths in strips.values()])
         frame = re.search(r"d='M([\d.]+),[\d.]+ L\1,[\d.]+ L([\d.]+),[\d.]+ M", text)
         areas = sorted(sum(lengths)/(float(frame[2]) - float(frame[1])) for lengths in strips.values())
@@ -462,8 +463,8 @@ class Numbers(unittest.TestCase):
             self.assertEqual(shown, Scale(most, unit).unit)
         self.assertEqual(("ksi", 3), (Scale(2e4, "ksi").unit, Scale(2e4, "ksi").power))
         self.assertEqual("N/mm^{2}", marked_up("N/mm^2"))
-        self.assertEqual("p.' = 0.2 GPa'", Scale(2e9, "Pa").value("p", 0.2))
-        self.assertEqual("p.' = 10^{−5}'", Scale(1.0).value("p", 1e-5))
+        self.assertEqual("p = 0.2 GPa", Scale(2e9, "Pa").value("p", 0.2))
+        self.assertEqual("p = 10^{−5}", Scale(1.0).value("p", 1e-5))
 
     def test_colour_maps_read_in_grey(self):
         """Equal steps of a number are equal steps of lightness, within a fifth of them."""
@@ -474,18 +475,18 @@ class Numbers(unittest.TestCase):
             slopes = [(second[1] - first[1])/(second[0] - first[0]) for first, second in zip(stops, stops[1:])]
             for slope in slopes:
                 self.assertAlmostEqual(1.0, slope/(sum(slopes)/len(slopes)), delta=0.2)
-        for picture in list((ROOT/"scripts").glob("*.sh")) + list((ROOT/"scripts/pictures").glob("*.gp")):
+        for picture in list((ROOT/"scripts").glob("*.sh")) + list((ROOT/"scripts/pictures").glob("*.py")):
             if picture.name != "fig09.sh":   # contact and gap alone
                 self.assertNotIn("set palette defined", picture.read_text())
 
     def test_titles_fit(self):
-        self.assertEqual(("case", 15.0), variables.fitted("case", "", 430))
-        self.assertEqual(("Case", 15.0), variables.fitted("case", "Case", 430))
-        self.assertEqual(("case: Steel", 15.0), variables.fitted("case", "Steel", 430))
-        words, size = variables.fitted("case", "x"*70, 430)
+        self.assertEqual(("case", 15.0), fitted("case", "", 430))
+        self.assertEqual(("Case", 15.0), fitted("case", "Case", 430))
+        self.assertEqual(("case: Steel", 15.0), fitted("case", "Steel", 430))
+        words, size = fitted("case", "x"*70, 430)
         self.assertEqual("x"*70, words)
         self.assertTrue(10 < size < 15)
-        words, size = variables.fitted("case", "x"*200, 430)
+        words, size = fitted("case", "x"*200, 430)
         self.assertEqual(10.0, size)
         self.assertRegex(words, "^x{80,95}…$")
 
@@ -502,9 +503,9 @@ class Numbers(unittest.TestCase):
                                for j in range(3) for i in range(4))
                 path.write_text("# surface: file, Delta[length] = 1, cell_x[length] = 1, cell_y[length] = 2\n"
                                 "load x y pressure gap displacement undeformed_gap\n" + rows)
-                closed = pathlib.Path(folder)/"map1"
-                self.assertEqual((5, 4), fields.write_closed(Table(path), 0, closed))
-                numbers = memoryview(closed.read_bytes()).cast("d").tolist()
+                records, columns, count = fields.closed(Table(path), 0, 1.0, lambda *numbers: numbers)
+                self.assertEqual((5, 4), (columns, count))
+                numbers = [number for record in records for number in record]
                 points = [numbers[4*k:4*k + 4] for k in range(20)]
                 self.assertEqual([1 + offset/4, 2*offset/3, 0.0, 0.0], points[4])
                 self.assertEqual([offset/4, 2 + 2*offset/3, 0.0, 0.0], points[15])
@@ -518,10 +519,8 @@ class Numbers(unittest.TestCase):
             for distance, value in zip((0.0, 0.5), rows[depth]):
                 for name, number in (("distance", distance), ("depth", depth), ("von_mises", value)):
                     block[name].append(number)
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder)/"map1-1"
-            columns, count = stresses.write_section(block, "von_mises", path)
-            numbers = memoryview(path.read_bytes()).cast("d").tolist()
+        records, columns, count = stresses.resampled(block, "von_mises", 1.0, 1.0)
+        numbers = [number for record in records for number in record]
         self.assertEqual((2, 2*3*count), (columns, len(numbers)))
         for k in range(0, len(numbers), 3):
             distance, depth, value = numbers[k:k + 3]

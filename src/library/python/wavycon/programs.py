@@ -1,5 +1,7 @@
 """Runs of the program, many at a time."""
+import csv
 import importlib.metadata
+import io
 import itertools
 import os
 import re
@@ -53,8 +55,9 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             running.discard(process)
             if table.exists():
-                names, *lines = [line.split() for line in table.read_text().splitlines() if not line.startswith("#")]
-                rows = pandas.DataFrame([map(number_or_word, line) for line in lines], columns=names).loc[:, "load":]
+                lines = [line for line in table.open() if not line.startswith("#")]
+                rows = pandas.read_csv(io.StringIO("".join(lines)), sep=r"\s+", quoting=csv.QUOTE_NONE,
+                                       float_precision="round_trip").loc[:, "load":]
             else:
                 rows = pandas.DataFrame({"status": ["failed"]})
                 message = message or f"the program ended with the status {process.returncode}"
@@ -73,15 +76,6 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
     if not frames:
         raise ValueError("there are no values, so there is no run")
     return pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
-
-
-def number_or_word(word):
-    for kind in int, float:
-        try:
-            return kind(word)
-        except ValueError:
-            pass
-    return word
 
 
 def progress(steps, number):

@@ -1,0 +1,18 @@
+"""How each kind of table is drawn.
+
+Each function of DRAWN takes the tables to be drawn together (one, unless runs are compared), the tables of the same run
+by kind as far as COMPANIONS lists them, the Choice of what is to be shown, and a folder for files that gnuplot reads.
+It returns the Picture, and raises CannotBeDrawn if there is nothing to be shown.
+"""
+from fields import edges, heights, lines, maps, series, spectra
+from interfaces import adhesion, interface, partial_slip, slip_loops, slip_maps
+from loading import details, histogram, spot_sizes, spots, summary, theory
+from stresses import below_crest, largest, planes, section
+
+COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summary",), "stress_planes": ("contour",)}
+DRAWN = {"summary": summary, "lines": lines, "map": maps, "theory_lines": lines, "contour": edges,
+         "coefficients": series, "theory": theory, "details": details, "spectrum": spectra, "height": heights,
+         "spots": spots, "spot_sizes": spot_sizes, "histogram": histogram,
+         "stress_largest": largest, "stress_line": below_crest, "stress_section": section, "stress_planes": planes,
+         "interface": interface, "partial_slip": partial_slip, "slip_loop": slip_loops, "slip_map": slip_maps,
+         "adhesion": adhesion}
