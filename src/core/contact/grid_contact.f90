@@ -6,7 +6,6 @@
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
-   use wavycon_contact_measures, only: unknown
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
@@ -18,6 +17,8 @@ module wavycon_grid_contact
    use wavycon_kinds, only: dp
    use wavycon_grid_area, only: load_concentration
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
+   use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
+      min_pressure, unknown
    use wavycon_solution_record, only: by_grids, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -128,18 +129,18 @@ contains
       end if
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_grids
-      solution%measures = answer%measures
-      solution%measures%min_pressure_over_pstar = least_pressure(answer%edge)
+      solution%quantities = answer%quantities
+      solution%value(min_pressure) = least_pressure(answer%edge)
       if (self%surface%has_hardness()) then
          associate (load_of_area => self%surface%hardness/pbar_over_pstar)
-            solution%measures%load_at_hardness_fraction = answer%measures%area_at_hardness_fraction*load_of_area
-            solution%measures%load_at_hardness_error = answer%measures%area_at_hardness_error*load_of_area
+            solution%value(load_at_hardness) = answer%value(area_at_hardness)*load_of_area
+            solution%error(load_at_hardness) = answer%error(area_at_hardness)*load_of_area
          end associate
-         if (.not. solution%measures%load_at_hardness_error < 1.0_dp) solution%measures%load_at_hardness_error = unknown
+         if (.not. solution%error(load_at_hardness) < 1.0_dp) solution%error(load_at_hardness) = unknown
       end if
-      if (all(self%surface%points > 0) .and. answer%values(2) <= largest_spot) &
-         solution%measures%load_concentration = load_concentration(answer%edge)
-      if (self%surface%has_free_edges) solution%measures%load_at_border = load_at_border(answer%edge)
+      if (all(self%surface%points > 0) .and. answer%value(contact_area) <= largest_spot) &
+         solution%value(concentrated_load) = load_concentration(answer%edge)
+      if (self%surface%has_free_edges) solution%value(border_load) = load_at_border(answer%edge)
       solution%active_constraints = bound_points(answer%edge, self%surface%hardness)
       solution%iterations = answer%iterations
       solution%residual = answer%state%residual
@@ -151,7 +152,7 @@ contains
          solution%status = no_memory
       else if (any(self%options%points == 0)) then
          solution%status = not_accurate
-      else if (all(solution%measures%are_resolved(self%surface))) then
+      else if (all(solution%are_resolved(self%surface))) then
          solution%status = converged
       else
          solution%status = unresolved

@@ -5,7 +5,6 @@ module wavycon_grid_source
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
-   use wavycon_contact_measures, only: load_derivatives, or_nan
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_area, only: grid_strip_edges
@@ -19,6 +18,7 @@ module wavycon_grid_source
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_paper_wave, only: smaller_cell
+   use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -88,7 +88,7 @@ contains
       type(grid_fields), allocatable :: own
 
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, record%measures%approach_over_amplitude, self%rotated)
+      call start_grid_fields(own, surface, self%edge, record%value(approach), self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -153,7 +153,7 @@ contains
       values = max(self%edge%pressure_or_gap, 0.0_dp)
       ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
       ! be P - 1.
-      error = record%measures%peak_pressure_error
+      error = record%error(peak_pressure)
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
       error = or_nan(error)
       call transform%start(shape(values), self%edge%even, whole=.true.)
@@ -183,7 +183,7 @@ contains
          call transform%start(shape(values), .false., whole=.true.)
          call transform%series(values, pressure)
          call start_series_stress(own, surface, pressure, record%pbar_over_pstar/4, &
-                                  or_nan(record%measures%peak_pressure_error), is_sampled=.true.)
+                                  or_nan(record%error(peak_pressure)), is_sampled=.true.)
          call transform%start(points, self%edge%even, whole=.true.)
       end associate
       call own%remove_images([transform%x_angle(1), transform%y_angle(1)])
@@ -195,7 +195,7 @@ contains
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       if (self%distributed_points > 0 .or. surface%has_hardness()) return
       if (self%rotated) then
