@@ -249,24 +249,19 @@ contains
 
    !> Restores what pack_solution made. A grid that is distributed is restored by the words of all ranks that had
    !> columns of it: called for one after the other, in any order.
-   subroutine unpack_solution(self, words, whole, complete, understood)
+   subroutine unpack_solution(self, words, whole, complete)
       class(contact_solution), intent(inout) :: self     !! without a source at first
-      integer(int64), intent(in) :: words(:)
+      integer(int64), intent(in) :: words(:)             !! that the same version has packed for the same surface
       logical, intent(in) :: whole                       !! whether all columns of a distributed grid are needed
       logical, intent(out) :: complete                   !! whether nothing is missing any more
-      logical, intent(out) :: understood                 !! .false. if these are not the words of a solution
 
-      complete = .false.
-      understood = size(words) >= record_words
-      if (.not. understood) return
       self%solution_record = transfer(words(:record_words), self%solution_record)
       complete = size(words) == record_words
       if (complete) return
       if (.not. allocated(self%source)) allocate (grid_source :: self%source)
       select type (source => self%source)
       type is (grid_source)
-         call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, understood)
-         if (understood) complete = source%has_all_columns()
+         call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, complete)
       end select
    end subroutine unpack_solution
 

@@ -15,7 +15,7 @@ module wavycon_find_load
    implicit none (type, external)
    private
 
-   public :: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
+   public :: solve_for
 
    !> What is searched for, and how far the search is. The slope lies between 1/2 (area of a line contact at light load)
    !> and 5/2 (gap near full contact in 2-D).
@@ -33,41 +33,17 @@ module wavycon_find_load
 
 contains
 
-   !> Solves for the load at which the contact area has a given value: (C18). The solution has the status not_accurate
-   !> if the search did not find such a load, and not_found if the area is larger even at the lightest loads: it is then
-   !> that of P -> 0, and P is 0.
-   subroutine solve_for_contact_area(solver, contact_area_fraction, solution)
-      class(contact_solver), intent(inout) :: solver        !! started
-      real(dp), intent(in) :: contact_area_fraction         !! 0 .. 1: no load at 0, P = 1 at 1
-      type(contact_solution), intent(out) :: solution   !! of the load found
-
-      call solve_for(solver, contact_area, contact_area_fraction, solution)
-   end subroutine solve_for_contact_area
-
-   !> Solves for the load at which the mean gap has a given value, with the statuses of solve_for_contact_area.
-   subroutine solve_for_mean_gap(solver, mean_gap_over_amplitude, solution)
-      class(contact_solver), intent(inout) :: solver        !! started
-      real(dp), intent(in) :: mean_gap_over_amplitude       !! G, 0 .. 1: P = 1 at 0, no load at 1
-      type(contact_solution), intent(out) :: solution   !! of the load found
-
-      call solve_for(solver, mean_gap, mean_gap_over_amplitude, solution)
-   end subroutine solve_for_mean_gap
-
-   !> Solves for the load at which the approach has a given value, with the statuses of solve_for_contact_area.
-   subroutine solve_for_approach(solver, approach_over_amplitude, solution)
-      class(contact_solver), intent(inout) :: solver        !! started
-      real(dp), intent(in) :: approach_over_amplitude       !! >= 0: no load at 0
-      type(contact_solution), intent(out) :: solution   !! of the load found
-
-      call solve_for(solver, approach, approach_over_amplitude, solution)
-   end subroutine solve_for_approach
-
-   !> Searches at each coarser level of the solver, each from the load of the one before, and then at full accuracy.
+   !> Solves for the load at which a quantity has a given value (C18): searches at each coarser level of the solver, each
+   !> from the load of the one before, and then at full accuracy. The solution has the status not_accurate if the search
+   !> did not find such a load, and not_found if the value is not reached even at the lightest loads: it is then that of
+   !> P -> 0, and P is 0.
    subroutine solve_for(solver, quantity, target, solution)
-      class(contact_solver), intent(inout) :: solver
-      integer, intent(in) :: quantity    !! contact_area, mean_gap or approach
+      class(contact_solver), intent(inout) :: solver    !! started
+      integer, intent(in) :: quantity                   !! contact_area, mean_gap or approach
+      !> Of the area fraction or G 0 .. 1, of the approach [Delta] >= 0: no load at an area or approach of 0 and at G = 1,
+      !> P = 1 at an area of 1 and at G = 0.
       real(dp), intent(in) :: target
-      type(contact_solution), intent(out) :: solution
+      type(contact_solution), intent(out) :: solution   !! of the load found
 
       type(root_search) :: search
       type(solver_traits) :: traits

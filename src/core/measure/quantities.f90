@@ -46,11 +46,11 @@ module wavycon_quantities
    !> Kinds of quantities: a column of tables has the quantity's name and what is below, and no unit, or its name alone,
    !> and the unit.
    integer, parameter, public :: of_length = 1, of_pressure = 2, of_area = 3, of_energy = 4, of_load = 5, &
-      in_length = 6, of_count = 7, of_change = 8
-   character(*), parameter :: behind_name(8) = [character(21) :: '_over_amplitude', '_over_pstar', '_fraction', &
-      '_over_pstar_amplitude', '_fraction', '', '', '']
-   character(*), parameter :: units(8) = [character(12) :: 'length', 'pressure', 'area', 'force*length', '-', &
-      'length', '#', '-']
+      in_length = 6, of_count = 7, number_of_kinds = 7
+   character(*), parameter :: behind_name(number_of_kinds) = [character(21) :: '_over_amplitude', '_over_pstar', '_fraction', &
+      '_over_pstar_amplitude', '_fraction', '', '']
+   character(*), parameter :: units(number_of_kinds) = [character(12) :: 'length', 'pressure', 'area', 'force*length', &
+      '-', 'length', '#']
 
    type :: quantity_type
       integer :: number                  !! one of the names above
@@ -59,6 +59,7 @@ module wavycon_quantities
       character(16) :: listed_in = ''    !! tables in which its columns have no place but that in the list
    end type quantity_type
 
+   !> Those that tables have.
    type(quantity_type), parameter, public :: quantity_list(*) = [ &
       quantity_type(mean_gap, 'mean_gap', of_length, 'details'), &
       quantity_type(approach, 'approach', of_length), &
@@ -74,16 +75,9 @@ module wavycon_quantities
       quantity_type(saddle_pressure, 'saddle_pressure', of_pressure, 'details'), &
       quantity_type(elastic_energy, 'elastic_energy', of_energy, 'summary details'), &
       quantity_type(perimeter, 'perimeter', in_length, 'details'), &
-      quantity_type(polynomial_degree, 'degree', of_count, 'details'), &
-      quantity_type(concentrated_load, 'concentrated_load', of_load), &
-      quantity_type(border_load, 'border_load', of_load), &
-      quantity_type(gap_slope, 'mean_gap_slope', of_change), &
-      quantity_type(area_slope, 'contact_area_slope', of_change), &
-      quantity_type(gap_curvature, 'mean_gap_curvature', of_change), &
-      quantity_type(least_intensity, 'least_intensity', of_change), &
-      quantity_type(most_intensity, 'most_intensity', of_change)]
+      quantity_type(polynomial_degree, 'degree', of_count, 'details')]
 
-   integer, parameter, public :: number_of_quantities = size(quantity_list)
+   integer, parameter, public :: number_of_quantities = most_intensity
 
    !> The three that every solver computes, to its accuracy.
    integer, parameter, public :: main_quantities(3) = [mean_gap, contact_area, peak_pressure]

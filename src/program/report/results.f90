@@ -14,8 +14,8 @@ module wavycon_results
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
-   use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, mean_gap, of_area, &
-      of_energy, of_length, of_pressure, or_nan, quantities
+   use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, mean_gap, &
+      number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: solver_names
    use wavycon_work_sharing, only: work_sharing
@@ -48,7 +48,6 @@ module wavycon_results
       procedure :: in_p_star
       procedure :: number
       procedure :: word
-      procedure, private :: unit
       procedure :: mean_pressure
       procedure :: stress_status
       procedure :: is_solved
@@ -172,6 +171,7 @@ contains
 
       logical :: exists, in_unit, is_error
       integer :: kind, quantity
+      real(dp) :: unit(number_of_kinds)   !! of the core's numbers, in those of the deck
       type(quantities) :: q
 
       associate (surface => self%solver%surface, solution => self%loads(load), scene => self%scene)
@@ -207,7 +207,12 @@ contains
             if (any(quantity == [area_at_hardness, load_at_hardness])) exists = exists .and. surface%has_hardness()
             if (.not. exists) number = not_a_number()
             if (in_unit) then
-               number = self%unit(kind)*number
+               unit = 1.0_dp
+               unit(of_length) = surface%amplitude
+               unit(of_pressure) = scene%p_star
+               unit(of_area) = surface%nominal_area()
+               unit(of_energy) = scene%p_star*surface%amplitude*surface%nominal_area()
+               number = unit(kind)*number
                ! On a flat surface, whose p* is zero, it is the mean pressure.
                if (column == 'peak_pressure' .and. .not. scene%p_star > 0.0_dp) number = self%mean_pressure(load)
             else if (any(kind == [of_pressure, of_energy])) then
@@ -216,27 +221,6 @@ contains
          end select
       end associate
    end function number
-
-   !> The unit of the core's numbers of a kind, in those of the deck.
-   pure real(dp) function unit(self, kind)
-      class(results_type), intent(in) :: self
-      integer, intent(in) :: kind   !! of a quantity
-
-      associate (surface => self%solver%surface)
-         select case (kind)
-         case (of_length)
-            unit = surface%amplitude
-         case (of_pressure)
-            unit = self%scene%p_star
-         case (of_area)
-            unit = surface%nominal_area()
-         case (of_energy)
-            unit = self%scene%p_star*surface%amplitude*surface%nominal_area()
-         case default
-            unit = 1.0_dp
-         end select
-      end associate
-   end function unit
 
    !> The word of a load in a column of tables.
    elemental function word(self, load, column)
