@@ -124,7 +124,8 @@ contains
 
    !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
    !> and the part of the series' last octave; it is unknown where that of the peak is. Without the memory for the
-   !> series there are no stresses.
+   !> series there are no stresses. With free edges the series is that of the map and zeros beyond it, twice as long each
+   !> way, without its images.
    subroutine stresses(self, record, surface, answer)
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
@@ -136,58 +137,35 @@ contains
       type(series_stress), allocatable :: own
       !> Numbers on the whole cell: pressures, series, waves; twice as many from a rotated cell.
       integer(int64), parameter :: numbers_a_point = 8
+      integer :: cells   ! that the series is as long as, each way
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
 
       allocate (own)
-      if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
-         own%exist = .false.
-         call move_alloc(own, answer)
-         return
+      own%exist = has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))
+      if (own%exist) then
+         cells = merge(2, 1, surface%has_free_edges)
+         associate (p => self%edge%pressure_or_gap)
+            allocate (values(cells*size(p, 1), cells*size(p, 2)), source=0.0_dp)
+            values(:size(p, 1), :size(p, 2)) = max(p, 0.0_dp)
+         end associate
+         error = record%error(peak_pressure)
+         ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
+         ! be P - 1.
+         if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
+         call transform%start(shape(values), self%edge%even .and. cells == 1, whole=.true.)
+         call transform%series(values, pressure)
+         deallocate (values)
+         if (self%rotated) pressure = to_difference_angles(pressure)
+         call start_series_stress(own, surface, pressure, record%pbar_over_pstar/cells**2, or_nan(error), &
+                                  is_sampled=.true.)
+         if (surface%has_free_edges) then
+            call transform%start(self%edge%slab%points, self%edge%even, whole=.true.)
+            call own%remove_images([transform%x_angle(1), transform%y_angle(1)])
+         end if
       end if
-      if (surface%has_free_edges) then
-         call stresses_with_free_edges(self, record, surface, answer)
-         return
-      end if
-      values = max(self%edge%pressure_or_gap, 0.0_dp)
-      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
-      ! be P - 1.
-      error = record%error(peak_pressure)
-      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
-      error = or_nan(error)
-      call transform%start(shape(values), self%edge%even, whole=.true.)
-      call transform%series(values, pressure)
-      deallocate (values)
-      if (self%rotated) pressure = to_difference_angles(pressure)
-      call start_series_stress(own, surface, pressure, record%pbar_over_pstar, pressure_error=error, is_sampled=.true.)
       call move_alloc(own, answer)
    end subroutine stresses
-
-   !> The stresses of the series that interpolates the pressures of the map and zeros beyond it, without its images.
-   subroutine stresses_with_free_edges(self, record, surface, answer)
-      class(grid_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
-      type(surface_type), intent(in) :: surface
-      class(stress_fields), allocatable, intent(out) :: answer
-
-      type(fourier_series) :: pressure
-      type(series_stress), allocatable :: own
-      type(grid_transform) :: transform
-      real(dp), allocatable :: values(:, :)
-
-      allocate (own)
-      associate (points => self%edge%slab%points)
-         allocate (values(2*points(1), 2*points(2)), source=0.0_dp)
-         values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
-         call transform%start(shape(values), .false., whole=.true.)
-         call transform%series(values, pressure)
-         call start_series_stress(own, surface, pressure, record%pbar_over_pstar/4, &
-                                  or_nan(record%error(peak_pressure)), is_sampled=.true.)
-         call transform%start(points, self%edge%even, whole=.true.)
-      end associate
-      call own%remove_images([transform%x_angle(1), transform%y_angle(1)])
-      call move_alloc(own, answer)
-   end subroutine stresses_with_free_edges
 
    !> From solutions of the same grid at loads near by. Unknown with a hardness, and of a distributed grid.
    subroutine derivatives(self, record, surface, answer)

@@ -199,7 +199,7 @@ contains
          name = trim(listed%name)//trim(behind_name(listed%kind))
          unit = '['//trim(units(listed%kind))//'] '
          if (name /= listed%name) columns = columns//name//'[-] '//name//'_error[-] '
-         if (name /= listed%name .and. table == 'details') cycle
+         if (name /= listed%name .and. (table == 'details' .or. unit == '[-] ')) cycle
          columns = columns//trim(listed%name)//unit
          if (listed%kind /= of_count) columns = columns//trim(listed%name)//'_error'//unit
       end do

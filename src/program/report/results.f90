@@ -10,14 +10,13 @@ module wavycon_results
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_kind, column_list, column_name, column_unit, longest_word, memory_table
+   use wavycon_memory_table, only: column_kind, column_list, column_name, column_unit, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, mean_gap, &
       number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
-   use wavycon_solution_record, only: solver_names
    use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
    private
@@ -47,7 +46,6 @@ module wavycon_results
       procedure :: unit_in_words
       procedure :: in_p_star
       procedure :: number
-      procedure :: word
       procedure :: mean_pressure
       procedure :: stress_status
       procedure :: is_solved
@@ -221,17 +219,6 @@ contains
          end select
       end associate
    end function number
-
-   !> The word of a load in a column of tables.
-   elemental function word(self, load, column)
-      class(results_type), intent(in) :: self
-      integer, intent(in) :: load
-      character(*), intent(in) :: column   !! 'solver' or 'status'
-      character(longest_word) :: word
-
-      word = status_name(self%loads(load)%status)
-      if (column == 'solver') word = solver_names(self%loads(load)%solver)
-   end function word
 
    !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
    pure real(dp) function mean_pressure(self, load)

@@ -2,12 +2,13 @@
 !> src/README.md describes how to add a table.
 module wavycon_table
    use wavycon_contact_solver, only: solver_traits
+   use wavycon_contact_status, only: status_name
    use wavycon_error, only: error_type
    use wavycon_formula_kinds, only: paper_waves
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_index, logical_value, text_value
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: column_kind, column_list, column_name, of_words
+   use wavycon_memory_table, only: column_kind, column_list, column_name, longest_word, of_words
    use wavycon_methods, only: solvers_for
    use wavycon_output_file, only: output_file
    use wavycon_paper_wave, only: is_paper_wave
@@ -207,11 +208,11 @@ contains
 
       of_load = results%loads(load)%quantities
       if (self%needs_fields) call results%loads(load)%details(of_load)
-      associate (columns => column_list(self%columns))
+      associate (columns => column_list(self%columns), solution => results%loads(load))
          associate (names => column_name(pack(columns, column_kind(columns) /= of_words)), &
-                    words => column_name(pack(columns, column_kind(columns) == of_words)))
+                    words => [character(longest_word) :: solver_names(solution%solver), status_name(solution%status)])
             call file%put_row([(results%number(load, trim(names(i)), of_load), i=1, size(names))], &
-                              [(results%word(load, trim(words(i))), i=1, size(words))])
+                              pack(words, [any(columns == 'solver[word]'), .true.]))
          end associate
       end associate
    end subroutine put_quantities
