@@ -42,6 +42,7 @@ module wavycon_quantities
    !> at a distance rho from the edge: least and largest k^2 along it over its mean, weighted with the edge's velocity.
    integer, parameter, public :: gap_slope = 18, area_slope = 19, gap_curvature = 20, least_intensity = 21, &
       most_intensity = 22
+   integer, parameter, public :: number_of_quantities = 22
 
    !> Kinds of quantities: a column of tables has the quantity's name and what is below, and no unit, or its name alone,
    !> and the unit.
@@ -76,8 +77,6 @@ module wavycon_quantities
       quantity_type(elastic_energy, 'elastic_energy', of_energy, 'summary details'), &
       quantity_type(perimeter, 'perimeter', in_length, 'details'), &
       quantity_type(polynomial_degree, 'degree', of_count, 'details')]
-
-   integer, parameter, public :: number_of_quantities = most_intensity
 
    !> The three that every solver computes, to its accuracy.
    integer, parameter, public :: main_quantities(3) = [mean_gap, contact_area, peak_pressure]
