@@ -5,13 +5,14 @@
 module wavycon_adhesive_curve
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_constants, only: pi
-   use wavycon_contact_measures, only: is_known, load_derivatives, scaled_error
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: approach, area_slope, contact_area, gap_curvature, gap_slope, is_known, &
+      least_intensity, mean_gap, most_intensity, quantities, scaled
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -197,7 +198,7 @@ contains
       type(adhesive_point), intent(out) :: point
 
       type(contact_solution) :: solution
-      type(load_derivatives) :: slopes
+      type(quantities) :: slopes
       real(dp) :: p1, tension, tension_error
 
       p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
@@ -205,22 +206,20 @@ contains
       if (solution%is_good()) call solution%derivatives(solver%surface, slopes)
       point%t = t
       point%p1 = p1
-      point%exists = is_known(slopes%area_slope) .and. is_known(slopes%gap_curvature) &
-         .and. min(slopes%area_slope, slopes%gap_curvature) > 0.0_dp
+      point%exists = is_known(slopes%value(area_slope)) .and. is_known(slopes%value(gap_curvature)) &
+         .and. min(slopes%value(area_slope), slopes%value(gap_curvature)) > 0.0_dp
       if (.not. point%exists) return
-      tension = sqrt(2*curve%work*slopes%area_slope/slopes%gap_curvature)
-      tension_error = scaled_error(slopes%area_slope_error, 0.5_dp*tension/slopes%area_slope) &
-                      + scaled_error(slopes%gap_curvature_error, 0.5_dp*tension/slopes%gap_curvature)
+      tension = sqrt(2*curve%work*slopes%value(area_slope)/slopes%value(gap_curvature))
+      tension_error = scaled(slopes%error(area_slope), 0.5_dp*tension/slopes%value(area_slope)) &
+                      + scaled(slopes%error(gap_curvature), 0.5_dp*tension/slopes%value(gap_curvature))
       point%load = p1 - tension
       point%load_error = tension_error
-      associate (measures => solution%measures)
-         point%approach = measures%approach_over_amplitude + slopes%gap_slope*tension
-         point%approach_error = measures%mean_gap_error + scaled_error(slopes%gap_slope_error, tension) &
-                                + scaled_error(tension_error, -slopes%gap_slope)
-         point%area = measures%contact_area_fraction
-         point%area_error = measures%contact_area_error
-      end associate
-      point%release_range = slopes%intensity_range
+      point%approach = solution%value(approach) + slopes%value(gap_slope)*tension
+      point%approach_error = solution%error(mean_gap) + scaled(slopes%error(gap_slope), tension) &
+                             + scaled(tension_error, -slopes%value(gap_slope))
+      point%area = solution%value(contact_area)
+      point%area_error = solution%error(contact_area)
+      point%release_range = slopes%value([least_intensity, most_intensity])
    end subroutine solve_point
 
    !> An extreme of P between two points, by parabolas through three points that come closer. It is not reliable

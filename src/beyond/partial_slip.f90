@@ -2,11 +2,12 @@
 !> friction times the difference of two normal contacts; and how unlike bodies shear. Equations (I..) are those of
 !> README.md in this directory.
 module wavycon_partial_slip
-   use wavycon_contact_measures, only: is_known, load_derivatives, or_nan, unknown
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: not_found
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: approach, elastic_energy, gap_curvature, gap_slope, is_known, mean_gap, or_nan, &
+      quantities, unknown
    use wavycon_solution_record, only: no_solution
    implicit none (type, external)
    private
@@ -54,14 +55,14 @@ contains
       if (solution%is_good()) slip%status = slip%stick%status
       if (.not. with_curve) return
       allocate (slip%approach_change(curve_points), source=0.0_dp)
-      associate (change => slip%approach_change, approach => solution%measures%approach_over_amplitude)
+      associate (change => slip%approach_change)
          do i = 2, curve_points - 1
             associate (part => real(i - 1, dp)/(curve_points - 1))
                call solver%solve(solution%pbar_over_pstar - part*tangential/friction, on_the_way)
             end associate
-            change(i) = approach - approach_of(on_the_way)
+            change(i) = solution%value(approach) - approach_of(on_the_way)
          end do
-         change(curve_points) = approach - approach_of(slip%stick)
+         change(curve_points) = solution%value(approach) - approach_of(slip%stick)
       end associate
    end subroutine solve_partial_slip
 
@@ -69,7 +70,7 @@ contains
    pure real(dp) function approach_of(solution)
       type(contact_solution), intent(in) :: solution
 
-      approach_of = or_nan(merge(solution%measures%approach_over_amplitude, unknown, solution%has_numbers()))
+      approach_of = or_nan(merge(solution%value(approach), unknown, solution%has_numbers()))
    end function approach_of
 
    !> The relative tangential displacement of the bodies over kappa f [Delta] (I11), and its error estimate.
@@ -78,10 +79,10 @@ contains
       type(contact_solution), intent(in) :: stick      !! at P*
       real(dp) :: answer(2)
 
-      answer(1) = solution%measures%approach_over_amplitude - stick%measures%approach_over_amplitude
+      answer(1) = solution%value(approach) - stick%value(approach)
       ! With rounding: each approach is 1 - G unless there are free edges.
-      answer(2) = solution%measures%mean_gap_error + stick%measures%mean_gap_error + epsilon(1.0_dp)* &
-                  (2.0_dp + solution%measures%approach_over_amplitude + stick%measures%approach_over_amplitude)
+      answer(2) = solution%error(mean_gap) + stick%error(mean_gap) + epsilon(1.0_dp)* &
+                  (2.0_dp + solution%value(approach) + stick%value(approach))
    end function relative_displacement
 
    !> The energy that a cycle between Q and -Q takes per nominal area, over kappa f^2 [p* Delta], and its error
@@ -90,25 +91,24 @@ contains
    pure function cycle_energy(solution, stick, slopes) result(answer)
       type(contact_solution), intent(in) :: solution   !! at P
       type(contact_solution), intent(in) :: stick      !! at P*
-      type(load_derivatives), intent(in) :: slopes(2)  !! of both
+      type(quantities), intent(in) :: slopes(2)  !! of both
       real(dp) :: answer(2)
 
       real(dp) :: bend, errors(2), half, rise
 
-      associate (p => solution%pbar_over_pstar + stick%pbar_over_pstar, u => solution%measures, &
-                 u_stick => stick%measures)
-         answer = p*relative_displacement(solution, stick)
-         answer(1) = 4*(answer(1) - 2*(u%elastic_energy - u_stick%elastic_energy))
-         answer(2) = 4*(answer(2) + 2*(u%elastic_energy_error + u_stick%elastic_energy_error) &
-                        + 2*epsilon(1.0_dp)*(u%elastic_energy + u_stick%elastic_energy))
+      answer = (solution%pbar_over_pstar + stick%pbar_over_pstar)*relative_displacement(solution, stick)
+      associate (u => solution%value(elastic_energy), u_stick => stick%value(elastic_energy))
+         answer(1) = 4*(answer(1) - 2*(u - u_stick))
+         answer(2) = 4*(answer(2) + 2*(solution%error(elastic_energy) + stick%error(elastic_energy)) &
+                        + 2*epsilon(1.0_dp)*(u + u_stick))
       end associate
       if (.not. is_known(answer(2))) answer = unknown
-      if (.not. all(is_known(slopes%gap_slope_error) .and. is_known(slopes%gap_curvature_error))) return
+      if (.not. all(is_known(slopes%error(gap_slope)) .and. is_known(slopes%error(gap_curvature)))) return
       half = (solution%pbar_over_pstar - stick%pbar_over_pstar)/2
-      rise = (slopes(1)%gap_slope - slopes(2)%gap_slope)/2
-      bend = half*sum(slopes%gap_curvature)/2
-      errors = [sum(slopes%gap_slope_error - epsilon(1.0_dp)*slopes%gap_slope)/2, &
-                half*sum(slopes%gap_curvature_error)/2]
+      rise = (slopes(1)%value(gap_slope) - slopes(2)%value(gap_slope))/2
+      bend = half*sum(slopes%value(gap_curvature))/2
+      errors = [sum(slopes%error(gap_slope) - epsilon(1.0_dp)*slopes%value(gap_slope))/2, &
+                half*sum(slopes%error(gap_curvature))/2]
       associate (error => 16*half**2*(abs(rise - bend)/15 + 2*errors(1)/5 + errors(2)/15))
          if (error < answer(2)) answer = [16*half**2*(2*rise/5 - bend/15), error]
       end associate

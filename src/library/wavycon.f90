@@ -8,7 +8,6 @@ module wavycon
    use wavycon_series_contact, only: series_contact, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_details, contact_measures
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_region, contact_spots
@@ -18,7 +17,7 @@ module wavycon
    use wavycon_contact_contours, only: contact_contour
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
-   use wavycon_find_load, only: solve_for_contact_area, solve_for_mean_gap
+   use wavycon_find_load, only: solve_for
    use wavycon_fitted_contact, only: fitted_contact, fitted_options
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
@@ -27,6 +26,9 @@ module wavycon
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_memory_table, only: memory_table, of_integers, of_reals, of_words
+   use wavycon_quantities, only: approach, area_at_hardness, contact_area, contact_area_corrected, &
+      contact_area_counted, elastic_energy, is_known, load_at_hardness, mean_gap, min_pressure, peak_pressure, &
+      perimeter, quantities, quantity_list, saddle_gap, saddle_pressure, trough_gap, unknown
    use wavycon_run_scene, only: run_deck
    use wavycon_session_fields, only: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
    use wavycon_solver_progress, only: solver_progress

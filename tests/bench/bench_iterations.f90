@@ -6,6 +6,7 @@
 !> grids, each weighted by its points over those of the last. The last line has the most iterations on a last grid.
 module bench_iteration_count
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: contact_area_counted
    use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
 
@@ -87,7 +88,7 @@ program bench_iterations
                                       surface%points, answer, progress, 1e-8_dp)
                weighted = sum(numbers(:grids)*(real(sides(:grids), dp)/side)**2)
                write (output_unit, '(2x,i6,i15,f10.3,i6,f11.5,i25,f21.1,es10.1)') side, cutoffs(j), areas(i), seed, &
-                  answer%measures%contact_area_counted_fraction, numbers(grids), weighted, answer%state%residual
+                  answer%value(contact_area_counted), numbers(grids), weighted, answer%state%residual
                flush (output_unit)
                worst = max(worst, numbers(grids))
             end do

@@ -8,6 +8,7 @@ module stress_kkt_of_grid
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: approach
    use wavycon_solution_record, only: solution_record
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -69,7 +70,7 @@ contains
             do i = 1, m
                undeformed = undeformed_gap(surface, source%edge, i, j)
                kkt%depth = max(kkt%depth, real(abs(undeformed), dp))
-               gap(i, j) = gap(i, j) + undeformed - record%measures%approach_over_amplitude
+               gap(i, j) = gap(i, j) + undeformed - record%value(approach)
             end do
          end do
          kkt%residual = real(sqrt((sum(merge(gap, min(gap, 0.0_qp), contact)**2, free .or. .not. contact) &

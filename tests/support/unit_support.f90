@@ -5,12 +5,12 @@
 module unit_support
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon, only: dp, error_type, surface_type, wave_1d, wave_2d
-   use wavycon_contact_measures, only: contact_measures
    use wavycon_scene, only: scene_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_map_file, only: read_height_map
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: integer_text
+   use wavycon_quantities, only: main_quantities, quantities
    use wavycon_read_deck, only: parse_deck
    use wavycon_roughness, only: roughness_type
    use wavycon_system, only: remove_file
@@ -50,18 +50,18 @@ contains
 
    !> Mean gap [Delta], contact area over the nominal one and peak pressure [p*].
    pure function values_of(measures) result(values)
-      type(contact_measures), intent(in) :: measures
+      type(quantities), intent(in) :: measures
       real(dp) :: values(3)
 
-      values = [measures%mean_gap_over_amplitude, measures%contact_area_fraction, measures%peak_pressure_over_pstar]
+      values = measures%value(main_quantities)
    end function values_of
 
    !> Their error estimates.
    pure function errors_of(measures) result(errors)
-      type(contact_measures), intent(in) :: measures
+      type(quantities), intent(in) :: measures
       real(dp) :: errors(3)
 
-      errors = [measures%mean_gap_error, measures%contact_area_error, measures%peak_pressure_error]
+      errors = measures%error(main_quantities)
    end function errors_of
 
    !> Numbers spread evenly over 0 .. 1.

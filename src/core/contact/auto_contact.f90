@@ -11,6 +11,7 @@ module wavycon_auto_contact
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: main_quantities
    use wavycon_solution_record, only: by_choice
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -92,7 +93,8 @@ contains
       if (.not. slab%any(.not. solution%is_good())) return
       call self%grid_contact%solve_partial_contact(pbar_over_pstar, on_grids)
       if (slab%any(on_grids%status == converged .or. on_grids%status == interrupted .or. &
-                   on_grids%largest_error() <= solution%largest_error())) call on_grids%move_to(solution)
+                   maxval(on_grids%error(main_quantities)) <= maxval(solution%error(main_quantities)))) &
+         call on_grids%move_to(solution)
    end subroutine solve_partial_contact
 
    !> The traits of the first solver, with the finest grid of both.

@@ -7,7 +7,6 @@ module wavycon_ball_source
    use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures, load_derivatives
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: closed_form
    use wavycon_elastic_body, only: elastic_body
@@ -19,6 +18,8 @@ module wavycon_ball_source
    use wavycon_gsl, only: gsl_sf_ellint_RD, gsl_sf_ellint_RF
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
+      mean_gap, peak_pressure, quantities
    use wavycon_solution_record, only: by_closed_form, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -66,7 +67,7 @@ contains
       logical, intent(out) :: solved
 
       type(ball_source), allocatable :: source
-      real(dp) :: approach
+      real(dp) :: displaced
 
       allocate (source)
       source%accuracy = accuracy
@@ -74,18 +75,17 @@ contains
          contact = hertz_contact(ball_radii(surface), 1.0_dp, force=pbar_over_pstar*unit*surface%nominal_area())
          solved = all(2*contact%half_axis < surface%sides()) .and. contact%peak_pressure < surface%hardness*unit
          if (.not. solved) return
-         approach = contact%approach/surface%amplitude
+         displaced = contact%approach/surface%amplitude
          solution%pbar_over_pstar = pbar_over_pstar
          solution%status = closed_form
          solution%solver = by_closed_form
-         ! The energy is the integral of force d(approach), and the force goes with the power 3/2.
-         solution%measures = contact_measures( &
-                             mean_gap_over_amplitude=1.0_dp - approach + mean_displacement(surface, contact), &
-                             approach_over_amplitude=approach, &
-                             contact_area_fraction=contact%contact_area()/surface%nominal_area(), &
-                             peak_pressure_over_pstar=contact%peak_pressure/unit, &
-                             min_pressure_over_pstar=0.0_dp, elastic_energy=0.4_dp*pbar_over_pstar*approach, &
-                             elastic_energy_error=0.0_dp)
+         solution%value(mean_gap) = 1.0_dp - displaced + mean_displacement(surface, contact)
+         solution%value(approach) = displaced
+         solution%value(contact_area) = contact%contact_area()/surface%nominal_area()
+         solution%value(peak_pressure) = contact%peak_pressure/unit
+         ! The integral of force d(approach), where the force goes with the power 3/2.
+         solution%value(elastic_energy) = 0.4_dp*pbar_over_pstar*displaced
+         solution%error(elastic_energy) = 0.0_dp
       end associate
       call move_alloc(source, solution%source)
    end subroutine solve_ball
@@ -266,13 +266,13 @@ contains
       class(ball_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
-      associate (unused => self, unused_too => surface, p => record%pbar_over_pstar, &
-                 approach => record%measures%approach_over_amplitude, area => record%measures%contact_area_fraction)
-         answer = load_derivatives(gap_slope=-approach*2/(3*p), gap_slope_error=0.0_dp, area_slope=area*2/(3*p), &
-                                   area_slope_error=0.0_dp, gap_curvature=approach*2/(9*p**2), &
-                                   gap_curvature_error=0.0_dp)
+      associate (unused => self, unused_too => surface, p => record%pbar_over_pstar)
+         answer%value(gap_slope) = -record%value(approach)*2/(3*p)
+         answer%value(area_slope) = record%value(contact_area)*2/(3*p)
+         answer%value(gap_curvature) = record%value(approach)*2/(9*p**2)
+         answer%error([gap_slope, area_slope, gap_curvature]) = 0.0_dp
       end associate
    end subroutine derivatives
 

@@ -3,7 +3,6 @@ module wavycon_closed_form_contact
    use wavycon_ball_source, only: solve_ball
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_measures, load_derivatives
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: closed_form, not_found
@@ -13,6 +12,8 @@ module wavycon_closed_form_contact
    use wavycon_free_edges, only: is_ball
    use wavycon_kinds, only: dp
    use wavycon_paper_wave, only: is_paper_wave
+   use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
+      least_intensity, mean_gap, most_intensity, peak_pressure, quantities
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
@@ -100,11 +101,12 @@ contains
          solution%pbar_over_pstar = pbar_over_pstar
          solution%status = closed_form
          solution%solver = by_closed_form
-         solution%measures = contact_measures( &
-                             mean_gap_over_amplitude=gap, approach_over_amplitude=1.0_dp - gap, &
-                             contact_area_fraction=westergaard_contact_area_fraction(pbar_over_pstar), &
-                             peak_pressure_over_pstar=westergaard_peak_pressure_over_pstar(pbar_over_pstar), &
-                             min_pressure_over_pstar=0.0_dp, elastic_energy=energy, elastic_energy_error=0.0_dp)
+         solution%value(mean_gap) = gap
+         solution%value(approach) = 1.0_dp - gap
+         solution%value(contact_area) = westergaard_contact_area_fraction(pbar_over_pstar)
+         solution%value(peak_pressure) = westergaard_peak_pressure_over_pstar(pbar_over_pstar)
+         solution%value(elastic_energy) = energy
+         solution%error(elastic_energy) = 0.0_dp
       end associate
    end subroutine solve_partial_contact
 
@@ -138,7 +140,7 @@ contains
       real(dp), allocatable, intent(out) :: loads(:)
 
       associate (unused => self, unused_too => surface); end associate
-      call make_strips([pi*record%measures%contact_area_fraction], .true., .true., curves)
+      call make_strips([pi*record%value(contact_area)], .true., .true., curves)
       loads = [1.0_dp]
    end subroutine contact_contours
 
@@ -194,13 +196,14 @@ contains
       class(closed_form_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       associate (unused => self, unused_too => surface, p => record%pbar_over_pstar)
-         answer = load_derivatives(gap_slope=log(p), gap_slope_error=0.0_dp, &
-                                   area_slope=1.0_dp/(pi*sqrt(p*(1.0_dp - p))), area_slope_error=0.0_dp, &
-                                   gap_curvature=1.0_dp/p, gap_curvature_error=0.0_dp, &
-                                   intensity_range=1.0_dp)
+         answer%value(gap_slope) = log(p)
+         answer%value(area_slope) = 1.0_dp/(pi*sqrt(p*(1.0_dp - p)))
+         answer%value(gap_curvature) = 1.0_dp/p
+         answer%value([least_intensity, most_intensity]) = 1.0_dp
+         answer%error([gap_slope, area_slope, gap_curvature]) = 0.0_dp
       end associate
    end subroutine derivatives
 

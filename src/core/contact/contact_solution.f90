@@ -4,7 +4,6 @@
 !> surface's cell.
 module wavycon_contact_solution
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_contact_measures, only: contact_details, load_derivatives
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_spots, find_spots, one_region
    use wavycon_contact_status, only: full_contact, interrupted, is_good_status, no_load, no_memory
@@ -14,6 +13,7 @@ module wavycon_contact_solution
    use wavycon_full_contact, only: full_contact_series
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, peak_pressure, quantities, unknown
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_solution_record, only: by_grids, record_words, solution_record
@@ -36,7 +36,6 @@ module wavycon_contact_solution
       procedure :: move_to
       procedure :: is_good
       procedure :: has_numbers
-      procedure :: largest_error
       procedure :: fields
       procedure :: contact_contours
       procedure :: stresses
@@ -75,13 +74,6 @@ contains
 
       has_numbers = self%is_good() .or. allocated(self%source)
    end function has_numbers
-
-   !> The largest error estimate of mean gap [Delta], contact area fraction and peak pressure [p*].
-   pure real(dp) function largest_error(self)
-      class(contact_solution), intent(in) :: self
-
-      largest_error = maxval(self%measures%errors())
-   end function largest_error
 
    !> Pressure, displacement and gap. NaN for a partial contact without a source.
    subroutine fields(self, surface, answer)
@@ -137,7 +129,7 @@ contains
          call self%coefficients(surface, pressure)
          allocate (own)
          call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
-                                  pressure_error=rounding*self%measures%peak_pressure_over_pstar, is_sampled=.false.)
+                                  pressure_error=rounding*self%value(peak_pressure), is_sampled=.false.)
          call move_alloc(own, answer)
       end if
    end subroutine stresses
@@ -154,9 +146,9 @@ contains
       logical :: is_full
 
       call self%contact_contours(surface, curves, loads)
-      is_full = self%measures%contact_area_fraction > 0.5_dp
+      is_full = self%value(contact_area) > 0.5_dp
       if (size(curves) > 0) then
-         call find_spots(curves, self%measures%contact_area_fraction, surface%dimension, surface%length, loads, &
+         call find_spots(curves, self%value(contact_area), surface%dimension, surface%length, loads, &
                          surface%mirrored, answer)
       else if (self%is_good() .or. is_full) then
          call one_region(is_full, surface%dimension, answer)
@@ -179,14 +171,19 @@ contains
       end if
    end subroutine coefficients
 
-   !> Further numbers of the solution, such as the strain energy.
-   subroutine details(self, answer, found)
+   !> The quantities with those that are only computed when they are asked for. Without a source, which has the
+   !> energy, that is unknown.
+   subroutine details(self, answer)
       class(contact_solution), intent(in) :: self
-      type(contact_details), intent(out) :: answer   !! to be used only if found
-      logical, intent(out) :: found                  !! whether this solution has them
+      type(quantities), intent(out) :: answer
 
-      found = allocated(self%source)
-      if (found) call self%source%details(answer, found)
+      answer = self%quantities
+      if (allocated(self%source)) then
+         call self%source%details(answer)
+      else
+         answer%value(elastic_energy) = unknown
+         answer%error(elastic_energy) = unknown
+      end if
    end subroutine details
 
    !> How the solution changes with the load. In full contact the gap stays closed; without load and for a partial
@@ -194,12 +191,13 @@ contains
    subroutine derivatives(self, surface, answer)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface      !! that was solved
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       if (allocated(self%source)) then
          call self%source%derivatives(self%solution_record, surface, answer)
       else if (self%status == full_contact) then
-         answer = load_derivatives(gap_slope=0.0_dp, gap_slope_error=0.0_dp, area_slope=0.0_dp, area_slope_error=0.0_dp)
+         answer%value([gap_slope, area_slope]) = 0.0_dp
+         answer%error([gap_slope, area_slope]) = 0.0_dp
       end if
    end subroutine derivatives
 
@@ -251,24 +249,19 @@ contains
 
    !> Restores what pack_solution made. A grid that is distributed is restored by the words of all ranks that had
    !> columns of it: called for one after the other, in any order.
-   subroutine unpack_solution(self, words, whole, complete, understood)
+   subroutine unpack_solution(self, words, whole, complete)
       class(contact_solution), intent(inout) :: self     !! without a source at first
-      integer(int64), intent(in) :: words(:)
+      integer(int64), intent(in) :: words(:)             !! that the same version has packed for the same surface
       logical, intent(in) :: whole                       !! whether all columns of a distributed grid are needed
       logical, intent(out) :: complete                   !! whether nothing is missing any more
-      logical, intent(out) :: understood                 !! .false. if these are not the words of a solution
 
-      complete = .false.
-      understood = size(words) >= record_words
-      if (.not. understood) return
       self%solution_record = transfer(words(:record_words), self%solution_record)
       complete = size(words) == record_words
       if (complete) return
       if (.not. allocated(self%source)) allocate (grid_source :: self%source)
       select type (source => self%source)
       type is (grid_source)
-         call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, understood)
-         if (understood) complete = source%has_all_columns()
+         call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, complete)
       end select
    end subroutine unpack_solution
 

@@ -2,11 +2,11 @@
 !> solvers and solutions work together.
 module wavycon_contact_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_contact_measures, only: full_contact_measures
+   use wavycon_contact_measures, only: full_contact_quantities
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
-   use wavycon_full_contact, only: full_contact_energy
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: elastic_energy
    use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
@@ -97,17 +97,15 @@ contains
             solution%status = not_finite
          else if (pbar_over_pstar <= 0.0_dp) then
             solution%status = no_load
-            solution%measures%elastic_energy = 0.0_dp
-            solution%measures%elastic_energy_error = 0.0_dp
+            solution%value(elastic_energy) = 0.0_dp
+            solution%error(elastic_energy) = 0.0_dp
          else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
             solution%solution_record = no_solution(pbar_over_pstar, no_solver, above_hardness)
          else if (pbar_over_pstar >= 1.0_dp .and. .not. surface%has_free_edges .and. &
                   (.not. surface%has_hardness() .or. &
                    pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
             solution%status = full_contact
-            solution%measures = full_contact_measures(pbar_over_pstar, surface%full_contact_peak)
-            solution%measures%elastic_energy = full_contact_energy(surface)
-            solution%measures%elastic_energy_error = 0.0_dp
+            solution%quantities = full_contact_quantities(surface, pbar_over_pstar)
          else
             shall_stop = .false.
             if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)

@@ -4,11 +4,11 @@
 !> Positions of fields and edges are the angles X, Y of the surface's cell.
 module wavycon_field_source
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_contact_measures, only: contact_details, load_derivatives
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: quantities
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -74,14 +74,12 @@ contains
       associate (unused => self, unused_too => record, none => series); end associate
    end subroutine coefficients
 
-   !> Further numbers of the solution, such as the strain energy. Here there are none.
-   subroutine details(self, answer, found)
+   !> Adds the quantities that are only computed when they are asked for. Here there are none.
+   subroutine details(self, answer)
       class(field_source), intent(in) :: self
-      type(contact_details), intent(out) :: answer   !! to be used only if found
-      logical, intent(out) :: found                  !! whether there are any
+      type(quantities), intent(inout) :: answer   !! with those of the record
 
-      associate (unused => self, none => answer); end associate
-      found = .false.
+      associate (unused => self, unchanged => answer); end associate
    end subroutine details
 
    !> How the solution changes with the load. Here nothing is known.
@@ -89,7 +87,7 @@ contains
       class(field_source), intent(in) :: self
       type(solution_record), intent(in) :: record    !! of the solution
       type(surface_type), intent(in) :: surface      !! that was solved
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       associate (unused => self, unused_too => record, unused_three => surface, none => answer); end associate
    end subroutine derivatives

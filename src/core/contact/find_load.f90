@@ -5,25 +5,23 @@
 !> Gaps are compared as gaps, and logit t = -logit G: 1 - G would lose the digits of a small G. Where neither P nor the
 !> approach has a largest value, with free edges or a hardness, ln takes the place of logit.
 module wavycon_find_load
-   use wavycon_contact_measures, only: is_known
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: flattest, fraction_of_error, largest_fraction, least_fraction, lightest_load, &
       longest_step, most_solves, steepest, value_roundings
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: approach, contact_area, is_known, mean_gap
    implicit none (type, external)
    private
 
-   public :: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
-
-   integer, parameter :: contact_area = 1, mean_gap = 2, approach = 3
+   public :: solve_for
 
    !> What is searched for, and how far the search is. The slope lies between 1/2 (area of a line contact at light load)
    !> and 5/2 (gap near full contact in 2-D).
    type :: root_search
       real(dp) :: target = 0.5_dp          !! the contact area fraction, G or the approach [Delta]
-      integer :: quantity = contact_area   !! which of them: one of the names above
+      integer :: quantity = contact_area   !! which of them
       logical :: is_bounded = .true.       !! whether the target is below 1; only an approach may not be
       !> Whether it is the least load at which all of a map with free edges touches: the area is 1 at heavier loads too.
       logical :: closes = .false.
@@ -35,41 +33,17 @@ module wavycon_find_load
 
 contains
 
-   !> Solves for the load at which the contact area has a given value: (C18). The solution has the status not_accurate
-   !> if the search did not find such a load, and not_found if the area is larger even at the lightest loads: it is then
-   !> that of P -> 0, and P is 0.
-   subroutine solve_for_contact_area(solver, contact_area_fraction, solution)
-      class(contact_solver), intent(inout) :: solver        !! started
-      real(dp), intent(in) :: contact_area_fraction         !! 0 .. 1: no load at 0, P = 1 at 1
-      type(contact_solution), intent(out) :: solution   !! of the load found
-
-      call solve_for(solver, contact_area, contact_area_fraction, solution)
-   end subroutine solve_for_contact_area
-
-   !> Solves for the load at which the mean gap has a given value, with the statuses of solve_for_contact_area.
-   subroutine solve_for_mean_gap(solver, mean_gap_over_amplitude, solution)
-      class(contact_solver), intent(inout) :: solver        !! started
-      real(dp), intent(in) :: mean_gap_over_amplitude       !! G, 0 .. 1: P = 1 at 0, no load at 1
-      type(contact_solution), intent(out) :: solution   !! of the load found
-
-      call solve_for(solver, mean_gap, mean_gap_over_amplitude, solution)
-   end subroutine solve_for_mean_gap
-
-   !> Solves for the load at which the approach has a given value, with the statuses of solve_for_contact_area.
-   subroutine solve_for_approach(solver, approach_over_amplitude, solution)
-      class(contact_solver), intent(inout) :: solver        !! started
-      real(dp), intent(in) :: approach_over_amplitude       !! >= 0: no load at 0
-      type(contact_solution), intent(out) :: solution   !! of the load found
-
-      call solve_for(solver, approach, approach_over_amplitude, solution)
-   end subroutine solve_for_approach
-
-   !> Searches at each coarser level of the solver, each from the load of the one before, and then at full accuracy.
+   !> Solves for the load at which a quantity has a given value (C18): searches at each coarser level of the solver, each
+   !> from the load of the one before, and then at full accuracy. The solution has the status not_accurate if the search
+   !> did not find such a load, and not_found if the value is not reached even at the lightest loads: it is then that of
+   !> P -> 0, and P is 0.
    subroutine solve_for(solver, quantity, target, solution)
-      class(contact_solver), intent(inout) :: solver
-      integer, intent(in) :: quantity    !! one of the names above
+      class(contact_solver), intent(inout) :: solver    !! started
+      integer, intent(in) :: quantity                   !! contact_area, mean_gap or approach
+      !> Of the area fraction or G 0 .. 1, of the approach [Delta] >= 0: no load at an area or approach of 0 and at G = 1,
+      !> P = 1 at an area of 1 and at G = 0.
       real(dp), intent(in) :: target
-      type(contact_solution), intent(out) :: solution
+      type(contact_solution), intent(out) :: solution   !! of the load found
 
       type(root_search) :: search
       type(solver_traits) :: traits
@@ -109,7 +83,6 @@ contains
       !> Relative steps of logit P below this are rounding.
       real(dp), parameter :: shortest_step = 1e-13_dp
       real(dp) :: allowed, error, high, last_miss, last_logit_p, lightest, low, met, miss, next, scale
-      real(dp) :: values(3)   ! of the quantities that are searched for
       integer :: i
 
       low = -huge(low)
@@ -125,12 +98,8 @@ contains
             call solver%solve(exp(search%logit_p), solution)
          end if
          if (solution%status == interrupted) return
-         associate (measures => solution%measures)
-            values = [measures%contact_area_fraction, measures%mean_gap_over_amplitude, &
-                      measures%approach_over_amplitude]
-            error = merge(measures%contact_area_error, measures%mean_gap_error, search%quantity == contact_area)
-         end associate
-         met = values(search%quantity)
+         met = solution%value(search%quantity)
+         error = solution%error(merge(contact_area, mean_gap, search%quantity == contact_area))
          allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
                        value_roundings*spacing(search%target))
          if (abs(met - search%target) <= allowed .and. &

@@ -2,7 +2,6 @@
 !> by a grid.
 module wavycon_fitted_contact
    use wavycon_assertion, only: assert
-   use wavycon_contact_measures, only: contact_measures, known_errors
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, not_accurate, not_found
@@ -11,6 +10,8 @@ module wavycon_fitted_contact
    use wavycon_fitted_source, only: fitted_source
    use wavycon_fitted_solver, only: solve_fitted
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: elastic_energy, known_errors, main_quantities, number_of_quantities, peak_pressure, &
+      perimeter, scaled
    use wavycon_solution_record, only: by_expansions, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -60,7 +61,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_solution), intent(out) :: solution
 
-      real(dp) :: energy_unit, errors(3)
+      real(dp) :: unit(number_of_quantities)   !! of the answer, over that of the solution
       type(fitted_answer) :: answer
       type(fitted_source), allocatable :: source
 
@@ -76,24 +77,19 @@ contains
          return
       end if
       self%last = answer
-      errors = known_errors([answer%mean_gap_error, answer%area_error, answer%peak_error*self%frame%pressure_unit], &
-                            self%surface%full_contact_peak)
-      energy_unit = self%frame%pressure_unit/self%frame%lattice%area
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_expansions
-      solution%measures = contact_measures( &
-                          mean_gap_over_amplitude=answer%mean_gap, &
-                          approach_over_amplitude=1.0_dp - answer%mean_gap, &
-                          contact_area_fraction=answer%area_fraction, &
-                          peak_pressure_over_pstar=answer%peak_pressure*self%frame%pressure_unit, &
-                          min_pressure_over_pstar=0.0_dp, &
-                          mean_gap_error=errors(1), contact_area_error=errors(2), peak_pressure_error=errors(3), &
-                          elastic_energy=answer%energy*energy_unit, &
-                          elastic_energy_error=answer%energy_error*energy_unit)
+      unit = 1.0_dp
+      unit(peak_pressure) = self%frame%pressure_unit
+      unit(elastic_energy) = self%frame%pressure_unit/self%frame%lattice%area
+      unit(perimeter) = self%frame%side
+      solution%value = scaled(answer%value, unit)
+      solution%error = scaled(answer%error, unit)
+      solution%error(main_quantities) = known_errors(solution%error(main_quantities), self%surface%full_contact_peak)
       solution%iterations = answer%iterations
       solution%residual = answer%residual
       solution%status = not_accurate
-      if (solution%largest_error() <= self%options%accuracy) solution%status = converged
+      if (maxval(solution%error(main_quantities)) <= self%options%accuracy) solution%status = converged
       if (.not. self%keep_fields) return
       allocate (source)
       source%frame = self%frame

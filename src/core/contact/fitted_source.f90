@@ -2,7 +2,6 @@
 module wavycon_fitted_source
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: contact_details, load_derivatives, unknown
    use wavycon_contact_contours, only: contact_contour
    use wavycon_contact_spots, only: in_cell
    use wavycon_field_source, only: field_source
@@ -12,6 +11,8 @@ module wavycon_fitted_source
    use wavycon_fitted_stress_fields, only: fitted_stress_fields, start_fitted_stress_fields
    use wavycon_kinds, only: dp
    use wavycon_load_slopes, only: find_load_slopes
+   use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, least_intensity, most_intensity, &
+      perimeter, quantities, saddle_gap, saddle_pressure, trough_gap, unknown
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -127,32 +128,25 @@ contains
          curves(k)%spot = merge(1, k, self%answer%pool)
          curves(k)%pool = merge(k, 1, self%answer%pool)
          curves(k)%area = (2*pi)**2/size(curves)* &
-                          (record%measures%contact_area_fraction - merge(1, 0, self%answer%pool))
-         curves(k)%length = self%answer%perimeter*self%frame%side
+                          (record%value(contact_area) - merge(1, 0, self%answer%pool))
+         curves(k)%length = record%value(perimeter)
       end do
       associate (count => merge(1, size(curves), self%answer%pool))
          allocate (loads(count), source=1.0_dp/count)
       end associate
    end subroutine contact_contours
 
-   subroutine details(self, answer, found)
+   subroutine details(self, answer)
       class(fitted_source), intent(in) :: self
-      type(contact_details), intent(out) :: answer
-      logical, intent(out) :: found
+      type(quantities), intent(inout) :: answer
 
-      real(dp) :: energy_unit, errors(3), values(3)
+      real(dp) :: errors(3), values(3)
 
-      found = .true.
       call find_fitted_details(self%frame%lattice, self%answer, values, errors)
-      energy_unit = self%frame%pressure_unit/self%frame%lattice%area
-      answer = contact_details( &
-               trough_gap=values(1), trough_gap_error=errors(1), &
-               saddle_gap=values(2), saddle_gap_error=errors(2), &
-               saddle_pressure=values(3)*self%frame%pressure_unit, &
-               saddle_pressure_error=errors(3)*self%frame%pressure_unit, &
-               energy=self%answer%energy*energy_unit, energy_error=self%answer%energy_error*energy_unit, &
-               perimeter=self%answer%perimeter*self%frame%side, &
-               perimeter_error=self%answer%perimeter_error*self%frame%side, degree=self%answer%degree)
+      associate (units => [1.0_dp, 1.0_dp, self%frame%pressure_unit])
+         answer%value([trough_gap, saddle_gap, saddle_pressure]) = values*units
+         answer%error([trough_gap, saddle_gap, saddle_pressure]) = errors*units
+      end associate
    end subroutine details
 
    !> From one more linear system of Newton's method, in units of p*.
@@ -160,13 +154,13 @@ contains
       class(fitted_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       logical :: found
-      real(dp) :: errors(3), range(2), slopes(3)
+      real(dp) :: errors(3), intensities(2), slopes(3)
 
       associate (unused => record, unused_too => surface); end associate
-      call find_load_slopes(self%frame%lattice, self%answer, slopes, errors, range, found)
+      call find_load_slopes(self%frame%lattice, self%answer, slopes, errors, intensities, found)
       if (.not. found) return
       associate (units => self%frame%pressure_unit**[1, 1, 2])
          slopes = slopes/units
@@ -177,9 +171,9 @@ contains
          slopes = unknown
          errors = unknown
       end where
-      answer = load_derivatives(gap_slope=slopes(1), gap_slope_error=errors(1), &
-                                area_slope=slopes(2), area_slope_error=errors(2), &
-                                gap_curvature=slopes(3), gap_curvature_error=errors(3), intensity_range=range)
+      answer%value([gap_slope, area_slope, gap_curvature]) = slopes
+      answer%error([gap_slope, area_slope, gap_curvature]) = errors
+      answer%value([least_intensity, most_intensity]) = intensities
    end subroutine derivatives
 
 end module wavycon_fitted_source

@@ -6,7 +6,6 @@
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
-   use wavycon_contact_measures, only: unknown
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
@@ -18,6 +17,8 @@ module wavycon_grid_contact
    use wavycon_kinds, only: dp
    use wavycon_grid_area, only: load_concentration
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
+   use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
+      min_pressure, unknown
    use wavycon_solution_record, only: by_grids, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -128,14 +129,14 @@ contains
       end if
       solution%pbar_over_pstar = pbar_over_pstar
       solution%solver = by_grids
-      solution%measures = answer%measures
+      solution%quantities = answer%quantities
       call measure_edge(self%surface, answer%edge, solution)
       if (self%surface%has_hardness()) then
          associate (load_of_area => self%surface%hardness/pbar_over_pstar)
-            solution%measures%load_at_hardness_fraction = answer%measures%area_at_hardness_fraction*load_of_area
-            solution%measures%load_at_hardness_error = answer%measures%area_at_hardness_error*load_of_area
+            solution%value(load_at_hardness) = answer%value(area_at_hardness)*load_of_area
+            solution%error(load_at_hardness) = answer%error(area_at_hardness)*load_of_area
          end associate
-         if (.not. solution%measures%load_at_hardness_error < 1.0_dp) solution%measures%load_at_hardness_error = unknown
+         if (.not. solution%error(load_at_hardness) < 1.0_dp) solution%error(load_at_hardness) = unknown
       end if
       solution%iterations = answer%iterations
       solution%residual = answer%state%residual
@@ -147,7 +148,7 @@ contains
          solution%status = no_memory
       else if (any(self%options%points == 0)) then
          solution%status = not_accurate
-      else if (all(solution%measures%are_resolved(self%surface))) then
+      else if (all(solution%are_resolved(self%surface))) then
          solution%status = converged
       else
          solution%status = unresolved
@@ -188,21 +189,21 @@ contains
       integer(int64) :: bound(1)
       real(dp) :: opposite(1)
 
-      associate (p => edge%pressure_or_gap, points => edge%slab%points, measures => solution%measures)
+      associate (p => edge%pressure_or_gap, points => edge%slab%points)
          bound = count(p <= 0.0_dp, kind=int64) + count(p >= surface%hardness, kind=int64)
          call edge%slab%add(bound)
          solution%active_constraints = bound(1)
          opposite = -minval(p)
          call edge%slab%largest(opposite)
-         measures%min_pressure_over_pstar = max(-opposite(1), 0.0_dp)
-         if (surface%is_height_map() .and. measures%contact_area_fraction <= largest_spot) &
-            measures%load_concentration = load_concentration(edge)
+         solution%value(min_pressure) = max(-opposite(1), 0.0_dp)
+         if (surface%is_height_map() .and. solution%value(contact_area) <= largest_spot) &
+            solution%value(concentrated_load) = load_concentration(edge)
          if (.not. surface%has_free_edges) return
          ! The part of the load within `border` sides of the border.
          inner = ceiling(border*points)
          if (points(2) == 1) inner(2) = 0
          associate (middle => p(1 + inner(1):points(1) - inner(1), 1 + inner(2):points(2) - inner(2)))
-            measures%load_at_border = 1.0_dp - sum(middle, middle > 0.0_dp)/sum(p, p > 0.0_dp)
+            solution%value(border_load) = 1.0_dp - sum(middle, middle > 0.0_dp)/sum(p, p > 0.0_dp)
          end associate
       end associate
    end subroutine measure_edge

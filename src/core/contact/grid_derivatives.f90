@@ -1,10 +1,11 @@
 !> How a solution on a grid changes with the load, from solutions of the same grid at loads near by: (C29) to (C29c) of
 !> README.md in this directory.
 module wavycon_grid_derivatives
-   use wavycon_contact_measures, only: is_known, load_derivatives, unknown
    use wavycon_contact_tuning, only: area_kept_change, change_safety, load_difference
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: area_slope, contact_area, contact_area_counted, gap_curvature, gap_slope, is_known, &
+      quantities, unknown
    use wavycon_solution_record, only: solution_record
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -20,7 +21,7 @@ contains
       type(surface_type), intent(in) :: surface      !! whose cell was solved
       integer, intent(in) :: points(2)               !! of the grid on the whole cell; the second is ignored in 1-D
       type(solution_record), intent(in) :: record    !! of the solution on this grid, between no load and full contact
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       integer :: grid(2), i
       real(dp) :: bound   !! b of (C29)
@@ -52,9 +53,10 @@ contains
          errors = max(min(errors, near_errors), moved)
       end if
       ! A contact of a point or two has the size, and with it the stiffness, of the step.
-      if (record%measures%contact_area_error >= record%measures%contact_area_fraction) errors = unknown
+      if (record%error(contact_area) >= record%value(contact_area)) errors = unknown
       where (.not. is_known(values)) errors = unknown
-      answer = load_derivatives(values(1), errors(1), values(2), errors(2), values(3), errors(3))
+      answer%value([gap_slope, area_slope, gap_curvature]) = values
+      answer%error([gap_slope, area_slope, gap_curvature]) = errors
 
    contains
 
@@ -70,7 +72,7 @@ contains
          call solve_by_sequence(surface, odds/(1.0_dp + bound*odds), 0.0_dp, grid, nearby)
          solved = nearby%state%converged .and. allocated(nearby%edge)
          if (.not. solved) return
-         counted(i) = nearby%measures%contact_area_counted_fraction
+         counted(i) = nearby%value(contact_area_counted)
          grids = reshape([nearby%history%values, nearby%history%before], [3, 3])
          y(:, 2, i) = log_ratio(grids(2, :), 1.0_dp - bound*grids(2, :))
          if (surface%has_free_edges) then

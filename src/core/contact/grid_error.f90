@@ -7,12 +7,12 @@
 module wavycon_grid_error
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
-   use wavycon_contact_measures, only: is_known, unknown
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
    use wavycon_grid_area, only: edge_crossings
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: is_known, unknown
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -5,7 +5,6 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_measures, only: contact_measures, is_known, known_errors, scaled_error, unknown
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
@@ -18,6 +17,9 @@ module wavycon_grid_sequence
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
    use wavycon_pressure_load, only: has_points_at, set_load, sum_of_field
+   use wavycon_quantities, only: approach, area_at_hardness, contact_area, contact_area_corrected, &
+      contact_area_counted, elastic_energy, is_known, known_errors, main_quantities, mean_gap, &
+      peak_pressure, quantities, scaled, unknown
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -25,14 +27,10 @@ module wavycon_grid_sequence
 
    public :: sequence_answer, solve_by_sequence
 
-   type :: sequence_answer
+   type, extends(quantities) :: sequence_answer
       type(grid_state) :: state            !! on the finest grid, without the gap
       !> On the finest grid; not allocated if the first did not fit into memory, or if `progress` stopped the solver.
       type(grid_edge), allocatable :: edge
-      !> Mean gap, with free edges in 2-D the approach [Delta], contact area fraction, peak pressure [p*].
-      real(dp) :: values(3) = 0.0_dp
-      real(dp) :: errors(3) = unknown      !! their error estimates, in the same units, or `unknown`
-      type(contact_measures) :: measures   !! the values, their errors and what else the grid has
       type(change_history) :: history      !! the values on the last three grids, without the bound of a hardness
       type(change_history), private :: at_hardness   !! the same of the area at the hardness alone
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
@@ -63,7 +61,7 @@ contains
 
       real(dp), allocatable :: h(:, :)
       type(grid_plan) :: plan
-      real(dp) :: last_residual, scale(3)
+      real(dp) :: errors(3), last_residual, scale(3), values(3)
       logical :: ends
       integer :: i
 
@@ -85,11 +83,13 @@ contains
          ends = ends .or. answer%out_of_memory
          ! Only the errors of an answer are of interest.
          call measure_level(surface, mean_pressure, h, ends .or. i >= plan%trusted, answer)
+         values = answer%main_values(surface)
+         errors = answer%error(main_quantities)
          scale = 1.0_dp
-         if (surface%has_free_edges) scale = answer%values
+         if (surface%has_free_edges) scale = values
          answer%accurate = answer%state%converged .and. i >= plan%trusted .and. &
-            all(answer%errors <= accuracy*scale .or. .not. is_known(answer%values)) .and. &
-            answer%measures%area_at_hardness_error <= accuracy*scale(2)
+            all(errors <= accuracy*scale .or. .not. is_known(values)) .and. &
+            answer%error(area_at_hardness) <= accuracy*scale(2)
          if (present(progress)) &
             call progress%grid_solved(plan%grids(:, i)*merge(2, 1, surface%shape%is_even() .and. plan%grids(:, i) > 1) &
                                       /surface%parts(), answer%state%iterations, answer%state%residual)
@@ -104,23 +104,15 @@ contains
             if (needs_gap) call complete_gap(surface, h, answer%state%approach, answer%edge%pressure_or_gap)
          end if
       else
-         answer%errors = known_errors(answer%errors, surface%full_contact_peak)
+         errors = known_errors(errors, surface%full_contact_peak)
       end if
       ! No pressure is negative: an estimate as large as the peak says nothing of it. With free edges the same is true
       ! of the approach and of the area.
-      where ((.not. answer%accurate .and. answer%errors >= max(answer%values, tiny(scale)) .and. &
-              [surface%has_free_edges, surface%has_free_edges, .true.]) .or. .not. is_known(answer%values)) &
-         answer%errors = unknown
-      associate (measures => answer%measures)
-         measures%mean_gap_over_amplitude = answer%state%open_gap()
-         measures%approach_over_amplitude = answer%state%approach
-         measures%contact_area_fraction = answer%values(2)
-         measures%peak_pressure_over_pstar = answer%values(3)
-         measures%mean_gap_error = answer%errors(1)
-         measures%contact_area_error = answer%errors(2)
-         measures%peak_pressure_error = answer%errors(3)
-         measures%elastic_energy_error = scaled_error(answer%errors(1), 2*mean_pressure)
-      end associate
+      where ((.not. answer%accurate .and. errors >= max(values, tiny(scale)) .and. &
+              [surface%has_free_edges, surface%has_free_edges, .true.]) .or. .not. is_known(values)) &
+         errors = unknown
+      answer%error(main_quantities) = errors
+      answer%error(elastic_energy) = scaled(errors(1), 2*mean_pressure)
    end subroutine solve_by_sequence
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
@@ -160,7 +152,7 @@ contains
          call solve_on_grid(half_space, h, residual, most, answer%state, progress)
          answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs + half_space%single_pairs
       end if
-      if (.not. answer%state%interrupted) answer%measures%elastic_energy = energy_of(answer%state, h)
+      if (.not. answer%state%interrupted) answer%value(elastic_energy) = energy_of(answer%state, h)
       answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
    end subroutine solve_level
@@ -192,13 +184,13 @@ contains
       logical, intent(in) :: estimated   !! whether the errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend, capped_errors(3)
+      real(dp) :: area, bend, capped_errors(3), errors(3)
       integer :: j
       logical :: has_corners
       type(grid_edge) :: astray, capped
 
-      answer%values(1) = merge(answer%state%approach, answer%state%open_gap(), &
-                                surface%has_free_edges .and. surface%dimension == 2)
+      answer%value(mean_gap) = answer%state%open_gap()
+      answer%value(approach) = answer%state%approach
       if (.not. allocated(answer%edge)) allocate (answer%edge)
       ! H - p and minus the gap behave at the edge of the area at which p = H as gap and pressure do at the edge of
       ! contact (C23).
@@ -212,18 +204,19 @@ contains
                           pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, &
                           surface%has_free_edges)
       call answer%edge%fetch_neighbours()
-      answer%measures%contact_area_counted_fraction = counted_area_fraction(answer%edge)
+      answer%value(contact_area_counted) = counted_area_fraction(answer%edge)
       area = grid_contact_area(answer%edge)
       ! At a step the pressure next to it does not say where the contact ends: it ends with the block.
-      if (surface%has_steps) area = answer%measures%contact_area_counted_fraction
-      answer%values(2) = area
-      if (surface%dimension == 2) answer%measures%contact_area_corrected_fraction = corrected_area_fraction(answer%edge)
-      call grid_peak_pressure(answer%edge, answer%values(3), bend)
-      if (answer%values(3) >= surface%hardness) bend = 0.0_dp
-      answer%values(3) = min(answer%values(3), surface%hardness)
-      call answer%history%push(answer%values)
-      if (estimated) answer%errors = estimate_errors(answer%history, surface, answer%edge, bend)
-      associate (errors => answer%errors, p => answer%edge%pressure_or_gap)
+      if (surface%has_steps) area = answer%value(contact_area_counted)
+      answer%value(contact_area) = area
+      if (surface%dimension == 2) answer%value(contact_area_corrected) = corrected_area_fraction(answer%edge)
+      call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend)
+      if (answer%value(peak_pressure) >= surface%hardness) bend = 0.0_dp
+      answer%value(peak_pressure) = min(answer%value(peak_pressure), surface%hardness)
+      call answer%history%push(answer%main_values(surface))
+      errors = unknown
+      if (estimated) errors = estimate_errors(answer%history, surface, answer%edge, bend)
+      associate (p => answer%edge%pressure_or_gap)
          has_corners = ends_at_corners(surface, p)
          if (surface%has_steps) then
             ! The cells in contact are the area where contact ends with a block, and else to half a step: where only one
@@ -231,22 +224,23 @@ contains
             call start_grid_edge(astray, merge(1.0_dp, 0.0_dp, (p > 0.0_dp) .neqv. (2*h < maxval(h))), h, even=.true.)
             errors(2) = max(errors(2), 0.5_dp*edge_crossings(astray)/size(h))
          else if (has_corners .and. surface%dimension == 2) then
-            errors(2) = max(errors(2), errors(1)/max(answer%values(1), tiny(area))*area)
+            errors(2) = max(errors(2), errors(1)/max(answer%history%values(1), tiny(area))*area)
          end if
       end associate
-      if (.not. area > 0.0_dp) answer%errors(2) = unknown
-      if (has_corners .and. answer%values(3) < surface%hardness) answer%values(3) = unknown
+      if (.not. area > 0.0_dp) errors(2) = unknown
+      answer%error(main_quantities) = errors
+      if (has_corners .and. answer%value(peak_pressure) < surface%hardness) answer%value(peak_pressure) = unknown
       if (.not. surface%has_hardness()) return
-      answer%values(2) = max(area, mean_pressure/surface%hardness)
+      answer%value(contact_area) = max(area, mean_pressure/surface%hardness)
       call capped%fetch_neighbours()
       area = 1.0_dp - grid_contact_area(capped)
-      answer%measures%area_at_hardness_fraction = min(area, mean_pressure/surface%hardness)
+      answer%value(area_at_hardness) = min(area, mean_pressure/surface%hardness)
       call answer%at_hardness%push([0.0_dp, area, 0.0_dp])
       capped_errors = answer%at_hardness%errors()
       ! Between the points the pressure may reach H although it does so at none of them.
-      if (answer%values(3) >= surface%hardness) &
+      if (answer%value(peak_pressure) >= surface%hardness) &
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
-      answer%measures%area_at_hardness_error = capped_errors(2)
+      answer%error(area_at_hardness) = capped_errors(2)
    end subroutine measure_level
 
    !> Whether contact ends at the border of the map or at a step, where the pressure grows beyond all bounds as at the

@@ -5,7 +5,6 @@ module wavycon_grid_source
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
-   use wavycon_contact_measures, only: load_derivatives, or_nan
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_area, only: grid_strip_edges
@@ -20,6 +19,7 @@ module wavycon_grid_source
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_paper_wave, only: smaller_cell
+   use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -42,7 +42,6 @@ module wavycon_grid_source
       procedure :: collect
       procedure :: pack => pack_source
       procedure :: unpack => unpack_source
-      procedure :: has_all_columns
    end type grid_source
 
    !> Numbers in the array of pack_source before the field.
@@ -89,7 +88,7 @@ contains
       type(grid_fields), allocatable :: own
 
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, record%measures%approach_over_amplitude, self%rotated)
+      call start_grid_fields(own, surface, self%edge, record%value(approach), self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -157,7 +156,7 @@ contains
       end associate
       ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would be
       ! P - 1.
-      error = record%measures%peak_pressure_error
+      error = record%error(peak_pressure)
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
       call transform%start(shape(values), self%edge%even .and. parts == 1, whole=.true.)
       call transform%series(values, pressure)
@@ -175,7 +174,7 @@ contains
       class(grid_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       if (self%distributed_points > 0 .or. surface%has_hardness()) return
       if (self%rotated) then
@@ -208,28 +207,22 @@ contains
    end subroutine pack_source
 
    !> Takes the columns that pack_source has put into an array on any rank, as far as they are own ones here. Called for
-   !> the arrays of all ranks, it restores the source: has_all_columns.
-   subroutine unpack_source(self, values, whole, understood)
+   !> the arrays of all ranks, it restores the source.
+   subroutine unpack_source(self, values, whole, complete)
       class(grid_source), intent(inout) :: self   !! empty at first
       real(dp), intent(in) :: values(:)
       logical, intent(in) :: whole                !! whether the own columns are all columns
-      logical, intent(out) :: understood          !! .false. if these are not the numbers of a grid, or of another one
+      logical, intent(out) :: complete            !! whether all own columns have been found
 
-      integer :: columns, first, j, points(2)
+      integer :: first, j, points(2)
       integer(int64) :: before, rows
       real(dp), allocatable :: field(:, :)
       type(grid_edge), allocatable :: edge
       type(grid_slab) :: slab
 
-      understood = size(values) >= own_values
-      if (understood) understood = all(values(4:6) >= 1.0_dp .and. values(4:6) <= huge(points))
-      if (.not. understood) return
       points = nint(values(4:5))
       first = nint(values(6))
       rows = points(1)
-      columns = int((size(values, kind=int64) - own_values)/rows)
-      understood = columns <= points(2) - first + 1 .and. rows*columns == size(values, kind=int64) - own_values
-      if (.not. understood) return
       if (.not. allocated(self%edge)) then
          self%residual_indentation = values(1)
          self%rotated = values(7) > 0.0_dp
@@ -239,22 +232,14 @@ contains
          call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab, values(9) > 0.0_dp)
          call self%take_edge(edge)
       end if
-      associate (own => self%edge%slab)
-         understood = all(own%points == points)
-         if (.not. understood) return
-         do j = max(first, own%first), min(first + columns - 1, own%last)
+      associate (own => self%edge%slab, field => self%edge%pressure_or_gap)
+         do j = max(first, own%first), min(first + int((size(values, kind=int64) - own_values)/rows) - 1, own%last)
             before = own_values + (j - first)*rows
-            self%edge%pressure_or_gap(:, j - own%first + 1) = values(before + 1:before + rows)
+            field(:, j - own%first + 1) = values(before + 1:before + rows)
          end do
+         complete = .not. any(ieee_is_nan(field(1, :)))
       end associate
    end subroutine unpack_source
-
-   !> Whether unpack has found all own columns.
-   pure logical function has_all_columns(self)
-      class(grid_source), intent(in) :: self
-
-      has_all_columns = .not. any(ieee_is_nan(self%edge%pressure_or_gap(1, :)))
-   end function has_all_columns
 
    !> What each spot carries of the load: the pressures at its points.
    pure subroutine spot_loads(edge, numbers, loads)

@@ -8,7 +8,7 @@ module wavycon_series_contact
    use wavycon_complementary_energy, only: bounds_at, energy_problem
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, trace_edges
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_measures, only: load_derivatives, measure_series, measuring_intervals
+   use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: status_of_programme
@@ -24,6 +24,7 @@ module wavycon_series_contact
    use wavycon_line_zeros, only: line_zeros
    use wavycon_paper_wave, only: is_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_qp_problem, only: qp_problem, qp_solution
+   use wavycon_quantities, only: approach, elastic_energy, gap_slope, mean_gap, peak_pressure, quantities
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
@@ -141,15 +142,16 @@ contains
       call move_alloc(programme%x, source%x)
       ! Without residual indentation no point is at H, although a peak between the points may come close.
       call measure_series(source%pressure(pbar_over_pstar), source%displacement(), source%options%edge_level, &
-                          solution%measures, merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
+                          solution%quantities, &
+                          merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
       associate (x => source%x, n => self%surface%dimension)
          ! The mean square of the surface's own wave is 2^-n.
-         solution%measures%elastic_energy = 0.5_dp*dot_product(x, self%problem%hessian*x)/2**n
+         solution%value(elastic_energy) = 0.5_dp*dot_product(x, self%problem%hessian*x)/2**n
       end associate
       ! The crest, from which the approach follows otherwise, is then not in elastic contact.
       if (residual_indentation > 0.0_dp) then
-         solution%measures%mean_gap_over_amplitude = open_gap
-         solution%measures%approach_over_amplitude = 1.0_dp - open_gap + residual_indentation
+         solution%value(mean_gap) = open_gap
+         solution%value(approach) = 1.0_dp - open_gap + residual_indentation
       end if
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
@@ -235,7 +237,7 @@ contains
       call self%coefficients(record, own%pressure)
       own%displacement = displacement_of(surface, own%pressure)
       own%surface = surface
-      own%mean_gap = 1.0_dp - record%measures%approach_over_amplitude
+      own%mean_gap = 1.0_dp - record%value(approach)
       call move_alloc(own, answer)
    end subroutine fields
 
@@ -304,7 +306,7 @@ contains
       class(series_source), intent(in) :: self
       type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
-      type(load_derivatives), intent(out) :: answer
+      type(quantities), intent(out) :: answer
 
       !> Pressures below this part of the peak pressure are rounding: the constraint is active.
       real(dp), parameter :: active = 1e-9_dp
@@ -317,7 +319,7 @@ contains
       if (surface%has_hardness()) return
       problem = energy_problem(self%terms, self%options%constraint_points, self%options%symmetry, has_hardness=.false.)
       associate (pressure => record%pbar_over_pstar + matmul(self%x, problem%normals), &
-                 least => active*record%measures%peak_pressure_over_pstar)
+                 least => active*record%value(peak_pressure))
          constraints = pack([(i, i=1, size(pressure))], pressure < least)
       end associate
       problem%linear = 0.0_dp
@@ -328,7 +330,7 @@ contains
       allocate (multipliers(set%count), x(size(self%x)))
       call set%solve(problem, x, multipliers)
       ! The energy is in units of the mean square of the surface's own wave.
-      answer%gap_slope = -sum(problem%hessian*x**2)/2**surface%dimension
+      answer%value(gap_slope) = -sum(problem%hessian*x**2)/2**surface%dimension
    end subroutine derivatives
 
 end module wavycon_series_contact

@@ -2,6 +2,7 @@
 module wavycon_fitted_answer
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: quantities
    implicit none (type, external)
    private
 
@@ -22,24 +23,15 @@ module wavycon_fitted_answer
    !> Expansions of lower degrees that are kept at most.
    integer, parameter, public :: most_previous = 2
 
-   !> Lengths in the cell's shorter side s, pressures in pi E* Delta/s, gaps and displacements in Delta.
-   type :: fitted_answer
+   !> The quantities that it has are mean gap, area fraction, peak pressure, energy, here half the integral of p u per
+   !> cell, [Delta s^2], perimeter and degree. Lengths in the cell's shorter side s, pressures in pi E* Delta/s, gaps and
+   !> displacements in Delta.
+   type, extends(quantities) :: fitted_answer
       integer :: status = fitted_failed
       real(dp) :: pbar_over_pstar = 0.0_dp            !! P
-      real(dp) :: mean_gap = 0.0_dp                   !! G
-      real(dp) :: area_fraction = 0.0_dp              !! A_real/A_0
-      real(dp) :: peak_pressure = 0.0_dp              !! at a crest
-      real(dp) :: energy = 0.0_dp                     !! half the integral of p u, per cell [Delta s^2]
-      real(dp) :: perimeter = 0.0_dp                  !! of one spot or pool
-      real(dp) :: mean_gap_error = huge(1.0_dp)       !! estimated errors of the above
-      real(dp) :: area_error = huge(1.0_dp)
-      real(dp) :: peak_error = huge(1.0_dp)
-      real(dp) :: energy_error = huge(1.0_dp)
-      real(dp) :: perimeter_error = huge(1.0_dp)
       real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], a pool's [p*]
       real(dp) :: misfit_decay(2) = 1.0_dp            !! r_n and r_(n-1) of README.md (F43)
       real(dp) :: merging_ratio = 0.0_dp              !! of the shape: 0 for a point, 1 where neighbours touch
-      integer :: degree = 0                           !! of the polynomials
       integer :: iterations = 0                       !! Gauss-Newton steps of all degrees
       logical :: pool = .false.                     !! above merging: the expansion is a pool's gap
       type(expansion) :: solution

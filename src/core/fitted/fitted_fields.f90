@@ -12,6 +12,7 @@ module wavycon_fitted_fields
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: fastest_decay_at_point, field_accuracy, least_map
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: contact_area, mean_gap, peak_pressure
    use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
    use wavycon_stress_kernel, only: stress_fields, surface_field
@@ -97,7 +98,7 @@ contains
 
       pressure = 0.0_dp
       gap = 0.0_dp
-      without_gap = 1.0_dp - self%answer%mean_gap + self%lattice%rise(.false., place)
+      without_gap = 1.0_dp - self%answer%value(mean_gap) + self%lattice%rise(.false., place)
       displacement = without_gap
       ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
       do i = 1, self%places
@@ -224,7 +225,9 @@ contains
       logical :: found
       integer :: i, j
 
-      outside = places*merge(self%answer%area_fraction, 1.0_dp - self%answer%area_fraction, self%answer%pool)
+      associate (area => self%answer%value(contact_area))
+         outside = places*merge(area, 1.0_dp - area, self%answer%pool)
+      end associate
       if (outside < least_map) return
       tolerance = max(share*accuracy, least)
       allocate (series)
@@ -237,7 +240,7 @@ contains
       call find_images(self, self%spot%radius + 0.5_dp*max(self%lattice%rows%spacing, 1.0_dp) &
                        *sinh(-0.5_dp*log(tolerance)/nodes))
       ! Displacements are of order 1, pressures of the order of their peak.
-      if (self%answer%pool) tolerance = tolerance*self%answer%peak_pressure
+      if (self%answer%pool) tolerance = tolerance*self%answer%value(peak_pressure)
       half = self%lattice%rows%half_sides()
       x = square_nodes(nodes, half(1))
       y = square_nodes(nodes, half(2))
@@ -291,7 +294,7 @@ contains
       older = answer
       do k = 1, size(answer%previous)
          older%solution = answer%previous(k)
-         if (.not. answer%pool) older%mean_gap = 1.0_dp - older%solution%approach
+         if (.not. answer%pool) older%value(mean_gap) = 1.0_dp - older%solution%approach
          at(:, k) = fitted_separations(lattice, older)
       end do
       ! All but the gap inside a pool are differences of numbers of order 1: their rounding is absolute.
@@ -305,7 +308,7 @@ contains
          error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
       end do
       ! A spot's approach is part of both gaps.
-      if (.not. answer%pool) error(:2) = max(error(:2), answer%mean_gap_error)
+      if (.not. answer%pool) error(:2) = max(error(:2), answer%error(mean_gap))
       error = error + abs(fitted_separations(lattice, answer, finer) - values)
       ! A gap in contact and a pressure outside of it are 0 by definition.
       error(merge(2, 3, answer%pool)) = 0.0_dp

@@ -12,6 +12,8 @@ module wavycon_fitted_solver
    use wavycon_gauss_newton, only: newton_steps
    use wavycon_kinds, only: dp
    use wavycon_load_continuation, only: is_start, start_at_load
+   use wavycon_quantities, only: approach, contact_area, elastic_energy, mean_gap, peak_pressure, perimeter, &
+      polynomial_degree
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -21,6 +23,11 @@ module wavycon_fitted_solver
    !> Guard: degrees in a row at which Newton's method does not converge, before the regime is
    !> given up. Next to merging, and beyond it, it may fail at every degree, and the last ones take seconds each.
    integer, parameter :: most_failed_degrees = 3
+
+   !> The quantities of an answer, and the measures that they are from.
+   integer, parameter :: measured(*) = [mean_gap, contact_area, peak_pressure, elastic_energy, perimeter]
+   integer, parameter :: shown_measures(*) = [gap_measure, area_measure, peak_measure, energy_measure, &
+      perimeter_measure]
 
 contains
 
@@ -115,8 +122,7 @@ contains
             if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
             call history%push(now, measures, newton%misfit, newton%remaining)
             if (history%newest_is_best) &
-               call set_answer(answer, lattice, history, now, degree, newton%residual, ratio, &
-                               equations%images%tolerance)
+               call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
             if (history%best_meets(accuracy, required)) then
                answer%status = fitted_solved
                exit
@@ -131,12 +137,11 @@ contains
    end subroutine solve_regime
 
    !> Writes the newest solution to the answer.
-   subroutine set_answer(answer, lattice, history, now, degree, residual, ratio, images_tolerance)
+   subroutine set_answer(answer, lattice, history, now, residual, ratio, images_tolerance)
       type(fitted_answer), intent(inout) :: answer
       type(wave_lattice), intent(in) :: lattice
       type(degree_history), intent(in) :: history
       type(expansion), intent(in) :: now
-      integer, intent(in) :: degree
       real(dp), intent(in) :: residual, ratio
       real(dp), intent(in) :: images_tolerance     !! relative error of the images
 
@@ -144,25 +149,22 @@ contains
 
       answer%status = fitted_less_exact
       answer%solution = now
-      answer%degree = degree
       answer%residual = residual
       answer%merging_ratio = ratio
       ! All degrees share the error of the images: it does not count in which of them is best.
       error = max(history%error, images_tolerance*history%measures(:, 0))
-      answer%mean_gap = history%measures(gap_measure, 0)
-      answer%area_fraction = history%measures(area_measure, 0)/lattice%area
-      answer%area_error = error(area_measure)/lattice%area
-      if (now%pool) then
-         answer%area_fraction = 1.0_dp - lattice%troughs*answer%area_fraction
-         answer%area_error = lattice%troughs*answer%area_error
-      end if
-      answer%peak_pressure = history%measures(peak_measure, 0)
-      answer%energy = history%measures(energy_measure, 0)
-      answer%perimeter = history%measures(perimeter_measure, 0)
-      answer%mean_gap_error = error(gap_measure)
-      answer%peak_error = error(peak_measure)
-      answer%energy_error = error(energy_measure)
-      answer%perimeter_error = error(perimeter_measure)
+      answer%value(measured) = history%measures(shown_measures, 0)
+      answer%error(measured) = error(shown_measures)
+      answer%value(approach) = 1.0_dp - answer%value(mean_gap)
+      answer%value(polynomial_degree) = now%basis%degree
+      associate (area => answer%value(contact_area), area_error => answer%error(contact_area))
+         area = area/lattice%area
+         area_error = area_error/lattice%area
+         if (now%pool) then
+            area = 1.0_dp - lattice%troughs*area
+            area_error = lattice%troughs*area_error
+         end if
+      end associate
       answer%misfit_decay = history%decay
       answer%previous = history%newest(1:min(history%solutions - 1, most_previous))
    end subroutine set_answer

@@ -7,6 +7,7 @@ module wavycon_fitted_stress
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: fastest_decay_at_point, stress_error_safety
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: contact_area, peak_pressure, perimeter
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -39,7 +40,7 @@ contains
       integer :: i
 
       stress%accuracy = accuracy
-      stress%peak_pressure = answer%peak_pressure
+      stress%peak_pressure = answer%value(peak_pressure)
       stress%misfit_decay = answer%misfit_decay
       allocate (stress%of_degree(0:size(answer%previous)))
       call start_expansion_stress(stress%of_degree(0), lattice, answer%solution, accuracy)
@@ -48,10 +49,10 @@ contains
       end do
       ! The area of one spot or pool, and its error.
       area = answer%solution%shape%area()
-      area_error = answer%area_error*lattice%area
+      area_error = answer%error(contact_area)*lattice%area
       if (answer%pool) area_error = area_error/lattice%troughs
-      stress%relative_error = max(answer%peak_error/answer%peak_pressure, area_error/area)
-      stress%edge_error = area_error/answer%perimeter
+      stress%relative_error = max(answer%error(peak_pressure)/answer%value(peak_pressure), area_error/area)
+      stress%edge_error = area_error/answer%value(perimeter)
    end subroutine start_fitted_stress
 
    !> The stresses at a place, less those of the mean pressure.

@@ -10,6 +10,7 @@ module wavycon_load_continuation
    use wavycon_gauss_newton, only: change_per_square, newton_steps
    use wavycon_kinds, only: dp
    use wavycon_expansion_size, only: merging_ratio
+   use wavycon_quantities, only: polynomial_degree
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -50,7 +51,7 @@ contains
          if (found) then
             now = scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)
             ! Degrees below the last load's, or a sweep would never come down to lower ones again.
-            degree = max(first_degree, start%degree - 3*degree_step)
+            degree = max(first_degree, nint(start%value(polynomial_degree)) - 3*degree_step)
             return
          end if
       end if

@@ -4,9 +4,9 @@ module wavycon_contact_spots
    use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour
-   use wavycon_contact_measures, only: or_nan, unknown
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: or_nan, unknown
    implicit none (type, external)
    private
 

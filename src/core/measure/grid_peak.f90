@@ -1,9 +1,9 @@
 !> The largest pressure of a solution on a grid, between its points: eq. (C13) of src/core/contact/README.md.
 module wavycon_grid_peak
-   use wavycon_contact_measures, only: unknown
    use wavycon_grid_edge, only: grid_edge
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: unknown
    implicit none (type, external)
    private
 

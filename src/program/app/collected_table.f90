@@ -183,7 +183,7 @@ contains
       end do
       names = ''
       units = ''
-      associate (summary => column_list(summary_columns))
+      associate (summary => column_list(summary_columns()))
          do k = 1, size(summary)
             names = names//' '//trim(column_name(summary(k)))
             units = units//' ['//trim(column_unit(summary(k)))//']'

@@ -30,7 +30,7 @@ module wavycon_checkpoint
 
    !> Stands for the number of a rank in a run whose work is not shared.
    integer, parameter :: alone = -1
-   character(*), parameter :: mark = 'wavycon checkpoint 9'//newline
+   character(*), parameter :: mark = 'wavycon checkpoint 10'//newline
    integer, parameter :: bytes_of_word = 8
    !> End of all messages about a checkpoint that cannot be used.
    character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
@@ -257,11 +257,10 @@ contains
             call get(unit, words)
             if (.not. allocated(words)) exit
             understood = size(words) > 0
-            if (understood) understood = words(1) >= 1 .and. words(1) <= size(known)
             if (.not. understood) exit
             load = int(words(1))
             if (.not. known(load) .and. results%sharing%is_own_load(load)) call results%loads(load)%unpack( &
-               words(2:), results%sharing%kind /= distributed_grids, known(load), understood)
+               words(2:), results%sharing%kind /= distributed_grids, known(load))
          end do
          if (.not. understood) &
             call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)

@@ -7,12 +7,12 @@
 !> jump into full contact; the loads.
 module wavycon_interface_tables
    use wavycon_adhesive_curve, only: adhesive_point, point_names
-   use wavycon_contact_measures, only: is_known, load_derivatives, or_nan
    use wavycon_contact_status, only: no_load, status_code, status_name
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: cycle_energy, relative_displacement
    use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, is_known, or_nan, quantities
    use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -57,7 +57,7 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(load_derivatives) :: slopes
+      type(quantities) :: slopes
       real(dp) :: resistance(2), stiffness(2)
 
       associate (solution => results%loads(load), surface => results%solver%surface, scene => results%scene)
@@ -67,16 +67,17 @@ contains
             stiffness = 0.0_dp
          else if (solution%has_numbers()) then
             call solution%derivatives(surface, slopes)
-            if (slopes%gap_slope < 0.0_dp) stiffness = [-1.0_dp, or_nan(slopes%gap_slope_error)/slopes%gap_slope] &
-                                                       /slopes%gap_slope
-            if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slopes%gap_slope)) resistance = &
-               scene%interface_setting%resistivity*(0.5_dp*scene%e_star/scene%p_star*surface%amplitude) &
-               *[abs(slopes%gap_slope), or_nan(slopes%gap_slope_error)]
+            associate (slope => slopes%value(gap_slope), error => or_nan(slopes%error(gap_slope)))
+               if (slope < 0.0_dp) stiffness = [-1.0_dp, error/slope]/slope
+               if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slope)) resistance = &
+                  scene%interface_setting%resistivity*(0.5_dp*scene%e_star/scene%p_star*surface%amplitude) &
+                  *[abs(slope), error]
+            end associate
          end if
          call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
                             results%mean_pressure(load), stiffness*scene%p_star/surface%amplitude, &
-                            results%in_p_star([stiffness, or_nan([slopes%area_slope, slopes%area_slope_error])]), &
-                            results%in_p_star(or_nan([slopes%gap_curvature, slopes%gap_curvature_error])), &
+                            results%in_p_star([stiffness, or_nan([slopes%value(area_slope), slopes%error(area_slope), &
+                                               slopes%value(gap_curvature), slopes%error(gap_curvature)])]), &
                             resistance, status_code(solution%status)], [status_name(solution%status)])
       end associate
    end subroutine put_interface
@@ -87,7 +88,7 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(load_derivatives) :: slopes(2)   ! at P and P*
+      type(quantities) :: slopes(2)   ! at P and P*
       integer :: i
       real(dp) :: displacement(2), energy(2), of_stick(3), stiffness
 
@@ -101,8 +102,8 @@ contains
                energy = not_a_number()
                of_stick = not_a_number()
                if (stick%has_numbers()) then
-                  of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%measures%contact_area_fraction, &
-                              or_nan(stick%measures%contact_area_error)]
+                  of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%value(contact_area), &
+                              or_nan(stick%error(contact_area))]
                   displacement = setting%friction*amplitude*or_nan(relative_displacement(solution, stick))
                   call stick%derivatives(results%solver%surface, slopes(2))
                   if (results%traits%has_errors) then
@@ -112,11 +113,13 @@ contains
                      of_stick(3) = not_a_number()
                      displacement(2) = not_a_number()
                   end if
-                  if (slopes(2)%gap_slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slopes(2)%gap_slope)
+                  associate (slope => slopes(2)%value(gap_slope))
+                     if (slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slope)
+                  end associate
                end if
                call file%put_row([real(dp) :: load, i, results%mean_pressure(load), p_star*slip%tangential, &
                                   slip%tangential/(setting%friction*solution%pbar_over_pstar), of_stick(1), &
-                                  solution%measures%contact_area_fraction, of_stick(2:), &
+                                  solution%value(contact_area), of_stick(2:), &
                                   setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, &
                                   energy, status_code(slip%status)], [status_name(slip%status)])
             end associate

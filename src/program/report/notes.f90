@@ -4,7 +4,6 @@ module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
    use wavycon_constants, only: pi
-   use wavycon_contact_measures, only: is_known, or_nan
    use wavycon_contact_status, only: converged, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
@@ -12,7 +11,9 @@ module wavycon_notes
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_quantities, only: border_load, concentrated_load, contact_area, is_known, main_quantities, mean_gap, &
+      peak_pressure
+   use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
    use wavycon_solution_record, only: by_beale, by_dual, solution_record, solver_names
@@ -136,40 +137,29 @@ contains
       type(results_type), intent(in) :: results   !! with a solution for each load
       type(run_log), intent(inout) :: log
 
+      character(24) :: columns(3)
       character(9) :: names(3)
       integer :: i, load, solver_width
-      real(dp) :: approach(2), errors(3), unit(3), values(3)
       type(log_line) :: line
 
       if (log%quiet) return
       ! The longest name of a solver among the loads.
       solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
       names = [character(9) :: 'gap/Delta', 'area/A0', 'peak/p*']
-      unit = 1.0_dp
+      columns = [character(24) :: 'mean_gap_over_amplitude', 'contact_area_fraction', 'peak_pressure_over_pstar']
       associate (surface => results%solver%surface, scene => results%scene)
          if (surface%has_free_edges) then
             names = [character(9) :: 'approach', 'area', 'peak']
-            unit = [surface%amplitude, surface%nominal_area(), scene%p_star]
+            columns = [character(24) :: 'approach', 'contact_area', 'peak_pressure']
          end if
          do load = 1, size(results%loads)
-            associate (measures => results%loads(load)%measures)
-               values = [measures%mean_gap_over_amplitude, measures%contact_area_fraction, &
-                         or_nan(measures%peak_pressure_over_pstar)]
-               errors = or_nan(measures%errors())
-            end associate
-            if (.not. results%traits%has_errors) errors = not_a_number()
-            if (surface%has_free_edges) then
-               approach = results%approach_over_amplitude(load)
-               values(1) = approach(1)
-               errors(1) = approach(2)
-            end if
             call line%start(results, load)
             do i = 1, size(names)
-               call line%add(trim(names(i)), unit(i)*values(i))
-               call line%add('error', unit(i)*errors(i))
+               call line%add(trim(names(i)), results%number(load, trim(columns(i))))
+               call line%add('error', results%number(load, trim(columns(i))//'_error'))
             end do
             if (scene%gives_modulus .and. .not. surface%has_free_edges) &
-               call line%add('peak['//scene%pressure_unit//']', results%peak_pressure(load))
+               call line%add('peak['//scene%pressure_unit//']', results%number(load, 'peak_pressure'))
             if (load == 1) call log%say(line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)//'status')
             call log%say(line%words//' '//solver_names(results%loads(load)%solver)(:solver_width)//'  '// &
                          trim(status_name(results%loads(load)%status)))
@@ -312,7 +302,7 @@ contains
             'up to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
             ' in area/A0 and '//short_number(paper_errors(3))//' in peak/p* from 0.05 to 0.9 p*, more at other '// &
             "loads. solver = 'auto' gives digits, with error estimates")
-         call note_some(count(is_series .and. loads%measures%mean_gap_over_amplitude < 0.0_dp), &
+         call note_some(count(is_series .and. loads%value(mean_gap) < 0.0_dp), &
                         'the mean gap is below 0, where no gap can be: this is an error of the series')
          if (loads_by == by_yield) then
             call note_some(count(loads%status == not_found), 'no mean pressure was found that brings the '// &
@@ -324,21 +314,21 @@ contains
             call note_unreached(loads_by, loads, log)
          end if
          if (scene%surface_values%text('kind') == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
-            call note_some(count(loads%measures%load_concentration >= least_concentration), &
+            call note_some(count(loads%value(concentrated_load) >= least_concentration), &
             "the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
          if (surface%has_free_edges) then
-            if (any(loads%measures%load_at_border > 0.0_dp)) call log%note( &
-               'contact reaches the border: up to '//percent(maxval(loads%measures%load_at_border))// &
+            if (any(loads%value(border_load) > 0.0_dp)) call log%note( &
+               'contact reaches the border: up to '//percent(maxval(loads%value(border_load)))// &
                ' of the load is within '//percent(border)// &
                ' of the sides from it, where a larger map might carry more')
             if (surface%has_steps) call log%note('a map of two heights at most is taken as blocks, the cells of '// &
                'its points, as a punch is')
-            if (.not. all(is_known(loads%measures%peak_pressure_over_pstar))) call log%note('where contact ends at '// &
+            if (.not. all(is_known(loads%value(peak_pressure)))) call log%note('where contact ends at '// &
                'a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
             if (surface%dimension == 1) call log%note('the approach of a profile with free edges is not '// &
                'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
          end if
-         without_area = count(loads%status == converged .and. loads%measures%contact_area_fraction <= 0.0_dp)
+         without_area = count(loads%status == converged .and. loads%value(contact_area) <= 0.0_dp)
          call note_some(without_area, 'no pressure reaches edge_level = '// &
             short_number(scene%method%real('edge_level'))//' p*, so that the contact area shows as 0')
       end associate
@@ -368,11 +358,11 @@ contains
       is_unreached = loads%status == not_found .and. .not. loads%pbar_over_pstar > 0.0_dp
       last = findloc(is_unreached, .true., dim=1, back=.true.)
       if (last == 0) return
-      associate (measures => loads(last)%measures)
+      associate (solution => loads(last))
          limit = ' mean gaps are above the largest that the grid shows, '// &
-                 short_number(measures%mean_gap_over_amplitude)
+                 short_number(solution%value(mean_gap))
          if (loads_by == by_contact_area) limit = &
-            ' contact areas are below the least that the grid shows, '//short_number(measures%contact_area_fraction)
+            ' contact areas are below the least that the grid shows, '//short_number(solution%value(contact_area))
       end associate
       call log%note(integer_text(count(is_unreached))//' of '//integer_text(size(is_unreached))// &
          limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
@@ -397,8 +387,8 @@ contains
       do i = 1, size(loads)
          associate (solution => loads(i))
             if (solution%status /= unresolved) cycle
-            if (any(is_known(solution%measures%errors()))) then
-               coarse = coarse + merge(0, 1, solution%measures%are_resolved(surface))
+            if (any(is_known(solution%error(main_quantities)))) then
+               coarse = coarse + merge(0, 1, solution%are_resolved(surface))
             else
                unknown = unknown + 1
             end if

@@ -2,10 +2,10 @@
 module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_adhesive_curve, only: adhesive_curve
+   use wavycon_contact_measures, only: linear_area_fraction
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_measures, only: or_nan
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: is_good_status, not_accurate, status_name, unresolved
+   use wavycon_contact_status, only: is_good_status, not_accurate, status_code, status_name, unresolved
    use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
@@ -14,6 +14,8 @@ module wavycon_results
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
+   use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, mean_gap, &
+      number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
    use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
@@ -43,9 +45,8 @@ module wavycon_results
       procedure :: begin_block
       procedure :: unit_in_words
       procedure :: in_p_star
-      procedure :: approach_over_amplitude
+      procedure :: number
       procedure :: mean_pressure
-      procedure :: peak_pressure
       procedure :: stress_status
       procedure :: is_solved
    end type results_type
@@ -157,16 +158,67 @@ contains
       if (self%solver%surface%has_free_edges) in_p_star = not_a_number()
    end function in_p_star
 
-   !> The approach of a load and its error [Delta], as the table has them: NaN for a profile with free edges.
-   pure function approach_over_amplitude(self, load) result(approach)
+   !> The number of a load in a column of tables: NaN if it is unknown or does not exist. With free edges there are no
+   !> numbers in p*, and a profile has no approach. Without a hardness nothing is at it; the linear law is of maps.
+   pure real(dp) function number(self, load, column, quantities_of_load)
       class(results_type), intent(in) :: self
       integer, intent(in) :: load
-      real(dp) :: approach(2)
+      character(*), intent(in) :: column   !! its name
+      !> With details; absent: those that the solver has computed.
+      type(quantities), intent(in), optional :: quantities_of_load
 
-      approach = [self%loads(load)%measures%approach_over_amplitude, or_nan(self%loads(load)%measures%mean_gap_error)]
-      if (.not. self%traits%has_errors) approach(2) = not_a_number()
-      if (self%solver%surface%has_free_edges .and. self%solver%surface%dimension == 1) approach = not_a_number()
-   end function approach_over_amplitude
+      logical :: exists, in_unit, is_error
+      integer :: kind, quantity
+      real(dp) :: unit(number_of_kinds)   !! of the core's numbers, in those of the deck
+      type(quantities) :: q
+
+      associate (surface => self%solver%surface, solution => self%loads(load), scene => self%scene)
+         q = solution%quantities
+         if (present(quantities_of_load)) q = quantities_of_load
+         select case (column)
+         case ('load')
+            number = load
+         case ('pbar_over_pstar')
+            number = self%in_p_star(solution%pbar_over_pstar)
+         case ('linear_area_fraction')
+            number = or_nan(linear_area_fraction(surface, scene%roughness%slope, solution%pbar_over_pstar))
+         case ('mean_pressure')
+            number = self%mean_pressure(load)
+         case ('force')
+            number = surface%nominal_area()*self%mean_pressure(load)
+         case ('active_constraints')
+            number = real(solution%active_constraints, dp)
+         case ('iterations')
+            number = solution%iterations
+         case ('residual')
+            number = solution%residual
+         case ('status_code')
+            number = status_code(solution%status)
+         case default
+            call find_quantity(column, quantity, kind, is_error, in_unit)
+            number = q%value(quantity)
+            ! Pressures over the p* of a flat surface are infinite.
+            if (.not. number > huge(number)) number = or_nan(number)
+            if (is_error) number = or_nan(q%error(merge(mean_gap, quantity, quantity == approach)))
+            exists = self%traits%has_errors .or. .not. is_error
+            if (quantity == approach) exists = exists .and. .not. (surface%has_free_edges .and. surface%dimension == 1)
+            if (any(quantity == [area_at_hardness, load_at_hardness])) exists = exists .and. surface%has_hardness()
+            if (.not. exists) number = not_a_number()
+            if (in_unit) then
+               unit = 1.0_dp
+               unit(of_length) = surface%amplitude
+               unit(of_pressure) = scene%p_star
+               unit(of_area) = surface%nominal_area()
+               unit(of_energy) = scene%p_star*surface%amplitude*surface%nominal_area()
+               number = unit(kind)*number
+               ! On a flat surface, whose p* is zero, it is the mean pressure.
+               if (column == 'peak_pressure' .and. .not. scene%p_star > 0.0_dp) number = self%mean_pressure(load)
+            else if (any(kind == [of_pressure, of_energy])) then
+               number = self%in_p_star(number)
+            end if
+         end select
+      end associate
+   end function number
 
    !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
    pure real(dp) function mean_pressure(self, load)
@@ -179,18 +231,6 @@ contains
          mean_pressure = self%scene%p_star*self%loads(load)%pbar_over_pstar
       end if
    end function mean_pressure
-
-   !> The peak pressure of a load [pressure]. On a flat surface, whose p* is zero, it is the mean pressure.
-   pure real(dp) function peak_pressure(self, load)
-      class(results_type), intent(in) :: self
-      integer, intent(in) :: load
-
-      if (self%scene%p_star > 0.0_dp) then
-         peak_pressure = self%scene%p_star*or_nan(self%loads(load)%measures%peak_pressure_over_pstar)
-      else
-         peak_pressure = self%mean_pressure(load)
-      end if
-   end function peak_pressure
 
    !> The entry of a table for a number that does not exist.
    pure real(dp) function not_a_number()

@@ -22,6 +22,7 @@ module wavycon_spot_tables
    use wavycon_kinds, only: dp
    use wavycon_measure_tuning, only: line_samples, plane_samples
    use wavycon_output_file, only: output_file
+   use wavycon_quantities, only: contact_area
    use wavycon_results, only: not_a_number, results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -98,7 +99,7 @@ contains
                        (merge(1, 0, any(regions%pools%percolates(i))), i=1, 2)]
          end if
          call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), &
-                            solution%measures%contact_area_fraction, numbers, status_code(solution%status)], &
+                            solution%value(contact_area), numbers, status_code(solution%status)], &
                            [status_name(solution%status)])
       end associate
    end subroutine put_spots

@@ -2,15 +2,18 @@
 !> src/README.md describes how to add a table.
 module wavycon_table
    use wavycon_contact_solver, only: solver_traits
+   use wavycon_contact_status, only: status_name
    use wavycon_error, only: error_type
    use wavycon_formula_kinds, only: paper_waves
    use wavycon_group_values, only: group_values
    use wavycon_key_table, only: key_index, logical_value, text_value
    use wavycon_kinds, only: dp
+   use wavycon_memory_table, only: column_kind, column_list, column_name, longest_word, of_words
    use wavycon_methods, only: solvers_for
    use wavycon_output_file, only: output_file
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_plain_text, only: short_number
+   use wavycon_quantities, only: quantities
    use wavycon_results, only: results_type
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: solver_names
@@ -34,7 +37,8 @@ module wavycon_table
       logical :: needs_surface = .true.   !! whether it needs the whole surface, with a p* and a Delta that are not zero
       procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
       integer :: blocks = 0               !! of a table that has a block of each of these in place of rows of each load
-      !> One of these: the rows of a load, or the block of `blocks`; or the table with its file.
+      !> One of these: the rows of a load, or the block of `blocks`; or the table with its file. Neither for a table
+      !> whose columns are quantities of the solution.
       procedure(load_interface), pointer, nopass :: put_load => null()
       procedure(write_interface), pointer, pass(table) :: write_all => null()
    contains
@@ -183,9 +187,34 @@ contains
       end if
       call results%open_table(trim(self%file), self%columns, file)
       do load = 1, merge(self%blocks, size(results%loads), self%blocks > 0)
-         call self%put_load(results, load, file)
+         if (associated(self%put_load)) then
+            call self%put_load(results, load, file)
+         else
+            call put_quantities(self, results, load, file)
+         end if
       end do
       call file%finish(error)
    end subroutine write_table
+
+   !> Writes the row of a load whose columns are all quantities of its solution.
+   subroutine put_quantities(self, results, load, file)
+      type(table_type), intent(in) :: self
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      integer :: i
+      type(quantities) :: of_load
+
+      of_load = results%loads(load)%quantities
+      if (self%needs_fields) call results%loads(load)%details(of_load)
+      associate (columns => column_list(self%columns), solution => results%loads(load))
+         associate (names => column_name(pack(columns, column_kind(columns) /= of_words)), &
+                    words => [character(longest_word) :: solver_names(solution%solver), status_name(solution%status)])
+            call file%put_row([(results%number(load, trim(names(i)), of_load), i=1, size(names))], &
+                              pack(words, [any(columns == 'solver[word]'), .true.]))
+         end associate
+      end associate
+   end subroutine put_quantities
 
 end module wavycon_table

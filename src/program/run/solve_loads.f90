@@ -8,13 +8,14 @@ module wavycon_solve_loads
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: is_good_status
-   use wavycon_find_load, only: solve_for_approach, solve_for_contact_area, solve_for_mean_gap
+   use wavycon_find_load, only: solve_for
    use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_partial_slip, only: solve_partial_slip
    use wavycon_plain_text, only: integer_text, short_number
+   use wavycon_quantities, only: approach, contact_area, mean_gap
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_yield
@@ -104,11 +105,11 @@ contains
 
       select case (loads_by)
       case (by_mean_gap)
-         call solve_for_mean_gap(solver, target, solution)
+         call solve_for(solver, mean_gap, target, solution)
       case (by_approach)
-         call solve_for_approach(solver, target, solution)
+         call solve_for(solver, approach, target, solution)
       case (by_contact_area)
-         call solve_for_contact_area(solver, target, solution)
+         call solve_for(solver, contact_area, target, solution)
       case (by_yield)
          call solve_for_yield(solver, setting, target, solution)
       case default
