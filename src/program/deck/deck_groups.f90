@@ -145,7 +145,7 @@ contains
                return
             end if
          end associate
-         call lists(g)%place_at(place)
+         lists(g)%group%place = place
          is_guessed(g) = .not. is_known
       end subroutine open_group
 
@@ -171,7 +171,7 @@ contains
             call problems%add(place, unknown_group(setting%group, lists))
             return
          end if
-         if (lists(g)%group%place == 0) call lists(g)%place_at(place)
+         if (lists(g)%group%place == 0) lists(g)%group%place = place
          place = place + len(setting%group) + 1
          token = token_type(is_word, place, place + len(setting%key) - 1)
          call take_entry(len(text%content))

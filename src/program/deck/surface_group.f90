@@ -212,7 +212,8 @@ contains
       call name_sides(values%length_x, values%length_y, 'length_x and length_y')
       call name_sides(values%wavelength, values%wavelength_y, 'wavelength and wavelength_y')
       call name_sides(values%wavelength1, values%wavelength2, 'wavelength1 and wavelength2')
-      call values%problems%add(place, 'the cell is '//short_number(side(1))//' x '//short_number(side(2))// &
+      call values%problems%add(max(place, values%place), &
+         'the cell is '//short_number(side(1))//' x '//short_number(side(2))// &
          ', one side '//short_number(maxval(side)/minval(side))//' times the other; at most '// &
          short_number(largest_ratio)//' times is allowed. Are '//keys//' in one unit?')
 

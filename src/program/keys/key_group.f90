@@ -2,7 +2,7 @@
 !> list of keys connects both: what is read, checked and written for all keys alike goes through it.
 module wavycon_key_group
    use wavycon_key_table, only: allowed_values, integer_value, is_read, key_index, key_type, logical_value, &
-      name_length, real_value, text_value, ways_in_words, words_of
+      name_length, real_value, ways_in_words, words_of
    use wavycon_key_values, only: check_number, read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
@@ -15,7 +15,7 @@ module wavycon_key_group
 
    !> The value of one key and how it was given.
    type :: key_value
-      integer :: place = 0                     !! byte of the deck's text: of the key or, if it is absent, of its group
+      integer :: place = 0                     !! byte of the deck's text where the key stands; 0 if it is absent
       logical :: is_given = .false.            !! by the deck
       logical :: is_bad = .false.              !! given, but its value cannot be used: omit checks that depend on it
       !> Whether the resolved deck shows it: it has a value, which has an effect beside those of other keys.
@@ -23,7 +23,7 @@ module wavycon_key_group
       real(dp), allocatable :: numbers(:)      !! of reals and integers; of logicals 1 for .true. and 0 for .false.
       real(dp) :: number = 0.0_dp              !! the first of them; 0 if there is none
       real(dp) :: pair(2) = 0.0_dp             !! the first and the last of them
-      logical :: is_true = .false.             !! of a logical
+      logical :: is_true = .false.             !! of a logical; of a number whether it is > 0
       character(:), allocatable :: text        !! of texts and choices, without blanks at its end; empty: it has none
    contains
       procedure :: set
@@ -63,7 +63,6 @@ module wavycon_key_group
       procedure :: start
       procedure :: take
       procedure :: take_value
-      procedure :: place_at
       procedure :: words
       procedure :: asked_for
       procedure :: check_relations
@@ -96,13 +95,13 @@ contains
       if (.not. self%is_given .or. self%is_bad) call self%set(numbers, text)
    end subroutine set_default
 
-   !> Reports a problem at the place of a key.
+   !> Reports a problem at the place of a key or, if it is absent, of the group.
    pure subroutine complain(self, key, words)
       class(key_group), intent(inout) :: self
       type(key_value), intent(in) :: key
       character(*), intent(in) :: words   !! what is wrong, what was expected
 
-      call self%problems%add(key%place, words)
+      call self%problems%add(merge(key%place, self%place, key%place > 0), words)
    end subroutine complain
 
    !> Adds a key: where its value is, and its row of the table.
@@ -174,19 +173,6 @@ contains
       if (allocated(trouble)) call self%group%problems%add(0, trouble)
    end subroutine take_value
 
-   !> Sets the place of the group, at which problems with absent keys are reported.
-   subroutine place_at(self, place)
-      class(key_list), intent(inout) :: self
-      integer, intent(in) :: place   !! byte of the deck's text
-
-      integer :: k
-
-      self%group%place = place
-      do k = 1, size(self%keys)
-         if (.not. self%keys(k)%value%is_given) self%keys(k)%value%place = place
-      end do
-   end subroutine place_at
-
    !> The value of a key as a deck gives it, numbers to all digits and texts without quotes.
    pure function words(self, k, between) result(text)
       class(key_list), intent(in) :: self
@@ -220,28 +206,19 @@ contains
       end associate
    end function words
 
-   !> 'group.', and 'group.key' of each key that asks for something: a logical one that is .true., a text other than
-   !> 'none', a number that is given.
+   !> 'group.', and 'group.key' of each key that asks for something: .true., a number > 0, a text other than 'none'.
    pure function asked_for(self) result(names)
       class(key_list), intent(in) :: self
       character(2*name_length) :: names(1 + size(self%rows))
 
       integer :: k
-      logical :: asks
 
       names = trim(self%name)//'.'
       do k = 1, size(self%rows)
          associate (value => self%keys(k)%value)
-            select case (self%rows(k)%kind)
-            case (logical_value)
-               asks = value%is_true
-            case (text_value:)
-               asks = value%text /= 'none'
-            case default
-               asks = value%is_given
-            end select
+            if (value%is_true .or. (value%text /= '' .and. value%text /= 'none')) &
+               names(1 + k) = trim(names(1))//self%rows(k)%name
          end associate
-         if (asks) names(1 + k) = trim(names(1))//self%rows(k)%name
       end do
    end function asked_for
 
@@ -277,7 +254,7 @@ contains
             if (.not. (selector%is_bad .or. (is_default .and. self%group%has_unknown))) choice = selector%text
             if (choice /= '') then
                who = trim(self%selector)//" = '"//choice//"'"
-               place = selector%place
+               place = max(selector%place, place)
                is_own = is_read(self%rows, choice)
             end if
          end associate
