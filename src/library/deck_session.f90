@@ -3,22 +3,23 @@ module wavycon_deck_session
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_deck_groups, only: load_number, read_group_text
-   use wavycon_deck_text, only: deck_text_type, problem_report, read_deck_text
+   use wavycon_deck_groups, only: unknown_key
+   use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_group_values, only: group_values
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: key_index
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, check_loads_of_surface, take_loads
+   use wavycon_load_group, only: check_load_group, list_load_keys, take_loads
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen
    use wavycon_notes, only: note_loads, note_scene
-   use wavycon_plain_text, only: exact_number, integer_text, listed, newline
-   use wavycon_problems, only: problem_list_type
+   use wavycon_plain_text, only: integer_text, listed, newline
    use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: start_results
    use wavycon_scene, only: by_pressure, by_yield, scene_type
+   use wavycon_scene_groups, only: load_group
    use wavycon_settings, only: read_setting, setting_type
    use wavycon_solution_record, only: solution_record
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_target
@@ -100,7 +101,7 @@ contains
       self%keeps_fields = keep_fields .or. scene%loads_by == by_yield
       call start_results(scene, self%results, tables, self%keeps_fields)
       associate (scene => self%results%scene)
-         call scene%output%set('map_format', text='text')
+         call scene%output%map_format%set(text='text')
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
          allocate (scene%mean_pressure(1), self%results%loads(1), self%records(size(scene%target)))
          self%records%status = -1
@@ -146,27 +147,29 @@ contains
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: loads_by
+      integer :: k, loads_by
       real(dp), allocatable :: mean_pressure(:), target(:)
-      type(deck_text_type) :: text
-      type(group_values) :: values
-      type(problem_list_type) :: problems
+      type(key_list) :: keys(1)
+      type(load_group), target :: values
 
       call check_ready(self, error)
       if (allocated(error)) return
-      call read_group_text(load_number, quantity//' = '//exact_number(value), values, text, problems)
-      call check_load_group(values, self%results%scene%interface%has('work_of_adhesion'), problems)
-      if (problems%number == 0) &
-         call check_loads_of_surface(values, self%results%solver%surface, self%scale%p_star, problems)
-      if (problems%number > 0) then
-         call fatal_error(error, exit_bad_input, problem_report(problems, text))
+      call list_load_keys(values, keys(1))
+      call keys(1)%start('')
+      k = key_index(keys(1)%rows, quantity)
+      if (k == 0) then
+         call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity, keys(1), keys))
          return
       end if
-      call take_loads(values, self%results%solver%surface, self%scale%p_star, loads_by, target, mean_pressure)
-      if (size(target) == 1) then
-         call self%solve_one(loads_by, 1, target, mean_pressure, answer, error)
+      call keys(1)%take_value(k, number=value)
+      call keys(1)%check_relations()
+      call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)
+      if (values%problems%number == 0) call take_loads(values, self%results%solver%surface, self%scale%p_star, &
+                                                       loads_by, target, mean_pressure)
+      if (values%problems%number > 0) then
+         call fatal_error(error, exit_bad_input, '&load: '//values%problems%items(1)%words)
       else
-         call fatal_error(error, exit_bad_input, text%path//': this is not one load but '//integer_text(size(target)))
+         call self%solve_one(loads_by, 1, target, mean_pressure, answer, error)
       end if
    end subroutine solve
 
@@ -204,7 +207,7 @@ contains
       type(memory_table) :: summary
 
       if (loads_by == by_yield) then
-         if (.not. self%results%scene%stress%has('yield_stress')) then
+         if (.not. self%results%scene%stress%yield_stress%is_given) then
             call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
          else if (.not. self%keeps_fields) then
             call fatal_error(error, exit_bad_input, 'yield needs fields: the session was opened without them')
@@ -365,7 +368,7 @@ contains
             i = findloc(solved%summary%names == name .and. solved%summary%kinds == of_words, .true., dim=1)
             if (i > 0) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
          else if (name == 'solver') then
-            words = scene%method%text('solver')
+            words = scene%method%solver%text
          else if (name == 'method') then
             words = self%results%method
          else if (name == 'why_chosen') then

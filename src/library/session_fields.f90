@@ -7,18 +7,15 @@ module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
-   use wavycon_deck_groups, only: deck_tables, material_number, read_group_text, stress_number
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
-   use wavycon_deck_text, only: deck_text_type, problem_report
    use wavycon_elastic_body, only: elastic_body
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_group_type
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: key_index
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: exact_number, integer_text, quoted
-   use wavycon_problems, only: problem_list_type
-   use wavycon_stress_group, only: make_stress_setting
-   use wavycon_stress_setting, only: stress_setting
+   use wavycon_plain_text, only: integer_text
+   use wavycon_scene_groups, only: stress_group
+   use wavycon_stress_group, only: lateral_of, list_stress_keys
    use wavycon_system, only: has_memory_for
    implicit none (type, external)
    private
@@ -221,24 +218,20 @@ contains
 
       !> Series, their waves and copies of them, in numbers a point of the grid.
       integer(int64), parameter :: numbers = 8
-      type(deck_text_type) :: text
-      type(group_values) :: material, values
-      type(problem_list_type) :: problems
-      type(key_group_type), pointer :: tables(:)
-      type(stress_setting), allocatable :: setting
+      type(key_list) :: keys
+      type(stress_group), target :: values
 
       call prepare_fields(session, solved, error)
       if (allocated(error)) return
-      call read_group_text(stress_number, 'nu = '//exact_number(nu)//', lateral = '//quoted(lateral), values, text, &
-                           problems)
-      if (problems%number > 0) then
-         call fatal_error(error, exit_bad_input, problem_report(problems, text))
+      call list_stress_keys(values, keys)
+      call keys%start('')
+      call keys%take_value(key_index(keys%rows, 'nu'), number=nu)
+      call keys%take_value(key_index(keys%rows, 'lateral'), text=lateral)
+      if (values%problems%number > 0) then
+         call fatal_error(error, exit_bad_input, '&stress: '//values%problems%items(1)%words)
          return
       end if
-      tables => deck_tables()
-      call material%start(tables(material_number), '')
-      call make_stress_setting(values, material, 0.0_dp, setting)
-      body = setting%body(1)
+      body = elastic_body(nu, lateral_of(values))
       if (allocated(solved%stresses) .or. .not. session%scale%p_star > 0.0_dp) return
       if (has_memory_for(numbers*product(int(solved%fields%own_points, int64)))) then
          call solved%solution%stresses(session%results%solver%surface, solved%stresses)

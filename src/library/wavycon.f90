@@ -18,7 +18,7 @@ module wavycon
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
    use wavycon_find_load, only: solve_for
-   use wavycon_fitted_contact, only: fitted_contact, fitted_options
+   use wavycon_fitted_contact, only: fitted_contact
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options

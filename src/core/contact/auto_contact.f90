@@ -6,7 +6,7 @@ module wavycon_auto_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, interrupted
-   use wavycon_fitted_contact, only: fitted_contact, fitted_options
+   use wavycon_fitted_contact, only: fitted_contact
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_grid_slab, only: grid_slab
@@ -21,7 +21,7 @@ module wavycon_auto_contact
 
    !> Why its solvers were taken: the closed form, collocation with grids where it is not accurate enough, or grids.
    integer, parameter, public :: has_closed_form = 1, has_expansions = 2, has_neither = 3, has_a_hardness = 4, &
-      points_are_given = 5, points_are_of_the_map = 6
+      points_are_given = 5, points_are_of_the_map = 6, last_choice = 6
 
    !> The solver on grids, with another one before it.
    type, extends(grid_contact) :: auto_contact
@@ -63,7 +63,7 @@ contains
       else if (allocated(frame%lattice)) then
          self%choice = has_expansions
          allocate (fitted)
-         call fitted%start(surface, fitted_options(options%accuracy), keep_fields)
+         call fitted%start(surface, options%accuracy, keep_fields)
          call move_alloc(fitted, self%first)
       else
          self%choice = has_neither

@@ -28,7 +28,7 @@ module wavycon_field_source
       procedure(stresses_of_source), deferred :: stresses
       procedure :: coefficients
       procedure :: details
-      procedure :: derivatives
+      procedure(slopes_of_source), deferred :: derivatives
       procedure :: collect
    end type field_source
 
@@ -61,6 +61,15 @@ module wavycon_field_source
          type(surface_type), intent(in) :: surface             !! that was solved
          class(stress_fields), allocatable, intent(out) :: answer
       end subroutine stresses_of_source
+
+      !> How the solution changes with the load.
+      subroutine slopes_of_source(self, record, surface, answer)
+         import :: field_source, quantities, solution_record, surface_type
+         class(field_source), intent(in) :: self
+         type(solution_record), intent(in) :: record           !! of the solution
+         type(surface_type), intent(in) :: surface             !! that was solved
+         type(quantities), intent(out) :: answer               !! where unknown NaN
+      end subroutine slopes_of_source
    end interface
 
 contains
@@ -81,16 +90,6 @@ contains
 
       associate (unused => self, unchanged => answer); end associate
    end subroutine details
-
-   !> How the solution changes with the load. Here nothing is known.
-   subroutine derivatives(self, record, surface, answer)
-      class(field_source), intent(in) :: self
-      type(solution_record), intent(in) :: record    !! of the solution
-      type(surface_type), intent(in) :: surface      !! that was solved
-      type(quantities), intent(out) :: answer
-
-      associate (unused => self, unused_too => record, unused_three => surface, none => answer); end associate
-   end subroutine derivatives
 
    !> Brings what is distributed over the ranks to the first rank. All ranks call it. Here nothing is distributed.
    subroutine collect(self, is_here)

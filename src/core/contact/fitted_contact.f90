@@ -17,16 +17,11 @@ module wavycon_fitted_contact
    implicit none (type, external)
    private
 
-   public :: fitted_contact, fitted_options
-
-   type :: fitted_options
-      !> Largest error of mean gap [Delta], contact area fraction and peak pressure [p*], > 0.
-      real(dp) :: accuracy = default_accuracy
-   end type fitted_options
+   public :: fitted_contact
 
    type, extends(contact_solver) :: fitted_contact
       type(fitted_frame), private :: frame
-      type(fitted_options), private :: options
+      real(dp), private :: accuracy = default_accuracy   !! as of `start`
       logical, private :: keep_fields = .true.
       type(fitted_answer), private :: last         !! of the last load solved, from which the next one starts
    contains
@@ -39,15 +34,15 @@ module wavycon_fitted_contact
 contains
 
    !> Starts the solver.
-   subroutine start(self, surface, options, keep_fields)
+   subroutine start(self, surface, accuracy, keep_fields)
       class(fitted_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface   !! if it has no frame all solutions have the status not_found
-      type(fitted_options), intent(in) :: options
+      real(dp), intent(in) :: accuracy            !! largest error of gap [Delta], area fraction, peak [p*], > 0
       logical, intent(in) :: keep_fields          !! whether fields or details of the solutions will be needed
 
-      call assert(options%accuracy > 0.0_dp, 'accuracy > 0')
+      call assert(accuracy > 0.0_dp, 'accuracy > 0')
       self%surface = surface
-      self%options = options
+      self%accuracy = accuracy
       self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
       ! A flat surface is in full contact at every load: no expansion is needed.
@@ -69,7 +64,7 @@ contains
          ! solve_fitted takes a relative accuracy. The largest of the three values, the peak pressure, is less than
          ! that of full contact at P = 1.
          call solve_fitted(self%frame%lattice, pbar_over_pstar/self%frame%pressure_unit, &
-                           self%options%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, &
+                           self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, &
                            self%keep_fields)
       end if
       if (answer%status /= fitted_solved .and. answer%status /= fitted_less_exact) then
@@ -89,12 +84,12 @@ contains
       solution%iterations = answer%iterations
       solution%residual = answer%residual
       solution%status = not_accurate
-      if (maxval(solution%error(main_quantities)) <= self%options%accuracy) solution%status = converged
+      if (maxval(solution%error(main_quantities)) <= self%accuracy) solution%status = converged
       if (.not. self%keep_fields) return
       allocate (source)
       source%frame = self%frame
       source%answer = answer
-      source%accuracy = self%options%accuracy
+      source%accuracy = self%accuracy
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 

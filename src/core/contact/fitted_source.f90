@@ -24,7 +24,7 @@ module wavycon_fitted_source
    type, extends(field_source) :: fitted_source
       type(fitted_frame) :: frame       !! with a lattice
       type(fitted_answer) :: answer     !! in the units of src/core/fitted
-      real(dp) :: accuracy = 0.0_dp     !! that it was asked for, relative
+      real(dp) :: accuracy = 0.0_dp     !! of fitted_contact: largest error of gap [Delta] and pressure [p*]
    contains
       procedure :: fields
       procedure :: contact_contours
@@ -35,7 +35,7 @@ module wavycon_fitted_source
 
    type, extends(contact_fields) :: fitted_contact_fields
       type(fitted_frame) :: frame
-      real(dp) :: accuracy = 0.0_dp     !! that the solution was asked for, relative
+      real(dp) :: accuracy = 0.0_dp     !! as of fitted_source
       type(fitted_fields), allocatable :: fitted
    contains
       procedure :: at

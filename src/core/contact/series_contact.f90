@@ -72,6 +72,7 @@ module wavycon_series_contact
    type, extends(contact_solver) :: series_contact
       type(series_source) :: series                    !! without amplitudes
       type(qp_problem) :: problem                      !! at zero load, or at the last load that started from nothing
+      integer, private :: solver = by_beale             !! or by_dual: of its solutions
       type(dual_solver), allocatable, private :: dual   !! after the first load
    contains
       procedure :: start
@@ -105,6 +106,7 @@ contains
       self%surface = surface
       self%is_started = is_paper_wave(surface)
       self%series%options = options
+      if (.not. options%by_beale) self%solver = by_dual
       self%series%rotated = paper_wave(surface) == rotated_paper_wave
       self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
       self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
@@ -123,7 +125,7 @@ contains
 
       call self%solve_programme(pbar_over_pstar, programme)
       solution%pbar_over_pstar = pbar_over_pstar
-      solution%solver = merge(by_beale, by_dual, self%series%options%by_beale)
+      solution%solver = self%solver
       solution%status = status_of_programme(programme%status)
       solution%iterations = programme%pivots
       solution%residual = programme%kkt_residual
@@ -199,8 +201,8 @@ contains
    type(solver_traits) function traits(self)
       class(series_contact), intent(in) :: self
 
-      traits = solver_traits(solver=merge(by_beale, by_dual, self%series%options%by_beale), has_errors=.false., &
-                             has_coefficients=.true., continues_last_load=continues(self))
+      traits = solver_traits(solver=self%solver, has_errors=.false., has_coefficients=.true., &
+                             continues_last_load=continues(self))
    end function traits
 
    subroutine forget_last_load(self)

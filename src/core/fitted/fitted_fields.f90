@@ -210,7 +210,7 @@ contains
    !> polynomial of the others. Without such a series, or for few places, each place is evaluated for itself.
    subroutine prepare_map(self, accuracy, places)
       class(fitted_fields), intent(inout) :: self
-      real(dp), intent(in) :: accuracy            !! that the solution was asked for, relative
+      real(dp), intent(in) :: accuracy            !! largest error that the solution was asked for, as of fitted_contact
       integer, intent(in) :: places               !! distributed over the cell, >= 0
 
       !> Error over the accuracy that was asked for, and the least one over the fields' scale.

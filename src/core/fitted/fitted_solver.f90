@@ -40,7 +40,7 @@ contains
    subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: pbar_over_pstar        !! P, between 0 and the lattice's closing pressure
-      real(dp), intent(in) :: accuracy               !! > 0; rounding allows some 1e-14
+      real(dp), intent(in) :: accuracy               !! of each measure over itself, > 0; rounding allows some 1e-14
       type(fitted_answer), intent(out) :: answer
       type(fitted_answer), intent(in), optional :: start
          !! of another load of the same lattice, not the same variable as `answer`; saves time where the load is near

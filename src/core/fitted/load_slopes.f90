@@ -30,7 +30,7 @@ contains
       real(dp), intent(out) :: slopes(number_of_slopes)
          !! G', A', G'' [Delta, 1, Delta over the pressure, for G'' its square; pressures in pi E* Delta/s]
       real(dp), intent(out) :: errors(number_of_slopes)   !! estimates of their errors
-      real(dp), intent(out) :: intensity_range(2)         !! as of `load_derivatives`
+      real(dp), intent(out) :: intensity_range(2)         !! as of `least_intensity`
       logical, intent(out) :: found                       !! otherwise the equations have no finite solution
 
       !> Relative error of the differences of Newton's matrix.

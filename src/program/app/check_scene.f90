@@ -36,9 +36,9 @@ contains
       call start_results(scene, results, tables)
       call show_scene(results, log)
       reason = why_chosen(results%traits)
-      if (.not. results%scene%method%has('solver')) then
+      if (.not. results%scene%method%solver%is_given) then
          if (reason /= '') reason = '; '//reason
-         reason = "'"//results%scene%method%text('solver')//"' is the default"//reason
+         reason = "'"//results%scene%method%solver%text//"' is the default"//reason
       end if
       if (reason /= '') call log%say('because: '//reason)
       if (all(results%traits%finest_grid > 0)) then

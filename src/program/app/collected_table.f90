@@ -2,10 +2,11 @@
 !> summaries that the runs have written.
 module wavycon_collected_table
    use, intrinsic :: iso_c_binding, only: c_null_char
+   use wavycon_deck_groups, only: list_deck_keys => list_keys, number_of_groups
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: read_file
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: integer_value, key_type, real_value
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: integer_value, real_value
    use wavycon_memory_table, only: column_list, column_name, column_unit
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, newline
@@ -88,48 +89,43 @@ contains
    !> Lists the keys of &material, &surface, &load, &stress and &method, the same for all decks. Lists of loads have no
    !> effect here: a table has a row for each.
    subroutine list_keys(scene, keys)
-      type(scene_type), intent(in) :: scene
+      type(scene_type), intent(in), target :: scene
       type(deck_key), allocatable, intent(out) :: keys(:)
 
-      type(group_values) :: groups(5)
-      logical :: is_asked_for
+      logical :: is_listed(number_of_groups)
       integer :: i, k, number
+      type(key_list) :: lists(number_of_groups)
 
-      groups(1) = scene%material
-      groups(2) = scene%surface_values
-      groups(3) = scene%load
-      groups(4) = scene%stress
-      groups(5) = scene%method
-      allocate (keys(sum([(size(groups(i)%table%keys), i=1, size(groups))])))
+      call list_deck_keys(scene, lists)
+      is_listed = [(all(lists(i)%name /= ['scene    ', 'interface', 'output   ']), i=1, size(lists))]
+      allocate (keys(sum([(size(lists(i)%rows), i=1, size(lists))], is_listed)))
       number = 0
-      do i = 1, size(groups)
-         associate (values => groups(i))
-            is_asked_for = values%table%name /= 'stress' .or. values%place > 0
-            do k = 1, size(values%table%keys)
-               number = number + 1
-               associate (key => values%table%keys(k), listed => keys(number))
-                  listed%name = trim(values%table%name)//'_'//key%name
-                  listed%given = values%has(key%name)
-                  listed%in_effect = is_asked_for .and. values%in_effect(key%name) .and. &
-                                     .not. (values%table%name == 'load' .and. key%most_values > 1)
-                  listed%word = '-'
-                  if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
-                  if (listed%in_effect) listed%word = word_of(values, key)
-               end associate
-            end do
-         end associate
+      do i = 1, size(lists)
+         if (.not. is_listed(i)) cycle
+         do k = 1, size(lists(i)%rows)
+            number = number + 1
+            associate (key => lists(i)%rows(k), value => lists(i)%keys(k)%value, listed => keys(number))
+               listed%name = trim(lists(i)%name)//'_'//key%name
+               listed%given = value%is_given
+               listed%in_effect = value%in_effect .and. .not. (lists(i)%name == 'load' .and. key%most_values > 1) &
+                                  .and. (lists(i)%name /= 'stress' .or. lists(i)%group%place > 0)
+               listed%word = '-'
+               if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
+               if (listed%in_effect) listed%word = word_of(lists(i), k)
+            end associate
+         end do
       end do
    end subroutine list_keys
 
    !> The value of a key: the numbers of a list with commas between them, one number if they are equal.
-   pure function word_of(values, key) result(word)
-      type(group_values), intent(in) :: values
-      type(key_type), intent(in) :: key
+   pure function word_of(list, k) result(word)
+      type(key_list), intent(in) :: list
+      integer, intent(in) :: k   !! number of the key
       character(:), allocatable :: word
 
-      word = values%words(trim(key%name), ',')
-      if (any(key%kind == [real_value, integer_value])) then
-         associate (numbers => values%reals(trim(key%name)))
+      word = list%words(k, ',')
+      if (any(list%rows(k)%kind == [real_value, integer_value])) then
+         associate (numbers => list%keys(k)%value%numbers)
             if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
          end associate
       end if

@@ -2,9 +2,9 @@
 module wavycon_command_line
    use wavycon_deck_text, only: at_end, is_comma, next_token, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
-   use wavycon_group_values, only: group_values
+   use wavycon_key_group, only: key_group, key_list, key_value
    use wavycon_key_reference, only: add_wrapped, key_reference
-   use wavycon_key_table, only: integer_value, key_group_type, key_type, logical_value, text_value
+   use wavycon_key_table, only: integer_value, key_type, logical_value, text_value
    use wavycon_key_values, only: must_be, read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
@@ -27,58 +27,69 @@ module wavycon_command_line
       type(setting_type), allocatable :: values(:)
    end type sweep_type
 
+   type, extends(key_group) :: option_group
+      type(key_value) :: check, set, sweep, output, table, keep_going, resume, jobs, threads, quiet, version, help
+   end type option_group
+
    type :: command_line_type
       type(run_type), allocatable :: runs(:)   !! the decks, each with all combinations of the values of its sweeps
-      type(group_values) :: options            !! by their names, such as '--quiet'
+      type(option_group) :: options
    end type command_line_type
 
    integer, parameter :: most_runs = 100000, most_processes = 1024
 
+contains
+
    !> The options as keys: the unit of a key is what follows the option in the usage.
-   type(key_type), parameter :: option_keys(*) = [ &
-      key_type(logical_value, '--check', '.false.', '', 'validate the decks, say what a run would do, and stop'), &
-      key_type(text_value, '--set', '', 'GROUP.KEY=VALUE', &
+   subroutine list_options(options, keys)
+      type(option_group), intent(in), target :: options
+      type(key_list), intent(out) :: keys
+
+      keys = key_list('options', '', options%key_group)
+      call keys%add(options%check, key_type(logical_value, '--check', '.false.', '', &
+         'validate the decks, say what a run would do, and stop'))
+      call keys%add(options%set, key_type(text_value, '--set', '', 'GROUP.KEY=VALUE', &
          'set a key in place of those of the decks, such as surface.amplitude=2e-6 or load.pbar_over_pstar=0.1,'// &
          '0.2; may be repeated. Keys of the deck that contradict it are left out: other ways to give the loads or '// &
          'the stiffness, accuracy or grid_points, keys of another kind of surface or solver. The name of the case '// &
-         'gets key and value, unless scene.case is set too'), &
-      key_type(text_value, '--sweep', '', 'GROUP.KEY=VALUE,...', &
-         'run each deck once for each value, as with --set; several sweeps: for all combinations'), &
-      key_type(text_value, '--output', '', 'DIR', 'write the results to DIR, not to the directory of &output', &
-         longest=longest_directory), &
-      key_type(text_value, '--table', '', 'FILE', &
+         'gets key and value, unless scene.case is set too'))
+      call keys%add(options%sweep, key_type(text_value, '--sweep', '', 'GROUP.KEY=VALUE,...', &
+         'run each deck once for each value, as with --set; several sweeps: for all combinations'))
+      call keys%add(options%output, key_type(text_value, '--output', '', 'DIR', &
+         'write the results to DIR, not to the directory of &output', longest=longest_directory))
+      call keys%add(options%table, key_type(text_value, '--table', '', 'FILE', &
          'write one table of all decks: a row for each deck and load, with the values of the keys that are set or '// &
-         'differ, and the columns of the summary', longest=longest_directory), &
-      key_type(logical_value, '--keep-going', '.false.', '', 'a bad deck does not keep the others from being run'), &
-      key_type(logical_value, '--resume', '.false.', '', &
+         'differ, and the columns of the summary', longest=longest_directory))
+      call keys%add(options%keep_going, key_type(logical_value, '--keep-going', '.false.', '', &
+         'a bad deck does not keep the others from being run'))
+      call keys%add(options%resume, key_type(logical_value, '--resume', '.false.', '', &
          'continue an interrupted run, to the same tables. Loads that were solved on grids are read from '// &
-         '<case>.checkpoint; loads of the other solvers are fast and are solved again'), &
-      key_type(integer_value, '--jobs', '1', 'N', &
-         'run N decks at a time, each in a process of its own; 1 if not given', 1, most_processes), &
-      key_type(integer_value, '--threads', '1', 'N', 'work on large grids with N threads; 1 if not given', 1, &
-         most_processes), &
-      key_type(logical_value, '--quiet', '.false.', '', 'write nothing but problems'), &
-      key_type(logical_value, '--version', '.false.', '', 'show the version and stop'), &
-      key_type(logical_value, '--help', '.false.', '', 'show this and stop')]
-
-contains
+         '<case>.checkpoint; loads of the other solvers are fast and are solved again'))
+      call keys%add(options%jobs, key_type(integer_value, '--jobs', '1', 'N', &
+         'run N decks at a time, each in a process of its own; 1 if not given', 1, most_processes))
+      call keys%add(options%threads, key_type(integer_value, '--threads', '1', 'N', &
+         'work on large grids with N threads; 1 if not given', 1, most_processes))
+      call keys%add(options%quiet, key_type(logical_value, '--quiet', '.false.', '', 'write nothing but problems'))
+      call keys%add(options%version, key_type(logical_value, '--version', '.false.', '', 'show the version and stop'))
+      call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', 'show this and stop'))
+   end subroutine list_options
 
    !> Reads the command line. Errors: exit_bad_input for an unknown option, a bad value of one, or no deck.
    subroutine read_command_line(command_line, error)
-      type(command_line_type), intent(out) :: command_line
+      type(command_line_type), intent(out), target :: command_line
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: trouble, value, word
       type(run_type) :: deck(command_argument_count())
       type(sweep_type) :: sweep(size(deck))
-      type(key_group_type), allocatable, target, save :: table
+      type(key_list) :: keys
       type(key_type) :: key
       type(word_value) :: read
       integer :: decks, equals, i, k, sweeps
       logical :: options_over
 
-      table = key_group_type('options', '', option_keys)
-      call command_line%options%start(table, '')
+      call list_options(command_line%options, keys)
+      call keys%start('')
       decks = 0
       sweeps = 0
       value = ''
@@ -98,15 +109,15 @@ contains
          if (options_over) cycle
          if (word == '-h') word = '--help'
          equals = index(word//'=', '=')
-         k = findloc(option_keys%name == word(:equals - 1) .and. &
-                     (option_keys%kind /= logical_value .or. equals > len(word)), .true., dim=1)
+         k = findloc(keys%rows%name == word(:equals - 1) .and. &
+                     (keys%rows%kind /= logical_value .or. equals > len(word)), .true., dim=1)
          if (k == 0) then
-            trouble = "unknown option '"//escaped(word)//"'"//did_you_mean(word, option_keys%name, '', '')
+            trouble = "unknown option '"//escaped(word)//"'"//did_you_mean(word, keys%rows%name, '', '')
             cycle
          end if
-         key = option_keys(k)
+         key = keys%rows(k)
          if (key%kind == logical_value) then
-            call command_line%options%set(key%name, [1.0_dp])
+            call keys%keys(k)%value%set([1.0_dp])
             cycle
          end if
          if (equals > len(word) .and. i < command_argument_count()) then
@@ -124,24 +135,24 @@ contains
             if (key%kind == text_value) value = quoted(value)
             call read_value(key, value, read, trouble)
             if (read%repeats > 1) trouble = must_be(key, value)
-            if (.not. allocated(trouble)) call command_line%options%take(key%name, 1, [read%number], read%text)
+            if (.not. allocated(trouble)) call keys%take(k, 1, [read%number], read%text)
          end if
       end do
       associate (options => command_line%options)
-         if (decks == 0 .and. .not. (options%logical('--version') .or. options%logical('--help') .or. &
+         if (decks == 0 .and. .not. (options%version%is_true .or. options%help%is_true .or. &
                                      allocated(trouble))) trouble = 'no deck is given'
          if (allocated(trouble)) then
             call fatal_error(error, exit_bad_input, trouble)
             return
          end if
-         if (options%has('--output')) then
+         if (options%output%is_given) then
             sweeps = sweeps + 1
             ! gfortran 12 loses the memory of texts in an array constructor.
             allocate (sweep(sweeps)%values(1))
             associate (setting => sweep(sweeps)%values(1))
                setting%group = 'output'
                setting%key = 'directory'
-               setting%value = quoted(options%text('--output'))
+               setting%value = quoted(options%output%text)
             end associate
          end if
       end associate
@@ -216,27 +227,30 @@ contains
       integer, parameter :: indent = 18
       character(:), allocatable :: head, usage
       integer :: i
+      type(key_list) :: keys
+      type(option_group), target :: none
 
+      call list_options(none, keys)
       text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline//newline
       usage = 'DECK...'
-      do i = 1, size(option_keys)
-         usage = usage//' ['//trim(trim(option_keys(i)%name)//' '//option_keys(i)%unit)//']'
-         if (any(option_keys(i)%name == ['--set  ', '--sweep'])) usage = usage//'...'
+      do i = 1, size(keys%rows)
+         usage = usage//' ['//trim(trim(keys%rows(i)%name)//' '//keys%rows(i)%unit)//']'
+         if (any(keys%rows(i)%name == ['--set  ', '--sweep'])) usage = usage//'...'
       end do
       head = 'usage: wavycon '
       if (is_parallel) head = 'usage: mpirun -n RANKS wavycon-mpi '
       call add_wrapped(text, len('usage: wavycon '), usage, head)
       text = text//newline
-      do i = 1, size(option_keys)
-         head = '   '//trim(trim(option_keys(i)%name)//' '//option_keys(i)%unit)
-         if (option_keys(i)%name == '--help') head = head//', -h'
+      do i = 1, size(keys%rows)
+         head = '   '//trim(trim(keys%rows(i)%name)//' '//keys%rows(i)%unit)
+         if (keys%rows(i)%name == '--help') head = head//', -h'
          if (len(head) < indent) then
             head = head//repeat(' ', indent - len(head))
          else
             text = text//head//newline
             head = repeat(' ', indent)
          end if
-         call add_wrapped(text, indent, trim(option_keys(i)%meaning), head)
+         call add_wrapped(text, indent, trim(keys%rows(i)%meaning), head)
       end do
       text = text//newline
       if (is_parallel) call add_wrapped(text, 0, 'The RANKS processes share the work: large grids are divided '// &

@@ -74,24 +74,24 @@ contains
       call keep_memory()
       call outlive_file_size_limit()
       call read_command_line(command_line, error)
-      if (allocated(comm) .and. command_line%options%integer('--jobs') > 1 .and. .not. allocated(error)) &
+      if (allocated(comm) .and. nint(command_line%options%jobs%number) > 1 .and. .not. allocated(error)) &
          call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')
       if (allocated(error)) error%message = error%message//new_line('a')//'wavycon --help shows all options'
       call share_error(error)
       call stop_on(error)
-      if (command_line%options%logical('--version')) then
+      if (command_line%options%version%is_true) then
          text = 'wavycon '//version//' ('//revision//')'
          if (allocated(comm)) text = text//', '//comm%library
       end if
-      if (command_line%options%logical('--help')) text = help_text(allocated(comm))
+      if (command_line%options%help%is_true) text = help_text(allocated(comm))
       if (allocated(text)) then
          if (is_first_rank()) call say(text)
          call finish(exit_fine)
       end if
-      quiet = command_line%options%logical('--quiet') .or. .not. is_first_rank()
+      quiet = command_line%options%quiet%is_true .or. .not. is_first_rank()
 
       call read_decks(command_line, scenes, worst)
-      if (command_line%options%logical('--check')) then
+      if (command_line%options%check%is_true) then
          do i = 1, size(scenes)
             if (.not. allocated(scenes(i)%scene)) cycle
             call separate(i, quiet)
@@ -124,12 +124,12 @@ contains
             worst = max(worst, error%status)
             deallocate (scenes(i)%scene)
          else
-            if (command_line%options%has('--table')) call list_keys(scenes(i)%scene, scenes(i)%keys)
+            if (command_line%options%table%is_given) call list_keys(scenes(i)%scene, scenes(i)%keys)
             scenes(i)%case = scenes(i)%scene%case
             scenes(i)%stem = full_path(scenes(i)%scene%directory)//'/'//scenes(i)%case
          end if
       end do
-      if (worst /= exit_fine .and. .not. command_line%options%logical('--keep-going')) call finish(worst)
+      if (worst /= exit_fine .and. .not. command_line%options%keep_going%is_true) call finish(worst)
       ! Scenes that would write the same files.
       do i = 2, size(scenes)
          if (.not. allocated(scenes(i)%scene)) cycle
@@ -143,7 +143,7 @@ contains
                              ' would write the same files: both are case '//other%case//' in '// &
                              escaped(other%directory)//'. Give them different cases.')
          end associate
-         if (.not. command_line%options%logical('--keep-going')) call stop_on(error)
+         if (.not. command_line%options%keep_going%is_true) call stop_on(error)
          call show(error)
          worst = max(worst, error%status)
          deallocate (scenes(i)%scene, scenes(i)%stem, error)
@@ -162,12 +162,12 @@ contains
       logical :: has_ended(0:size(scenes))   ! of each job
       logical :: is_good(size(scenes)), keep_going, with_table
 
-      jobs = command_line%options%integer('--jobs')
-      keep_going = command_line%options%logical('--keep-going')
-      call set_threads(command_line%options%integer('--threads'))
+      jobs = nint(command_line%options%jobs%number)
+      keep_going = command_line%options%keep_going%is_true
+      call set_threads(nint(command_line%options%threads%number))
       with_table = .false.
-      if (is_first_rank()) with_table = command_line%options%has('--table')
-      if (with_table) call check_table_file(command_line%options%text('--table'), scenes, error)
+      if (is_first_rank()) with_table = command_line%options%table%is_given
+      if (with_table) call check_table_file(command_line%options%table%text, scenes, error)
       call share_error(error)
       call stop_on(error)
       is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
@@ -190,7 +190,7 @@ contains
       worst = max(worst, maxval(status))
       scenes%is_written = status == exit_fine .or. status == exit_not_converged
       if (allocated(error)) deallocate (error)
-      if (with_table) call write_collected_table(command_line%options%text('--table'), scenes%collected_deck, &
+      if (with_table) call write_collected_table(command_line%options%table%text, scenes%collected_deck, &
                                                  command_line%runs(1)%settings, error)
       call share_error(error)
       if (allocated(error)) worst = max(worst, error%status)
@@ -212,7 +212,7 @@ contains
          type(results_type) :: results
 
          call separate(i, quiet)
-         call run_scene(scenes(i)%scene, quiet, command_line%options%logical('--resume'), results, status, error)
+         call run_scene(scenes(i)%scene, quiet, command_line%options%resume%is_true, results, status, error)
          if (allocated(error)) status = error%status
          ! What the log says otherwise.
          if (status == exit_not_converged .and. quiet .and. is_first_rank()) &

@@ -2,69 +2,59 @@
 module wavycon_deck_groups
    use wavycon_deck_text, only: at_end, deck_text_type, has_curly_quote, is_broken_word, is_comma, is_equals, &
       is_group, is_slash, is_word, next_token, quotes, starts_entry, token_type
-   use wavycon_group_values, only: group_values
-   use wavycon_interface_group, only: interface_keys
-   use wavycon_key_table, only: allowed_values, choice_value, key_group_type, key_index, key_type, name_length, &
+   use wavycon_interface_group, only: list_interface_keys
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: allowed_values, choice_value, key_index, key_type, name_length, &
       text_value, words_of
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: load_keys
-   use wavycon_material_group, only: material_keys
-   use wavycon_methods, only: method_table
+   use wavycon_load_group, only: list_load_keys
+   use wavycon_material_group, only: list_material_keys
+   use wavycon_methods, only: list_method_keys
    use wavycon_nearest_name, only: did_you_mean, nearest_name
-   use wavycon_output_group, only: output_table
+   use wavycon_output_group, only: list_output_keys
    use wavycon_plain_text, only: excerpt, in_quotes, integer_text, listed, lower_case, newline, quoted
    use wavycon_problems, only: problem_list_type
-   use wavycon_scene_group, only: scene_keys
+   use wavycon_scene, only: scene_type
+   use wavycon_scene_group, only: list_scene_keys
    use wavycon_settings, only: replaces, setting_type
-   use wavycon_stress_group, only: stress_keys
-   use wavycon_surface_group, only: surface_table
+   use wavycon_stress_group, only: list_stress_keys
+   use wavycon_surface_group, only: list_surface_keys
    implicit none (type, external)
    private
 
-   public :: deck_tables, read_group_text, take_groups
+   public :: list_keys, take_groups, unknown_key
 
-   !> The groups of a deck, in the order in which they are documented and written.
-   integer, parameter, public :: scene_number = 1, material_number = 2, surface_number = 3, load_number = 4, &
-      stress_number = 5, interface_number = 6, method_number = 7, output_number = 8, number_of_groups = 8
+   integer, parameter, public :: number_of_groups = 8
 
 contains
 
-   !> The tables of keys of all groups, indexed by the numbers above. They are made once and stay.
-   function deck_tables() result(tables)
-      type(key_group_type), pointer :: tables(:)
+   !> The keys of all groups, in the order in which they are documented and written.
+   subroutine list_keys(scene, lists)
+      type(scene_type), intent(in), target :: scene
+      type(key_list), intent(out) :: lists(number_of_groups)
 
-      type(key_group_type), allocatable, target, save :: made(:)
-
-      if (.not. allocated(made)) then
-         allocate (made(number_of_groups))
-         made(scene_number) = key_group_type('scene', 'what the case is called', scene_keys)
-         made(material_number) = key_group_type('material', &
-            'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', material_keys)
-         made(surface_number) = surface_table()
-         made(load_number) = key_group_type('load', &
-            'the loads to solve for: a list of one kind, or a sweep', load_keys, required=.true.)
-         made(stress_number) = key_group_type('stress', 'stresses below the surface, and when it yields', stress_keys)
-         made(interface_number) = key_group_type('interface', &
-            'stiffness and resistance of the contact, partial slip, adhesion', interface_keys)
-         made(method_number) = method_table()
-         made(output_number) = output_table()
-      end if
-      tables => made
-   end function deck_tables
+      call list_scene_keys(scene%scene_values, lists(1))
+      call list_material_keys(scene%material, lists(2))
+      call list_surface_keys(scene%surface_values, lists(3))
+      call list_load_keys(scene%load, lists(4))
+      call list_stress_keys(scene%stress, lists(5))
+      call list_interface_keys(scene%interface, lists(6))
+      call list_method_keys(scene%method, lists(7))
+      call list_output_keys(scene%output, lists(8))
+   end subroutine list_keys
 
    !> Reads the values of all groups, in one pass over the text, and checks them against the grammar and the tables:
    !> names, types, bounds. Checks of keys against each other follow in the modules of the groups. What does not fit is
    !> reported and ignored. The time is proportional to the length of the text, for any bytes.
-   subroutine take_groups(text, tables, groups, problems, settings)
+   subroutine take_groups(text, lists, problems, settings)
       type(deck_text_type), intent(inout) :: text              !! each setting is added as a line
-      type(key_group_type), intent(in), target :: tables(:)    !! that stay as long as the values
-      type(group_values), intent(out) :: groups(size(tables))  !! one for each table
+      type(key_list), intent(inout) :: lists(:)                !! of all groups
       type(problem_list_type), intent(inout) :: problems
       type(setting_type), intent(in), optional :: settings(:)  !! keys set in place of those of the deck
 
       integer :: g, s                       ! the number of the open group's table, 0: it has none; that of a setting
-      logical :: is_guessed(size(tables))   ! of a misspelt name
+      logical :: is_guessed(size(lists))   ! of a misspelt name
       logical :: is_unknown                 ! a group, which may be any that is missing
       logical :: is_lost                    ! since a token that does not fit, which was reported
       logical :: quote_is_open              ! a quote in the open group is not closed
@@ -77,8 +67,8 @@ contains
       is_unknown = .false.
       is_lost = .false.
       quote_is_open = .false.
-      do g = 1, size(tables)
-         call groups(g)%start(tables(g), text%path)
+      do g = 1, size(lists)
+         call lists(g)%start(text%path)
       end do
       do s = 1, size(own_settings)
          call take_setting(own_settings(s))
@@ -115,7 +105,12 @@ contains
       ! If a quote is not closed, the '/' is likely within the quoted text: do not report it as missing.
       if (group%kind == is_group .and. token%kind == at_end .and. .not. quote_is_open) call problems%add(group%first, &
          shown(group)//" is not closed: no '/' up to the end of the deck")
-      groups%has_unknown = groups%has_unknown .or. (is_unknown .and. groups%place == 0)
+      do g = 1, size(lists)
+         associate (group => lists(g)%group)
+            group%has_unknown = group%has_unknown .or. (is_unknown .and. group%place == 0)
+            group%any_bad = group%has_unknown .or. any([(lists(g)%keys(s)%value%is_bad, s=1, size(lists(g)%keys))])
+         end associate
+      end do
 
    contains
 
@@ -134,21 +129,23 @@ contains
 
          logical :: is_known
 
-         g = findloc(tables%name == name, .true., dim=1)
+         g = findloc(lists%name == name, .true., dim=1)
          is_known = g > 0
          if (.not. is_known) then
-            call problems%add(place, unknown_group(name, tables))
-            g = nearest_name(name, tables%name)
+            call problems%add(place, unknown_group(name, lists))
+            g = nearest_name(name, lists%name)
             is_unknown = is_unknown .or. g == 0
             if (g == 0) return
          end if
-         if (groups(g)%place > 0 .and. groups(g)%place <= text%own .and. .not. is_guessed(g)) then
-            if (is_known) call problems%add(place, '&'//name//' is given twice, first in line '// &
-                                            integer_text(text%line_of(groups(g)%place)))
-            g = 0
-            return
-         end if
-         groups(g)%place = place
+         associate (first => lists(g)%group%place)
+            if (first > 0 .and. first <= text%own .and. .not. is_guessed(g)) then
+               if (is_known) call problems%add(place, '&'//name//' is given twice, first in line '// &
+                                               integer_text(text%line_of(first)))
+               g = 0
+               return
+            end if
+         end associate
+         lists(g)%group%place = place
          is_guessed(g) = .not. is_known
       end subroutine open_group
 
@@ -159,10 +156,10 @@ contains
          character(:), allocatable :: value
          integer :: place
 
-         g = findloc(tables%name == setting%group, .true., dim=1)
+         g = findloc(lists%name == setting%group, .true., dim=1)
          value = setting%value
          if (g > 0) then
-            associate (keys => tables(g)%keys)
+            associate (keys => lists(g)%rows)
                ! A text without quotes, which shells remove, gets them.
                if (any(keys%name == setting%key .and. (keys%kind == text_value .or. keys%kind == choice_value)) .and. &
                    scan(value, quotes) /= 1) value = quoted(value)
@@ -171,10 +168,10 @@ contains
          place = len(text%content) + len(' --set ') + 1
          text%content = text%content//newline//'--set '//setting%group//'.'//setting%key//'='//value
          if (g == 0) then
-            call problems%add(place, unknown_group(setting%group, tables))
+            call problems%add(place, unknown_group(setting%group, lists))
             return
          end if
-         if (groups(g)%place == 0) groups(g)%place = place
+         if (lists(g)%group%place == 0) lists(g)%group%place = place
          place = place + len(setting%group) + 1
          token = token_type(is_word, place, place + len(setting%key) - 1)
          call take_entry(len(text%content))
@@ -197,7 +194,7 @@ contains
          name = lower_case(text%content(place:token%last))
          call find_key(name, place, k)
          most = 0
-         if (k > 0) most = tables(g)%keys(k)%most_values
+         if (k > 0) most = lists(g)%rows(k)%most_values
          allocate (numbers(most))
          used = 0
          is_read = k > 0
@@ -223,7 +220,7 @@ contains
                end if
                quote_is_open = .true.
                ! Keys may stand behind it.
-               if (g > 0) groups(g)%has_unknown = .true.
+               if (g > 0) lists(g)%group%has_unknown = .true.
                wants_value = .false.
                is_bad = .true.
             case (is_word)
@@ -232,7 +229,7 @@ contains
                if (starts_entry(text%content(:last), token)) exit
                wants_value = .false.
                if (.not. is_read) cycle
-               call read_word(text%content(token%first:token%last), tables(g), k, numbers, used, value, trouble)
+               call read_word(text%content(token%first:token%last), lists(g)%rows, k, numbers, used, value, trouble)
                if (.not. allocated(trouble)) cycle
                call problems%add(token%first, trouble)
                is_bad = .true.
@@ -243,12 +240,12 @@ contains
          end do
          if (k == 0) return
          if (is_bad .or. used == 0) then
-            call groups(g)%take(name, place)
+            call lists(g)%take(k, place)
          else
-            call groups(g)%take(name, place, numbers(:used), value%text)
+            call lists(g)%take(k, place, numbers(:used), value%text)
          end if
          if (before%last == equals%last) call problems%add(place, &
-            name//' has no value: it must be '//allowed_values(tables(g)%keys(k)))
+            name//' has no value: it must be '//allowed_values(lists(g)%rows(k)))
       end subroutine take_entry
 
       !> Sets k to the number of a key whose values are to be read; reports unknown keys and those given twice.
@@ -264,35 +261,36 @@ contains
          k = 0
          if (g == 0) return
          if (place <= text%own .and. &
-             any([(replaces(own_settings(s), tables(g), name), s=1, size(own_settings))])) return
-         k = key_index(tables(g)%keys, name)
-         associate (values => groups(g), names => tables(g)%keys%name)
-            if (k == 0) then
-               values%has_unknown = .true.
-               is_given = [(values%has(names(i)), i=1, size(names))]
-               call problems%add(place, unknown_key(name, tables(g), tables, is_given))
-               ! A key that is misspelt in the deck is not reported as missing too, and the right one may follow.
-               nearest = nearest_name(name, names, is_given)
-               if (nearest == 0 .or. place > text%own) return
-               if (.not. values%has(names(nearest))) call values%take(names(nearest), place)
-            else if (values%has(name) .and. .not. values%is_bad(name)) then
-               before = 'in line '//integer_text(text%line_of(values%place_of(name)))
-               if (values%place_of(name) > text%own) then
-                  call text%line_bounds(values%place_of(name), first, last)
-                  before = 'by '//excerpt(text%content(first:last))
-               end if
-               call problems%add(place, name//' is given twice, first '//before)
-               k = 0
+             any([(replaces(own_settings(s), lists(g), name), s=1, size(own_settings))])) return
+         k = key_index(lists(g)%rows, name)
+         if (k == 0) then
+            lists(g)%group%has_unknown = .true.
+            call problems%add(place, unknown_key(name, lists(g), lists))
+            ! A key that is misspelt in the deck is not reported as missing too, and the right one may follow.
+            is_given = [(lists(g)%keys(i)%value%is_given, i=1, size(lists(g)%keys))]
+            nearest = nearest_name(name, lists(g)%rows%name, is_given)
+            if (nearest == 0 .or. place > text%own) return
+            if (.not. is_given(nearest)) call lists(g)%take(nearest, place)
+            return
+         end if
+         associate (given => lists(g)%keys(k)%value)
+            if (.not. given%is_given .or. given%is_bad) return
+            before = 'in line '//integer_text(text%line_of(given%place))
+            if (given%place > text%own) then
+               call text%line_bounds(given%place, first, last)
+               before = 'by '//excerpt(text%content(first:last))
             end if
          end associate
+         call problems%add(place, name//' is given twice, first '//before)
+         k = 0
       end subroutine find_key
 
    end subroutine take_groups
 
    !> Reads a word of a deck as the next value of a key, or the next ones.
-   subroutine read_word(word, table, k, numbers, used, value, trouble)
+   subroutine read_word(word, rows, k, numbers, used, value, trouble)
       character(*), intent(in) :: word
-      type(key_group_type), intent(in) :: table
+      type(key_type), intent(in) :: rows(:)               !! of the group
       integer, intent(in) :: k                            !! number of the key
       real(dp), intent(inout) :: numbers(:)               !! of all values that the key may have
       integer, intent(inout) :: used                      !! how many are given; more than may be: there are too many
@@ -301,7 +299,7 @@ contains
 
       integer :: left
 
-      associate (key => table%keys(k))
+      associate (key => rows(k))
          left = size(numbers) - used
          used = used + 1
          if (left > 0) call read_value(key, word, value, trouble)
@@ -318,66 +316,45 @@ contains
             trouble = trouble//", got '"//excerpt(word)//"'"
          else
             trouble = trouble//", and here is one more: '"//excerpt(word)//"'"
-            if (key_index(table%keys, lower_case(word)) > 0) trouble = trouble//"; is a '=' missing behind it?"
+            if (key_index(rows, lower_case(word)) > 0) trouble = trouble//"; is a '=' missing behind it?"
          end if
       end associate
    end subroutine read_word
 
-   !> Reads the keys of one group from a text that holds nothing else, without '&name' and '/', and checks them against
-   !> the table, as those of a deck.
-   subroutine read_group_text(group, keys, values, text, problems)
-      integer, intent(in) :: group                         !! its number
-      character(*), intent(in) :: keys                     !! such as "solver = 'grid', accuracy = 1e-4"
-      type(group_values), intent(out) :: values
-      type(deck_text_type), intent(out) :: text            !! to which the places of the problems refer
-      type(problem_list_type), intent(inout) :: problems
-
-      type(group_values) :: groups(1)
-      type(key_group_type), pointer :: tables(:)
-      character(:), allocatable :: name
-
-      tables => deck_tables()
-      ! The keys may end in a comment, so that the '/' needs a line of its own.
-      name = '&'//trim(tables(group)%name)
-      text = deck_text_type(name, name//' '//keys//newline//'/')
-      call take_groups(text, tables(group:group), groups, problems)
-      values = groups(1)
-   end subroutine read_group_text
-
    !> The message for an unknown group.
-   pure function unknown_group(name, tables) result(words)
+   pure function unknown_group(name, lists) result(words)
       character(*), intent(in) :: name  !! without '&'
-      type(key_group_type), intent(in) :: tables(:)
+      type(key_list), intent(in) :: lists(:)
       character(:), allocatable :: words
 
-      words = "there is no group '"//excerpt('&'//name)//"'"//did_you_mean(name, tables%name, "'&", "'", &
-                                                                         '; the groups are '//listed(tables%name))
+      words = "there is no group '"//excerpt('&'//name)//"'"//did_you_mean(name, lists%name, "'&", "'", &
+                                                                         '; the groups are '//listed(lists%name))
       if (name == '') words = "expected the name of a group right behind the '&'"
    end function unknown_group
 
    !> The message for a key that the group does not have.
-   pure function unknown_key(key, table, tables, is_given) result(words)
+   pure function unknown_key(key, list, lists) result(words)
       character(*), intent(in) :: key
-      type(key_group_type), intent(in) :: table, tables(:)
-      logical, intent(in) :: is_given(:)   !! whether the group's keys are given
+      type(key_list), intent(in) :: list, lists(:)   !! of the group; of all groups
       character(:), allocatable :: words
 
       integer :: bracket, i
-      logical :: has_key(size(tables))
+      logical :: has_key(size(lists)), is_given(size(list%keys))
 
       bracket = index(key//'(', '(')
-      has_key = [(key_index(tables(i)%keys, key) > 0, i=1, size(tables))]
+      is_given = [(list%keys(i)%value%is_given, i=1, size(list%keys))]
+      has_key = [(key_index(lists(i)%rows, key) > 0, i=1, size(lists))]
       if (any(has_key)) then
-         words = key//' belongs to &'//listed(pack(tables%name, has_key), ' and &')//', not to &'//trim(table%name)// &
-                 did_you_mean(key, pack(table%keys%name, .not. is_given), "'", "'")
+         words = key//' belongs to &'//listed(pack(lists%name, has_key), ' and &')//', not to &'//trim(list%name)// &
+                 did_you_mean(key, pack(list%rows%name, .not. is_given), "'", "'")
       else if (key == 'minimiser') then
          words = "there is no key 'minimiser' any more: write solver = 'beale' for Beale's method, "// &
                  "solver = 'series' for the dual method"
-      else if (key_index(table%keys, key(:bracket - 1)) > 0) then
+      else if (key_index(list%rows, key(:bracket - 1)) > 0) then
          words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
       else
-         words = "there is no key '"//excerpt(key)//"' in &"//trim(table%name)// &
-                 did_you_mean(key, table%keys%name, "'", "'", related_keys(key, table%keys), is_given)
+         words = "there is no key '"//excerpt(key)//"' in &"//trim(list%name)// &
+                 did_you_mean(key, list%rows%name, "'", "'", related_keys(key, list%rows), is_given)
       end if
    end function unknown_key
 

@@ -2,97 +2,103 @@
 module wavycon_interface_group
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_free_edges, only: ball_radii, is_ball
-   use wavycon_group_values, only: group_values
+   use wavycon_key_group, only: key_list
    use wavycon_key_table, only: choice_value, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_partial_slip, only: dundurs_beta, shear_factors
    use wavycon_plain_text, only: short_number
-   use wavycon_problems, only: problem_list_type
    use wavycon_scene, only: interface_setting
+   use wavycon_scene_groups, only: interface_group, material_group, method_group
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: check_interface_group, make_interface_setting
+   public :: check_interface_group, list_interface_keys, make_interface_setting
 
    integer, parameter :: most_loads = 1000
 
-   !> The keys of &interface.
-   type(key_type), parameter, public :: interface_keys(*) = [ &
-      key_type(real_value, 'resistivity1', '', '-', &
-         'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance to '// &
-         'the table.', least=0, needs='resistivity2'), &
-      key_type(real_value, 'resistivity2', '', '-', &
-         'That of the second body, in the same unit.', least=0, needs='resistivity1'), &
-      key_type(real_value, 'friction', '', '-', &
-         'Coefficient of friction: each load also bears the tangential loads, under which a part of the contact '// &
-         'slips.', above=0), &
-      key_type(real_value, 'tangential_load', '', 'unit of e_star', &
-         'Mean tangential tractions Q, over the nominal area, at most friction times the mean pressure.', least=0, &
-         most_values=most_loads, way=10, needs='friction'), &
-      key_type(real_value, 'tangential_over_normal', '', '-', &
-         'The same over the mean pressure: at most the friction.', least=0, most_values=most_loads, way=11, &
-         needs='friction'), &
-      key_type(choice_value, 'shear_direction', "'x'", '', &
-         "direction of the tangential load on a surface that does not change along y: 'x', across its ridges; "// &
-         "'y', along them.", choices='x y'), &
-      key_type(real_value, 'nu', '', '-', &
-         "Poisson's ratio of both bodies for tangential loads, if &material gives e_star.", above=-1, most=0.5_dp, &
-         needs='friction'), &
-      key_type(logical_value, 'slip_loop', '.false.', '', &
-         'A table of the tangential load against the displacement: loading, and a cycle between +Q and -Q.', &
-         needs='friction'), &
-      key_type(logical_value, 'slip_map', '.false.', '', &
-         'A table of the tangential tractions over the cell, and where the contact sticks and slips; with the '// &
-         'points and in the format of maps.', needs='friction'), &
-      key_type(real_value, 'work_of_adhesion', '', 'unit of e_star times length', &
-         'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
-         'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0)]
-
 contains
 
+   !> The keys of &interface.
+   subroutine list_interface_keys(values, keys)
+      type(interface_group), intent(in), target :: values
+      type(key_list), intent(out) :: keys
+
+      keys = key_list('interface', 'stiffness and resistance of the contact, partial slip, adhesion', values%key_group)
+      call keys%add(values%resistivity1, key_type(real_value, 'resistivity1', '', '-', &
+         'Electric or thermal resistivity of the first body, in any unit: adds the constriction resistance to '// &
+         'the table.', least=0, needs='resistivity2'))
+      call keys%add(values%resistivity2, key_type(real_value, 'resistivity2', '', '-', &
+         'That of the second body, in the same unit.', least=0, needs='resistivity1'))
+      call keys%add(values%friction, key_type(real_value, 'friction', '', '-', &
+         'Coefficient of friction: each load also bears the tangential loads, under which a part of the contact '// &
+         'slips.', above=0))
+      call keys%add(values%tangential_load, key_type(real_value, 'tangential_load', '', 'unit of e_star', &
+         'Mean tangential tractions Q, over the nominal area, at most friction times the mean pressure.', least=0, &
+         most_values=most_loads, way=10, needs='friction'))
+      call keys%add(values%tangential_over_normal, key_type(real_value, 'tangential_over_normal', '', '-', &
+         'The same over the mean pressure: at most the friction.', least=0, most_values=most_loads, way=11, &
+         needs='friction'))
+      call keys%add(values%shear_direction, key_type(choice_value, 'shear_direction', "'x'", '', &
+         "direction of the tangential load on a surface that does not change along y: 'x', across its ridges; "// &
+         "'y', along them.", choices='x y'))
+      call keys%add(values%nu, key_type(real_value, 'nu', '', '-', &
+         "Poisson's ratio of both bodies for tangential loads, if &material gives e_star.", above=-1, most=0.5_dp, &
+         needs='friction'))
+      call keys%add(values%slip_loop, key_type(logical_value, 'slip_loop', '.false.', '', &
+         'A table of the tangential load against the displacement: loading, and a cycle between +Q and -Q.', &
+         needs='friction'))
+      call keys%add(values%slip_map, key_type(logical_value, 'slip_map', '.false.', '', &
+         'A table of the tangential tractions over the cell, and where the contact sticks and slips; with the '// &
+         'points and in the format of maps.', needs='friction'))
+      call keys%add(values%work_of_adhesion, key_type(real_value, 'work_of_adhesion', '', &
+         'unit of e_star times length', &
+         'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
+         'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0))
+   end subroutine list_interface_keys
+
    !> Reports what is missing, contradicts, or does not exist on the surface.
-   subroutine check_interface_group(values, material, method, problems, surface)
-      type(group_values), intent(inout) :: values
-      type(group_values), intent(in) :: material
-      type(group_values), intent(in) :: method      !! after its check
-      type(problem_list_type), intent(inout) :: problems
+   subroutine check_interface_group(values, material, method, surface)
+      type(interface_group), intent(inout) :: values
+      type(material_group), intent(in) :: material
+      type(method_group), intent(in) :: method      !! after its check
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
 
       if (values%place == 0) return
-      call values%check_relations(problems)
-      if (values%has('friction')) then
-         call take_ratios(values, material, problems)
-         if (.not. (values%has('tangential_load') .or. values%has('tangential_over_normal') .or. values%has_unknown)) &
-            call values%complain(problems, 'friction', 'friction needs tangential_load or tangential_over_normal')
-         if (values%has('tangential_over_normal') .and. .not. values%any_bad()) then
-            if (maxval(values%reals('tangential_over_normal')) > values%real('friction')) call values%complain( &
-               problems, 'tangential_over_normal', 'a value of tangential_over_normal is more than friction = '// &
-               short_number(values%real('friction'))//': the whole contact would slip')
+      if (values%friction%is_given) then
+         call take_ratios(values, 'interface', values%nu, material)
+         if (.not. (values%tangential_load%is_given .or. values%tangential_over_normal%is_given .or. &
+                    values%has_unknown)) call values%complain( &
+            values%friction, 'friction needs tangential_load or tangential_over_normal')
+         if (values%tangential_over_normal%is_given .and. .not. values%any_bad) then
+            if (maxval(values%tangential_over_normal%numbers) > values%friction%number) &
+               call values%complain(values%tangential_over_normal, &
+               'a value of tangential_over_normal is more than friction = '// &
+               short_number(values%friction%number)//': the whole contact would slip')
          end if
       else
-         call values%leave_out('shear_direction')
+         values%shear_direction%in_effect = .false.
       end if
       if (.not. present(surface)) return
-      if (surface%has_hardness()) call problems%add(values%place, &
+      if (surface%has_hardness()) call values%problems%add(values%place, &
          '&interface takes elastic contacts: leave hardness or &interface out')
-      if (.not. surface%amplitude > 0.0_dp) call problems%add(values%place, &
+      if (.not. surface%amplitude > 0.0_dp) call values%problems%add(values%place, &
          'the surface is flat and in full contact: leave &interface out')
-      if (surface%has_free_edges .and. surface%dimension == 1) call problems%add(values%place, &
+      if (surface%has_free_edges .and. surface%dimension == 1) call values%problems%add(values%place, &
          'the approach of a profile with free edges is not defined, and so is what &interface computes: leave it out')
       if (surface%dimension == 2) then
-         if (values%text('shear_direction') == 'y') call values%complain(problems, 'shear_direction', &
+         if (values%shear_direction%text == 'y') call values%complain(values%shear_direction, &
             'shear_direction is for surfaces that do not change along y: leave it out')
-         call values%leave_out('shear_direction')
+         values%shear_direction%in_effect = .false.
       end if
-      if (.not. values%has('work_of_adhesion')) return
+      if (.not. values%work_of_adhesion%is_given) return
       if (.not. has_adhesion(surface)) then
-         call values%complain(problems, 'work_of_adhesion', 'adhesion is computed for wave_1d, for the 2-D waves '// &
+         call values%complain(values%work_of_adhesion, 'adhesion is computed for wave_1d, for the 2-D waves '// &
          "that solver = 'fitted' takes and for a round ball: on other surfaces the superposition does not hold")
-      else if (any(method%text('solver') == ['grid  ', 'beale ', 'series']) .and. .not. is_ball(surface)) then
-         call values%complain(problems, 'work_of_adhesion', "adhesion needs solver = 'auto', 'fitted' or "// &
+      else if (any(method%solver%text == ['grid  ', 'beale ', 'series']) .and. .not. is_ball(surface)) then
+         call values%complain(values%work_of_adhesion, "adhesion needs solver = 'auto', 'fitted' or "// &
                               "'closed_form', which tell how the edge of contact moves with the load")
       end if
    end subroutine check_interface_group
@@ -114,8 +120,8 @@ contains
 
    !> What the group asks for.
    subroutine make_interface_setting(values, material, surface, p_star, setting)
-      type(group_values), intent(in) :: values         !! of an &interface group without problems
-      type(group_values), intent(in) :: material
+      type(interface_group), intent(in) :: values         !! of an &interface group without problems
+      type(material_group), intent(in) :: material
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star                   !! p* [pressure]
       type(interface_setting), allocatable, intent(out) :: setting   !! not allocated without the group
@@ -125,23 +131,23 @@ contains
 
       if (values%place == 0) return
       allocate (setting)
-      if (values%has('resistivity1')) setting%resistivity = values%real('resistivity1') + values%real('resistivity2')
-      if (values%has('work_of_adhesion')) setting%work = values%real('work_of_adhesion')/(p_star*surface%amplitude)
-      if (.not. values%has('friction')) return
-      setting%friction = values%real('friction')
-      setting%over_mean_pressure = values%has('tangential_over_normal')
+      if (values%resistivity1%is_given) setting%resistivity = values%resistivity1%number + values%resistivity2%number
+      if (values%work_of_adhesion%is_given) setting%work = values%work_of_adhesion%number/(p_star*surface%amplitude)
+      if (.not. values%friction%is_given) return
+      setting%friction = values%friction%number
+      setting%over_mean_pressure = values%tangential_over_normal%is_given
       if (setting%over_mean_pressure) then
-         setting%tangential = values%reals('tangential_over_normal')
+         setting%tangential = values%tangential_over_normal%numbers
       else
-         setting%tangential = values%reals('tangential_load')/p_star
+         setting%tangential = values%tangential_load%numbers/p_star
       end if
       e = [1.0_dp]
-      if (material%has('e2')) e = [material%real('e1'), material%real('e2')]
-      nu = values%reals('nu')
+      if (material%e2%is_given) e = [material%e1%number, material%e2%number]
+      nu = values%nu%numbers
       kappa = shear_factors(e, nu)
-      if (material%has('nu1')) setting%beta = dundurs_beta(e, nu)
+      if (material%nu1%is_given) setting%beta = dundurs_beta(e, nu)
       setting%kappa = [kappa(3), minval(kappa), maxval(kappa)]
-      if (surface%dimension == 1) setting%kappa = kappa(merge(2, 1, values%text('shear_direction') == 'y'))
+      if (surface%dimension == 1) setting%kappa = kappa(merge(2, 1, values%shear_direction%text == 'y'))
    end subroutine make_interface_setting
 
 end module wavycon_interface_group

@@ -1,10 +1,12 @@
-!> The reference of all groups and keys, as text for --help and as JSON, from the tables that decks are checked against.
+!> The reference of all groups and keys, as text for --help and as JSON, from the lists that decks are checked against.
 module wavycon_key_reference
-   use wavycon_deck_groups, only: deck_tables
-   use wavycon_key_table, only: allowed_values, full_meaning, integer_value, key_group_type, key_type, no_bound, &
-      real_value, text_value, words_of
+   use wavycon_deck_groups, only: list_keys, number_of_groups
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: allowed_values, full_meaning, integer_value, key_type, no_bound, real_value, &
+      text_value, words_of
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text, newline
+   use wavycon_scene, only: scene_type
    implicit none (type, external)
    private
 
@@ -21,21 +23,22 @@ contains
    function key_reference() result(reference)
       character(:), allocatable :: reference
 
-      type(key_group_type), pointer :: tables(:)
+      type(key_list) :: lists(number_of_groups)
+      type(scene_type), target :: none
       integer :: i, k
 
       reference = ''
-      tables => deck_tables()
+      call list_keys(none, lists)
       call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
          "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
-      do i = 1, size(tables)
+      do i = 1, size(lists)
          reference = reference//newline
-         call add_wrapped(reference, 0, '&'//trim(tables(i)%name)//'   '//trim(tables(i)%meaning)// &
-            trim(merge(' (required)', '           ', tables(i)%required)))
-         do k = 1, size(tables(i)%keys)
-            call add_key(reference, tables(i)%keys(k))
+         call add_wrapped(reference, 0, '&'//trim(lists(i)%name)//'   '//trim(lists(i)%meaning)// &
+            trim(merge(' (required)', '           ', lists(i)%required)))
+         do k = 1, size(lists(i)%rows)
+            call add_key(reference, lists(i)%rows(k))
          end do
       end do
    end function key_reference
@@ -89,18 +92,19 @@ contains
    function key_json() result(json)
       character(:), allocatable :: json
 
-      type(key_group_type), pointer :: tables(:)
+      type(key_list) :: lists(number_of_groups)
+      type(scene_type), target :: none
       integer :: i, k
 
-      tables => deck_tables()
+      call list_keys(none, lists)
       json = '['
-      do i = 1, size(tables)
+      do i = 1, size(lists)
          if (i > 1) json = json//','
-         json = json//newline//'{"name": '//text(tables(i)%name)//', "meaning": '//text(tables(i)%meaning)// &
-                ', "required": '//truth(tables(i)%required)//', "keys": ['
-         do k = 1, size(tables(i)%keys)
+         json = json//newline//'{"name": '//text(lists(i)%name)//', "meaning": '//text(lists(i)%meaning)// &
+                ', "required": '//truth(lists(i)%required)//', "keys": ['
+         do k = 1, size(lists(i)%rows)
             if (k > 1) json = json//','
-            json = json//newline//' '//key_object(tables(i)%keys(k))
+            json = json//newline//' '//key_object(lists(i)%rows(k))
          end do
          json = json//']}'
       end do
@@ -151,7 +155,7 @@ contains
       json = trim(merge('true ', 'false', value))
    end function truth
 
-   !> A text in quotes. The tables have no control characters.
+   !> A text in quotes. The lists have no control characters.
    pure function text(words) result(json)
       character(*), intent(in) :: words
       character(:), allocatable :: json

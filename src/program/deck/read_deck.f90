@@ -4,17 +4,16 @@
 !> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is a
 !> part of NAMELIST's, which inputs/README.md describes: no elements or parts of arrays, and no null values.
 module wavycon_read_deck
-   use wavycon_deck_groups, only: deck_tables, interface_number, load_number, material_number, method_number, &
-      number_of_groups, output_number, scene_number, stress_number, surface_number, take_groups
+   use wavycon_deck_groups, only: list_keys, number_of_groups, take_groups
    use wavycon_deck_text, only: at_end, deck_text_type, next_token, problem_report, read_deck_text, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of
-   use wavycon_group_values, only: group_values
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_interface_group, only: check_interface_group, make_interface_setting
-   use wavycon_key_table, only: allowed_values, choice_value, key_group_type, text_value
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: allowed_values, choice_value, text_value
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, check_loads_of_surface, given_loads, take_loads
+   use wavycon_load_group, only: check_load_group, given_loads, take_loads
    use wavycon_material_group, only: check_material_group, plane_strain_modulus
    use wavycon_methods, only: check_method_group
    use wavycon_output_group, only: check_output_group
@@ -23,7 +22,7 @@ module wavycon_read_deck
    use wavycon_scene, only: scene_type
    use wavycon_scene_group, only: check_scene_group
    use wavycon_settings, only: name_case, setting_type
-   use wavycon_stress_group, only: check_stress_group, make_stress_setting
+   use wavycon_stress_group, only: check_stress_group
    use wavycon_surface_group, only: check_sides, check_surface_group, make_surface
    implicit none (type, external)
    private
@@ -52,7 +51,7 @@ contains
    !> Reads a deck from its text. Errors: as of `read_deck`, and exit_bad_input for heights of a kind that has no file.
    subroutine parse_deck(deck_text, scene, error, settings, heights, in_memory)
       type(deck_text_type), intent(in) :: deck_text
-      type(scene_type), intent(out) :: scene  !! to be used only if there is no error
+      type(scene_type), intent(out), target :: scene  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
@@ -62,12 +61,11 @@ contains
       !> Whether the deck is no file: it may have no group &load, and its name need not serve as that of a case.
       logical, intent(in), optional :: in_memory
 
-      type(group_values) :: groups(number_of_groups)
-      type(key_group_type), pointer :: tables(:)
+      type(key_list) :: lists(number_of_groups)
       type(problem_list_type) :: problems
       type(token_type) :: token
       type(deck_text_type) :: text
-      integer :: before, i
+      integer :: i
       logical :: is_file
 
       is_file = .true.
@@ -78,100 +76,93 @@ contains
          call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
          return
       end if
-      tables => deck_tables()
-      call take_groups(text, tables, groups, problems, settings)
-      do i = 1, size(tables)
-         if (tables(i)%required .and. groups(i)%place == 0 .and. .not. groups(i)%has_unknown .and. &
-             (is_file .or. i /= load_number)) &
-            call problems%add(0, 'the group &'//trim(tables(i)%name)//' ('//trim(tables(i)%meaning)//') is missing')
+      call list_keys(scene, lists)
+      call take_groups(text, lists, problems, settings)
+      do i = 1, size(lists)
+         if (lists(i)%required .and. lists(i)%group%place == 0 .and. .not. lists(i)%group%has_unknown .and. &
+             (is_file .or. lists(i)%name /= 'load')) &
+            call problems%add(0, 'the group &'//trim(lists(i)%name)//' ('//trim(lists(i)%meaning)//') is missing')
+         call lists(i)%check_relations()
       end do
       scene%deck_path = text%path
-      scene%scene_values = groups(scene_number)
-      scene%material = groups(material_number)
-      scene%surface_values = groups(surface_number)
-      scene%load = groups(load_number)
-      scene%stress = groups(stress_number)
-      scene%interface = groups(interface_number)
-      scene%method = groups(method_number)
-      scene%output = groups(output_number)
 
-      call check_scene_group(scene%scene_values, problems, is_file)
-      if (present(settings)) call name_case(scene%scene_values, settings, problems)
-      call read_surface(scene, problems, error, heights)
-      before = problems%number
-      call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star, problems)
-      call check_load_group(scene%load, scene%interface%has('work_of_adhesion'), problems)
-      if (problems%number == before .and. .not. (scene%material%any_bad() .or. scene%load%any_bad()) .and. &
-          scene%load%place > 0 .and. allocated(scene%surface)) &
-         call check_loads_of_surface(scene%load, scene%surface, scene%p_star, problems)
-      call check_stress_group(scene%stress, scene%material, scene%load, problems, scene%surface)
-      call check_method_group(scene%method, scene%surface, problems)
-      call check_interface_group(scene%interface, scene%material, scene%method, problems, scene%surface)
-      call check_output_group(scene%output, scene%scene_values%text('case'), scene%method, scene%surface, problems)
+      call check_scene_group(scene%scene_values, is_file)
+      if (present(settings)) call name_case(scene%scene_values, settings)
+      call read_surface(scene, error, heights)
+      call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star)
+      call check_load_group(scene%load, scene%interface%work_of_adhesion%is_given)
+      if (scene%material%problems%number + scene%load%problems%number == 0 .and. &
+          .not. (scene%material%any_bad .or. scene%load%any_bad) .and. scene%load%place > 0 .and. &
+          allocated(scene%surface)) call take_loads(scene%load, scene%surface, scene%p_star, scene%loads_by, &
+                                                    scene%target, scene%mean_pressure)
+      call check_stress_group(scene%stress, scene%material, scene%load, scene%surface, scene%p_star, &
+                              scene%stress_setting)
+      call check_method_group(scene%method, scene%surface)
+      call check_interface_group(scene%interface, scene%material, scene%method, scene%surface)
+      call check_output_group(scene%output, scene%scene_values%case%text, scene%method, scene%surface)
+      do i = 1, size(lists)
+         call problems%join(lists(i)%group%problems)
+      end do
       ! Problems of the deck are reported rather than an error of its height map: the path of the map may be one of
       ! them.
       if (problems%number > 0) then
          if (allocated(error)) deallocate (error)
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
       end if
-      if (.not. allocated(error)) call complete(scene)
+      if (.not. allocated(error)) call complete(scene, lists)
    end subroutine parse_deck
 
    !> Checks &surface and, if it has no problems, makes the surface. A unit that its file names becomes the deck's label
    !> if the deck gives none. Errors: as of `make_surface`.
-   subroutine read_surface(scene, problems, error, heights)
+   subroutine read_surface(scene, error, heights)
       type(scene_type), intent(inout) :: scene
-      type(problem_list_type), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: heights(:, :)   !! as of parse_deck
 
-      integer :: before
-
       associate (values => scene%surface_values, labels => scene%scene_values)
-         before = problems%number
-         call check_surface_group(values, problems)
-         if (problems%number > before .or. values%any_bad()) return
-         if (values%text('kind') == 'ball') then
-            call set_ball_sides(scene, problems)
+         call check_surface_group(values)
+         if (values%problems%number > 0 .or. values%any_bad) return
+         if (values%kind%text == 'ball') then
+            call set_ball_sides(scene)
             ! Without sides checks of the surface would report problems that are not there.
-            if (problems%number > before .or. .not. values%in_effect('length_y')) return
+            if (values%problems%number + scene%load%problems%number > 0 .or. .not. values%length_y%in_effect) return
          end if
-         if (labels%has('length_unit')) values%length_unit = labels%text('length_unit')
+         values%deck_unit = ''
+         if (labels%length_unit%is_given) values%deck_unit = labels%length_unit%text
          call make_surface(values, scene%surface, scene%map, error, heights)
          if (allocated(error)) return
-         if (allocated(scene%surface)) call check_sides(values, scene%surface, problems)
+         if (allocated(scene%surface)) call check_sides(values, scene%surface)
          if (.not. allocated(scene%map)) return
-         if (allocated(scene%map%length_unit)) call labels%set('length_unit', text=scene%map%length_unit)
+         if (allocated(scene%map%length_unit)) call labels%length_unit%set(text=scene%map%length_unit)
       end associate
    end subroutine read_surface
 
    !> Sets the default sides of a ball: some half axes of Hertz's contact at the largest load, or what carries it at the
    !> hardness. If &material or &load has problems, which are reported later, they stay unknown.
-   subroutine set_ball_sides(scene, problems)
+   subroutine set_ball_sides(scene)
       type(scene_type), intent(inout) :: scene
-      type(problem_list_type), intent(inout) :: problems
 
       !> Twice the contact, so that a hardness or a rough estimate of the load does not bring its edge to the border.
       real(dp), parameter :: sides_over_half_axes = 4.0_dp
       character(:), allocatable :: key
-      integer :: loads_by
+      integer :: loads_by, place
       real(dp) :: e_star, half_axis(2), largest, radii(2)
       real(dp), allocatable :: loads(:)
       type(hertz_ball) :: contact
 
       associate (ball => scene%surface_values)
-         if (ball%has('length_x')) call ball%set_default('length_y', [ball%real('length_x')])
-         if (ball%has('length_x') .or. scene%material%any_bad() .or. scene%load%any_bad()) return
-         if (scene%load%place == 0) call ball%complain(problems, 'kind', "without loads kind = 'ball' needs length_x")
-         call given_loads(scene%load, key, loads_by, loads)
-         if (any(key == ['mean_pressure        ', 'contact_area_fraction'])) call scene%load%complain(problems, key, &
+         if (ball%length_x%is_given) call ball%length_y%set_default([ball%length_x%number])
+         if (ball%length_x%is_given .or. scene%material%any_bad .or. scene%load%any_bad) return
+         if (scene%load%place == 0) call ball%complain(ball%kind, "without loads kind = 'ball' needs length_x")
+         call given_loads(scene%load, key, place, loads_by, loads)
+         if (any(key == ['mean_pressure        ', 'contact_area_fraction'])) call scene%load%problems%add(place, &
             key//' needs the sides of the ball, length_x and length_y: give them, or force, approach or contact_area')
          largest = max(0.0_dp, maxval(abs(loads)))
          ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
-         if (key == 'yield' .and. .not. scene%stress%any_bad()) &
-            largest = 2*largest*max(0.0_dp, scene%stress%real('yield_stress'))
+         if (key == 'yield' .and. .not. scene%stress%any_bad) &
+            largest = 2*largest*max(0.0_dp, scene%stress%yield_stress%number)
          e_star = plane_strain_modulus(scene%material)
-         radii = radii_of(ball, 'radius')
+         radii = radii_of(ball%radius, ball%radius_x, ball%radius_y)
          select case (key)
          case ('force')
             contact = hertz_contact(radii, e_star, force=largest)
@@ -186,88 +177,93 @@ contains
          ! Without load any rectangle will do.
          if (.not. minval(half_axis) > 0.0_dp) then
             half_axis = minval(radii)/10
-         else if (scene%material%has('hardness')) then
-            half_axis = half_axis*max(1.0_dp, sqrt(contact%force/(scene%material%real('hardness') &
+         else if (scene%material%hardness%is_given) then
+            half_axis = half_axis*max(1.0_dp, sqrt(contact%force/(scene%material%hardness%number &
                                                                    *contact%contact_area())))
          end if
-         call ball%set_default('length_x', sides_over_half_axes*half_axis(1:1))
-         call ball%set_default('length_y', sides_over_half_axes*half_axis(2:2))
+         call ball%length_x%set_default(sides_over_half_axes*half_axis(1:1))
+         call ball%length_y%set_default(sides_over_half_axes*half_axis(2:2))
       end associate
    end subroutine set_ball_sides
 
    !> Sets what follows from the values of a deck without problems: loads, labels, settings, the resolved deck.
-   subroutine complete(scene)
-      type(scene_type), intent(inout) :: scene
+   subroutine complete(scene, lists)
+      type(scene_type), intent(inout), target :: scene
+      type(key_list), intent(in) :: lists(:)   !! of its keys
 
       character(:), allocatable :: file
+      integer :: i
 
       scene%roughness = scene%surface%roughness()
-      scene%gives_modulus = scene%material%has('e_star') .or. scene%material%has('e1')
-      scene%has_units = scene%gives_modulus .or. scene%scene_values%has('pressure_unit') .or. &
-                        scene%scene_values%has('length_unit')
+      scene%gives_modulus = scene%material%e_star%is_given .or. scene%material%e1%is_given
+      scene%has_units = scene%gives_modulus .or. scene%scene_values%pressure_unit%is_given .or. &
+                        scene%scene_values%length_unit%is_given
       if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
-      if (scene%load%place > 0) then
-         call take_loads(scene%load, scene%surface, scene%p_star, scene%loads_by, scene%target, scene%mean_pressure)
-      else
-         allocate (scene%target(0), scene%mean_pressure(0))
-      end if
-      call make_stress_setting(scene%stress, scene%material, scene%p_star, scene%stress_setting)
+      if (scene%load%place == 0) allocate (scene%target(0), scene%mean_pressure(0))
       call make_interface_setting(scene%interface, scene%material, scene%surface, scene%p_star, scene%interface_setting)
       associate (labels => scene%scene_values, surface => scene%surface_values)
-         scene%case = labels%text('case')
-         scene%pressure_unit = labels%text('pressure_unit')
-         scene%length_unit = labels%text('length_unit')
-         scene%directory = scene%output%text('directory')
-         call scene%output%set('directory', text='')
+         scene%case = labels%case%text
+         scene%pressure_unit = labels%pressure_unit%text
+         scene%length_unit = labels%length_unit%text
+         scene%directory = scene%output%directory%text
+         call scene%output%directory%set(text='')
          scene%fingerprint = resolved_deck_text(scene)
          ! The first line has the path of the deck.
          scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
-         call scene%output%set('directory', text=scene%directory)
+         call scene%output%directory%set(text=scene%directory)
          ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
-         file = surface%text('file')
+         file = surface%file%text
          if (allocated(scene%map)) then
-            if (scene%map%path /= '') call surface%set('file', text=scene%map%path)
+            if (scene%map%path /= '') call surface%file%set(text=scene%map%path)
          end if
          scene%resolved_deck = resolved_deck_text(scene)
-         if (file /= '') call surface%set('file', text=file)
+         if (file /= '') call surface%file%set(text=file)
       end associate
+      allocate (scene%asked_for(0))
+      do i = 1, size(lists)
+         if (lists(i)%group%place == 0 .and. lists(i)%name /= 'output') cycle
+         scene%asked_for = [scene%asked_for, lists(i)%asked_for()]
+      end do
    end subroutine complete
 
    !> The resolved deck: every key that applies, with the value in effect; to run it repeats the run. Lines, the last
    !> without a newline.
    function resolved_deck_text(scene) result(text)
-      type(scene_type), intent(in) :: scene
+      type(scene_type), intent(in), target :: scene
       character(:), allocatable :: text
 
+      type(key_list) :: lists(number_of_groups)
+      integer :: i
+
+      call list_keys(scene, lists)
       text = '! '//escaped(scene%deck_path)//' with the value in effect of every key that applies.'
-      text = text//group_text(scene%scene_values)//group_text(scene%material)//group_text(scene%surface_values)
-      if (scene%load%place > 0) text = text//group_text(scene%load)
-      ! The groups themselves ask for stresses and for what the interface does.
-      if (scene%stress%place > 0) text = text//group_text(scene%stress)
-      if (scene%interface%place > 0) text = text//group_text(scene%interface)
-      text = text//group_text(scene%method)//group_text(scene%output)
+      do i = 1, size(lists)
+         ! The groups themselves ask for stresses and for what the interface does.
+         if (lists(i)%group%place > 0 .or. all(lists(i)%name /= ['load     ', 'stress   ', 'interface'])) &
+            text = text//group_text(lists(i))
+      end do
    end function resolved_deck_text
 
    !> A group, each line with a newline before it: "key = value   ! [unit] allowed values", and a line for each further
    !> value.
    !>
    !> N.B. Without commas between the values: gfortran's NAMELIST reads a comma before a comment as an omitted value.
-   function group_text(values) result(text)
-      type(group_values), intent(in) :: values
+   function group_text(list) result(text)
+      type(key_list), intent(in) :: list
       character(:), allocatable :: text
 
       character(*), parameter :: next_line = newline//'      '
       character(:), allocatable :: comment, words
       integer :: first, k
 
-      text = newline//'&'//trim(values%table%name)//'   ! '//trim(values%table%meaning)
-      do k = 1, size(values%table%keys)
-         associate (key => values%table%keys(k))
-            if (.not. values%in_effect(trim(key%name))) cycle
+      text = newline//'&'//trim(list%name)//'   ! '//trim(list%meaning)
+      do k = 1, size(list%rows)
+         associate (key => list%rows(k))
+            if (.not. list%keys(k)%value%in_effect) cycle
             comment = '   ! '
             if (key%unit /= '') comment = comment//'['//trim(key%unit)//'] '
             comment = comment//allowed_values(key)
-            words = values%words(trim(key%name), next_line)
+            words = list%words(k, next_line)
             if (any(key%kind == [text_value, choice_value])) words = quoted(words)
             first = index(words//newline, newline) - 1
             text = text//newline//'   '//trim(key%name)//' = '//words(:first)//comment//words(first + 1:)

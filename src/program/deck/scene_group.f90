@@ -1,13 +1,13 @@
 !> The &scene group: the name of the case and the labels of its units.
 module wavycon_scene_group
-   use wavycon_group_values, only: group_values
+   use wavycon_key_group, only: key_list, key_value
    use wavycon_key_table, only: key_type, text_value
    use wavycon_plain_text, only: integer_text
-   use wavycon_problems, only: problem_list_type
+   use wavycon_scene_groups, only: scene_group
    implicit none (type, external)
    private
 
-   public :: check_scene_group
+   public :: check_scene_group, list_scene_keys
 
    integer, parameter, public :: longest_name = 200
    !> Bytes of the label of a unit.
@@ -15,40 +15,40 @@ module wavycon_scene_group
    character(*), parameter, public :: name_letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'
    character(*), parameter :: plain_in_words = "letters, digits, '_', '-' and '.', the first neither '-' nor '.'"
 
-   !> The keys of &scene.
-   type(key_type), parameter, public :: scene_keys(*) = [ &
-      key_type(text_value, 'title', "''", '', &
-         'One line for the log and the heads of tables.', longest=longest_name, may_be_blank=.true.), &
-      key_type(text_value, 'case', "the deck's name", '', &
-         'Stem of the names of the result files: '//plain_in_words//". The deck's name is that of its file "// &
-         "without '.nml', with '_' for other characters.", longest=longest_name), &
-      key_type(text_value, 'pressure_unit', "'pressure'", '', &
-         "Label of the deck's unit of pressures and moduli in the heads of tables and in pictures, such as "// &
-         "'MPa'. No number is converted.", longest=longest_unit), &
-      key_type(text_value, 'length_unit', "'length'", '', &
-         "Label of the deck's unit of lengths, such as 'mm'. A height map whose file names units is converted "// &
-         'to it or, if the deck gives none, sets it.', longest=longest_unit)]
-
 contains
 
+   !> The keys of &scene.
+   subroutine list_scene_keys(values, keys)
+      type(scene_group), intent(in), target :: values
+      type(key_list), intent(out) :: keys
+
+      keys = key_list('scene', 'what the case is called', values%key_group)
+      call keys%add(values%title, key_type(text_value, 'title', "''", '', &
+         'One line for the log and the heads of tables.', longest=longest_name, may_be_blank=.true.))
+      call keys%add(values%case, key_type(text_value, 'case', "the deck's name", '', &
+         'Stem of the names of the result files: '//plain_in_words//". The deck's name is that of its file "// &
+         "without '.nml', with '_' for other characters.", longest=longest_name))
+      call keys%add(values%pressure_unit, key_type(text_value, 'pressure_unit', "'pressure'", '', &
+         "Label of the deck's unit of pressures and moduli in the heads of tables and in pictures, such as "// &
+         "'MPa'. No number is converted.", longest=longest_unit))
+      call keys%add(values%length_unit, key_type(text_value, 'length_unit', "'length'", '', &
+         "Label of the deck's unit of lengths, such as 'mm'. A height map whose file names units is converted "// &
+         'to it or, if the deck gives none, sets it.', longest=longest_unit))
+   end subroutine list_scene_keys
+
    !> Checks the labels of units and the name of the case, whose default is the name of the deck's file without '.nml'.
-   subroutine check_scene_group(values, problems, is_file)
-      type(group_values), intent(inout) :: values
-      type(problem_list_type), intent(inout) :: problems
+   subroutine check_scene_group(values, is_file)
+      type(scene_group), intent(inout) :: values
       logical, intent(in) :: is_file   !! whether the deck is a file: the default is otherwise 'deck'
 
-      character(13), parameter :: units(*) = ['pressure_unit', 'length_unit  ']
       character(:), allocatable :: name, usual
       integer :: i
 
       usual = 'deck'
       if (is_file) usual = values%deck_path(index(values%deck_path, '/', back=.true.) + 1:)
       if (len(usual) > 4 .and. index(usual, '.nml', back=.true.) == len(usual) - 3) usual = usual(:len(usual) - 4)
-      ! The units of a table stand in one line, in brackets and separated by blanks.
-      do i = 1, size(units)
-         if (scan(values%text(units(i)), ' []') > 0 .and. .not. values%is_bad(units(i))) call values%complain( &
-            problems, units(i), trim(units(i))//" must have no blanks and no brackets, such as 'mm' or 'N/mm^2'")
-      end do
+      call check_unit(values%pressure_unit, 'pressure_unit')
+      call check_unit(values%length_unit, 'length_unit')
       ! One '_' for each character: bytes 128 to 191 of UTF-8 continue one.
       name = ''
       do i = 1, len(usual)
@@ -57,15 +57,27 @@ contains
       end do
       usual = name
       if (scan(usual, '-.') == 1) usual(1:1) = '_'
-      if (values%is_bad('case')) return
-      if (.not. values%has('case') .and. .not. is_plain_name(usual)) then
-         call problems%add(values%place, "the deck's file name is too long for the name of the case, at most "// &
+      if (values%case%is_bad) return
+      if (.not. values%case%is_given .and. .not. is_plain_name(usual)) then
+         call values%complain(values%case, "the deck's file name is too long for the name of the case, at most "// &
             integer_text(longest_name)//' bytes: give case in &scene')
          return
       end if
-      call values%set_default('case', text=usual)
-      if (.not. is_plain_name(values%text('case'))) call values%complain(problems, 'case', &
+      call values%case%set_default(text=usual)
+      if (.not. is_plain_name(values%case%text)) call values%complain(values%case, &
          'case must be a plain file name of '//plain_in_words)
+
+   contains
+
+      !> The units of a table stand in one line, in brackets and separated by blanks.
+      subroutine check_unit(unit, name)
+         type(key_value), intent(in) :: unit
+         character(*), intent(in) :: name
+
+         if (scan(unit%text, ' []') > 0 .and. .not. unit%is_bad) call values%complain(unit, &
+            name//" must have no blanks and no brackets, such as 'mm' or 'N/mm^2'")
+      end subroutine check_unit
+
    end subroutine check_scene_group
 
    !> Whether a text can be the stem of file names: as plain_in_words.

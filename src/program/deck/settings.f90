@@ -1,10 +1,10 @@
 !> Keys that the command line sets: `--set surface.amplitude=2e-6`. They are read and checked as if the deck gave them.
 module wavycon_settings
    use wavycon_deck_text, only: quotes
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: is_read, key_group_type, key_index, words_of
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: is_read, key_index, words_of
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted
-   use wavycon_problems, only: problem_list_type
+   use wavycon_scene_groups, only: scene_group
    use wavycon_scene_group, only: longest_name, name_letters
    implicit none (type, external)
    private
@@ -45,17 +45,17 @@ contains
    !> are reported.
    pure logical function replaces(setting, table, key)
       type(setting_type), intent(in) :: setting
-      type(key_group_type), intent(in) :: table   !! of the group that the key stands in
+      type(key_list), intent(in) :: table         !! of the group that the key stands in
       character(*), intent(in) :: key
 
       integer :: k, own
 
       replaces = setting%group == table%name .and. key == setting%key
       if (replaces .or. setting%group /= table%name) return
-      own = key_index(table%keys, setting%key)
-      k = key_index(table%keys, key)
+      own = key_index(table%rows, setting%key)
+      k = key_index(table%rows, key)
       if (own == 0 .or. k == 0) return
-      associate (keys => table%keys)
+      associate (keys => table%rows)
          if (setting%key == table%selector) then
             replaces = any(words_of(keys(own)%choices) == plain_value(setting)) .and. &
                        .not. is_read(keys(k), plain_value(setting))
@@ -77,15 +77,14 @@ contains
    !> Adds the keys and values that are set to the name of the case, so that runs of a deck with different values do not
    !> replace each other's files. Not if the name itself is set; keys of &scene and &output are left out, which change
    !> no number.
-   subroutine name_case(scene, settings, problems)
-      type(group_values), intent(inout) :: scene   !! the group &scene, checked
+   subroutine name_case(scene, settings)
+      type(scene_group), intent(inout) :: scene   !! the group &scene, checked
       type(setting_type), intent(in) :: settings(:)
-      type(problem_list_type), intent(inout) :: problems
 
       character(:), allocatable :: name, value
       integer :: i, k
 
-      name = scene%text('case')
+      name = scene%case%text
       do i = 1, size(settings)
          select case (settings(i)%group)
          case ('scene')
@@ -101,10 +100,10 @@ contains
          end select
       end do
       if (len(name) > longest_name) then
-         call problems%add(0, 'with the values of --set the name of the case would be longer than '// &
+         call scene%problems%add(0, 'with the values of --set the name of the case would be longer than '// &
                            integer_text(longest_name)//' bytes: give one by --set scene.case=NAME')
       else
-         call scene%set('case', text=name)
+         call scene%case%set(text=name)
       end if
    end subroutine name_case
 

@@ -3,22 +3,21 @@ module wavycon_surface_group
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: check_sum, formula_surface
-   use wavycon_group_values, only: group_values
    use wavycon_height_map_kind, only: surface_of_file, surface_of_heights
-   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, logical_value, of, real_value, &
-      text_value
+   use wavycon_key_group, only: key_list, key_value
+   use wavycon_key_table, only: choice_value, integer_value, key_type, logical_value, real_value, text_value
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: most_points
    use wavycon_plain_text, only: escaped, short_number
-   use wavycon_problems, only: problem_list_type
+   use wavycon_scene_groups, only: surface_group
    use wavycon_self_affine_kind, only: check_self_affine, self_affine_of
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: surface_table, check_surface_group, check_sides, make_surface
+   public :: check_sides, check_surface_group, list_surface_keys, make_surface
 
    integer, parameter :: longest_path = 1000, most_waves = 1000, highest_wave = 128
 
@@ -29,208 +28,225 @@ module wavycon_surface_group
 
 contains
 
-   !> The table of keys of &surface: `kind` and the keys of all kinds of surface.
-   function surface_table() result(table)
-      type(key_group_type) :: table
+   !> The keys of &surface.
+   subroutine list_surface_keys(values, keys)
+      type(surface_group), intent(in), target :: values
+      type(key_list), intent(out) :: keys
 
       character(*), parameter :: on_a_ball = "a ball that the map or the surface lies on, with edges = 'free'."
 
-      table = key_group_type('surface', 'which waves or heights the bodies carry', required=.true., selector='kind', &
-                             keys=[ &
-         key_type(choice_value, 'kind', '', '', &
-            "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': amplitude (1 - cos phi "// &
-            "cos theta), theta = 2 pi y/wavelength_y. 'crossed_1d': a wave on each of two blocks. 'hexagonal': "// &
-            "three equal waves at 60 degrees to each other. 'sum': any waves. 'file': a height map. 'self_affine': "// &
-            "a random rough surface, made from its spectrum. 'ball': a ball on a half-space, not repeated.", &
-            choices='wave_1d wave_2d crossed_1d hexagonal sum file self_affine ball', required=.true.), &
-         of('wave_1d wave_2d hexagonal', [ &
-            key_type(real_value, 'amplitude', '1.0', 'length', &
-               'mean gap before load, of wave_1d and wave_2d half the height from trough to crest; 0 is a flat '// &
-               'surface.', least=0), &
-            key_type(real_value, 'wavelength', '1.0', 'length', &
-               'wavelength along x, of hexagonal that of each of the three waves.', above=0)]), &
-         of('wave_2d', key_type(real_value, 'wavelength_y', 'wavelength', 'length', 'wavelength along y.', above=0)), &
-         of('crossed_1d', [ &
-            key_type(real_value, 'amplitude1', '', 'length', &
-               'amplitude of the wave along x, on the first block.', least=0, required=.true.), &
-            key_type(real_value, 'wavelength1', '', 'length', 'wavelength along x.', above=0, required=.true.), &
-            key_type(real_value, 'amplitude2', '', 'length', &
-               'amplitude of the wave along y, on the second block.', least=0, required=.true.), &
-            key_type(real_value, 'wavelength2', '', 'length', 'wavelength along y.', above=0, required=.true.)]), &
-         of('sum file self_affine ball', [ &
-            key_type(real_value, 'length_x', '1.0', 'length', 'side of the periodic cell along x.', above=0), &
-            key_type(real_value, 'length_y', 'length_x', 'length', &
-               'side of the periodic cell along y; without it points of a file are equally far apart along x and y.', &
-               above=0)]), &
-         of('sum', [ &
-            key_type(real_value, 'amplitudes', '', 'length', &
-               'the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) - phases).', &
-               most_values=most_waves, required=.true.), &
-            key_type(integer_value, 'waves_x', '', '', &
-               'number of periods of each wave in the cell along x; may be negative.', -highest_wave, highest_wave, &
-               most_values=most_waves, required=.true.), &
-            key_type(integer_value, 'waves_y', '0', '', &
-               'number of periods of each wave in the cell along y. If all are 0 the surface is a profile.', &
-               -highest_wave, highest_wave, most_values=most_waves), &
-            key_type(real_value, 'phases', '0', 'degree', 'phase of each wave.', -360, 360, most_values=most_waves)]), &
-         of('file', [ &
-            key_type(text_value, 'file', '', '', &
-               'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
-               "program is started. The last row and column are the cell's last, not copies of the first.", &
-               longest=longest_path, required=.true.), &
-            key_type(choice_value, 'file_format', "'auto'", '', &
-               "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
-               "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if "// &
-               'all lines have three numbers, xz if all have two. xyz and xz give the sides of the cell, gsf and '// &
-               'heads of texts also units: leave out length_x and length_y.', choices='auto matrix xyz xz npy gsf'), &
-            key_type(real_value, 'missing_value', '', '-', &
-               'heights of the file that have this value are missing, as are nan and empty fields between commas, '// &
-               'semicolons or tabs.'), &
-            key_type(real_value, 'height_scale', '1.0', 'length', &
-               "length of one unit of the file's heights; beside a file with units a factor.", above=0), &
-            key_type(logical_value, 'crop_missing', '.false.', '', &
-               'whether rows and columns at the borders in which all heights are missing are cut off. The sides of '// &
-               'the cell are those of the whole file.'), &
-            key_type(logical_value, 'despike', '.false.', '', &
-               'whether spikes, heights far from all around them, become the median of their neighbours.'), &
-            key_type(choice_value, 'detrend', "'none'", '', &
-               "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' "// &
-               "or 'quadratic', a polynomial of the second degree.", choices='none mean plane quadratic'), &
-            key_type(choice_value, 'fill_missing', "'none'", '', &
-               "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
-               "smooth surface of Laplace's equation.", choices='none harmonic')]), &
-         of('file self_affine', &
-            key_type(choice_value, 'edges', "'periodic'", '', &
-               "how the surface continues beyond its borders: 'periodic', its last points are neighbours of its "// &
-               "first; 'free', not at all: it is pressed on a half-space; of file also 'mirror', by its mirror "// &
-               "images; 'window', periodic after a taper to the mean at the borders.", &
-               choices='periodic mirror window free')), &
-         of('file', &
-            key_type(real_value, 'window_width', short_number(usual_window_width), '-', &
-               "with edges = 'window': width of the taper at each border, over the side.", above=0, most=0.5_dp, &
-               needs="edges='window'")), &
-         of('file self_affine', [ &
-            key_type(real_value, 'short_wavelength', '', 'length', &
-               'shortest wave; without it all waves of a file stay, and the short cut-off of self_affine is '// &
-               'rolloff_wavelength/64.', above=0), &
-            key_type(real_value, 'form_radius', '', 'length', &
-               'radius of '//on_a_ball, above=0, way=30, needs="edges='free'"), &
-            key_type(real_value, 'form_radius_x', '', 'length', &
-               'radius of curvature along x of '//on_a_ball, above=0, way=31, needs="form_radius_y edges='free'"), &
-            key_type(real_value, 'form_radius_y', '', 'length', &
-               'radius of curvature along y.', above=0, way=31, needs="form_radius_x edges='free'")]), &
-         of('self_affine', [ &
-            key_type(real_value, 'hurst', '0.8', '-', 'Hurst exponent of the roughness.', 0, 1), &
-            key_type(real_value, 'rms_height', '', 'length', &
-               'root mean square of the height; or give rms_slope.', above=0, way=10, required=.true.), &
-            key_type(real_value, 'rms_slope', '', '-', &
-               'root mean square of the slope, the size of the gradient; or give rms_height.', above=0, way=11), &
-            key_type(real_value, 'spectral_density', '', 'length^4', &
-               'in place of rms_height or rms_slope: the spectral density of waves longer than rolloff_wavelength, '// &
-               'as &output spectrum has it; of a profile in length^3.', above=0, way=12), &
-            key_type(real_value, 'long_wavelength', 'the longer side of the cell', 'length', &
-               'longest wave, the long cut-off.', above=0), &
-            key_type(real_value, 'rolloff_wavelength', 'long_wavelength', 'length', &
-               'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', above=0), &
-            key_type(choice_value, 'spectrum', "'ideal'", '', &
-               "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process "// &
-               'with this spectrum. Phases are random.', choices='ideal random'), &
-            key_type(integer_value, 'seed', '1', '', &
-               'of the random numbers. The surface depends on the seed and on the keys above, not on points.', 1, &
-               huge(1))]), &
-         of('self_affine ball', &
-            key_type(integer_value, 'points', 'as kind says', '', &
-               'points of the cell along x and y on which the surface is made, and solved unless &method says '// &
-               'otherwise; one number for both, and 1 along y for a profile. The default of self_affine is the '// &
-               'least power of two with at least four points to short_wavelength, if that is not more than 8192; '// &
-               'without points of a ball grids are refined to the accuracy of &method.', 1, most_points, &
-               most_values=2)), &
-         of('ball', [ &
-            key_type(real_value, 'radius', '', 'length', 'radius of the ball.', above=0, way=20, required=.true.), &
-            key_type(real_value, 'radius_x', '', 'length', &
-               'radius of curvature along x of the ball.', above=0, way=21, needs='radius_y'), &
-            key_type(real_value, 'radius_y', '', 'length', &
-               'radius of curvature along y.', above=0, way=21, needs='radius_x')])])
-   end function surface_table
+      keys = key_list('surface', 'which waves or heights the bodies carry', values%key_group, required=.true., &
+                      selector='kind')
+      call keys%add(values%kind, key_type(choice_value, 'kind', '', '', &
+         "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': amplitude (1 - cos phi "// &
+         "cos theta), theta = 2 pi y/wavelength_y. 'crossed_1d': a wave on each of two blocks. 'hexagonal': "// &
+         "three equal waves at 60 degrees to each other. 'sum': any waves. 'file': a height map. 'self_affine': "// &
+         "a random rough surface, made from its spectrum. 'ball': a ball on a half-space, not repeated.", &
+         choices='wave_1d wave_2d crossed_1d hexagonal sum file self_affine ball', required=.true.))
+      keys%of = 'wave_1d wave_2d hexagonal'
+      call keys%add(values%amplitude, key_type(real_value, 'amplitude', '1.0', 'length', &
+         'mean gap before load, of wave_1d and wave_2d half the height from trough to crest; 0 is a flat '// &
+         'surface.', least=0))
+      call keys%add(values%wavelength, key_type(real_value, 'wavelength', '1.0', 'length', &
+         'wavelength along x, of hexagonal that of each of the three waves.', above=0))
+      keys%of = 'wave_2d'
+      call keys%add(values%wavelength_y, key_type(real_value, 'wavelength_y', 'wavelength', 'length', &
+         'wavelength along y.', above=0))
+      keys%of = 'crossed_1d'
+      call keys%add(values%amplitude1, key_type(real_value, 'amplitude1', '', 'length', &
+         'amplitude of the wave along x, on the first block.', least=0, required=.true.))
+      call keys%add(values%wavelength1, key_type(real_value, 'wavelength1', '', 'length', &
+         'wavelength along x.', above=0, required=.true.))
+      call keys%add(values%amplitude2, key_type(real_value, 'amplitude2', '', 'length', &
+         'amplitude of the wave along y, on the second block.', least=0, required=.true.))
+      call keys%add(values%wavelength2, key_type(real_value, 'wavelength2', '', 'length', &
+         'wavelength along y.', above=0, required=.true.))
+      keys%of = 'sum file self_affine ball'
+      call keys%add(values%length_x, key_type(real_value, 'length_x', '1.0', 'length', &
+         'side of the periodic cell along x.', above=0))
+      call keys%add(values%length_y, key_type(real_value, 'length_y', 'length_x', 'length', &
+         'side of the periodic cell along y; without it points of a file are equally far apart along x and y.', &
+         above=0))
+      keys%of = 'sum'
+      call keys%add(values%amplitudes, key_type(real_value, 'amplitudes', '', 'length', &
+         'the height is the sum of amplitudes cos(2 pi (waves_x x/length_x + waves_y y/length_y) - phases).', &
+         most_values=most_waves, required=.true.))
+      call keys%add(values%waves_x, key_type(integer_value, 'waves_x', '', '', &
+         'number of periods of each wave in the cell along x; may be negative.', -highest_wave, highest_wave, &
+         most_values=most_waves, required=.true.))
+      call keys%add(values%waves_y, key_type(integer_value, 'waves_y', '0', '', &
+         'number of periods of each wave in the cell along y. If all are 0 the surface is a profile.', &
+         -highest_wave, highest_wave, most_values=most_waves))
+      call keys%add(values%phases, key_type(real_value, 'phases', '0', 'degree', &
+         'phase of each wave.', -360, 360, most_values=most_waves))
+      keys%of = 'file'
+      call keys%add(values%file, key_type(text_value, 'file', '', '', &
+         'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
+         "program is started. The last row and column are the cell's last, not copies of the first.", &
+         longest=longest_path, required=.true.))
+      call keys%add(values%file_format, key_type(choice_value, 'file_format', "'auto'", '', &
+         "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
+         "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if "// &
+         'all lines have three numbers, xz if all have two. xyz and xz give the sides of the cell, gsf and '// &
+         'heads of texts also units: leave out length_x and length_y.', choices='auto matrix xyz xz npy gsf'))
+      call keys%add(values%missing_value, key_type(real_value, 'missing_value', '', '-', &
+         'heights of the file that have this value are missing, as are nan and empty fields between commas, '// &
+         'semicolons or tabs.'))
+      call keys%add(values%height_scale, key_type(real_value, 'height_scale', '1.0', 'length', &
+         "length of one unit of the file's heights; beside a file with units a factor.", above=0))
+      call keys%add(values%crop_missing, key_type(logical_value, 'crop_missing', '.false.', '', &
+         'whether rows and columns at the borders in which all heights are missing are cut off. The sides of '// &
+         'the cell are those of the whole file.'))
+      call keys%add(values%despike, key_type(logical_value, 'despike', '.false.', '', &
+         'whether spikes, heights far from all around them, become the median of their neighbours.'))
+      call keys%add(values%detrend, key_type(choice_value, 'detrend', "'none'", '', &
+         "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' "// &
+         "or 'quadratic', a polynomial of the second degree.", choices='none mean plane quadratic'))
+      call keys%add(values%fill_missing, key_type(choice_value, 'fill_missing', "'none'", '', &
+         "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
+         "smooth surface of Laplace's equation.", choices='none harmonic'))
+      keys%of = 'file self_affine'
+      call keys%add(values%edges, key_type(choice_value, 'edges', "'periodic'", '', &
+         "how the surface continues beyond its borders: 'periodic', its last points are neighbours of its first; "// &
+         "'free', not at all: it is pressed on a half-space; of file also 'mirror', by its mirror images; "// &
+         "'window', periodic after a taper to the mean at the borders.", choices='periodic mirror window free'))
+      keys%of = 'file'
+      call keys%add(values%window_width, key_type(real_value, 'window_width', short_number(usual_window_width), '-', &
+         "with edges = 'window': width of the taper at each border, over the side.", above=0, most=0.5_dp, &
+         needs="edges='window'"))
+      keys%of = 'file self_affine'
+      call keys%add(values%short_wavelength, key_type(real_value, 'short_wavelength', '', 'length', &
+         'shortest wave; without it all waves of a file stay, and the short cut-off of self_affine is '// &
+         'rolloff_wavelength/64.', above=0))
+      call keys%add(values%form_radius, key_type(real_value, 'form_radius', '', 'length', &
+         'radius of '//on_a_ball, above=0, way=30, needs="edges='free'"))
+      call keys%add(values%form_radius_x, key_type(real_value, 'form_radius_x', '', 'length', &
+         'radius of curvature along x of '//on_a_ball, above=0, way=31, needs="form_radius_y edges='free'"))
+      call keys%add(values%form_radius_y, key_type(real_value, 'form_radius_y', '', 'length', &
+         'radius of curvature along y.', above=0, way=31, needs="form_radius_x edges='free'"))
+      keys%of = 'self_affine'
+      call keys%add(values%hurst, key_type(real_value, 'hurst', '0.8', '-', 'Hurst exponent of the roughness.', 0, 1))
+      call keys%add(values%rms_height, key_type(real_value, 'rms_height', '', 'length', &
+         'root mean square of the height; or give rms_slope.', above=0, way=10, required=.true.))
+      call keys%add(values%rms_slope, key_type(real_value, 'rms_slope', '', '-', &
+         'root mean square of the slope, the size of the gradient; or give rms_height.', above=0, way=11))
+      call keys%add(values%spectral_density, key_type(real_value, 'spectral_density', '', 'length^4', &
+         'in place of rms_height or rms_slope: the spectral density of waves longer than rolloff_wavelength, '// &
+         'as &output spectrum has it; of a profile in length^3.', above=0, way=12))
+      call keys%add(values%long_wavelength, key_type(real_value, 'long_wavelength', 'the longer side of the cell', &
+         'length', &
+         'longest wave, the long cut-off.', above=0))
+      call keys%add(values%rolloff_wavelength, key_type(real_value, 'rolloff_wavelength', 'long_wavelength', 'length', &
+         'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', above=0))
+      call keys%add(values%spectrum, key_type(choice_value, 'spectrum', "'ideal'", '', &
+         "amplitudes of the waves: 'ideal', those of the spectrum; 'random', those of a Gaussian process "// &
+         'with this spectrum. Phases are random.', choices='ideal random'))
+      call keys%add(values%seed, key_type(integer_value, 'seed', '1', '', &
+         'of the random numbers. The surface depends on the seed and on the keys above, not on points.', 1, huge(1)))
+      keys%of = 'self_affine ball'
+      call keys%add(values%points, key_type(integer_value, 'points', 'as kind says', '', &
+         'points of the cell along x and y on which the surface is made, and solved unless &method says '// &
+         'otherwise; one number for both, and 1 along y for a profile. The default of self_affine is the least '// &
+         'power of two with at least four points to short_wavelength, if that is not more than 8192; without '// &
+         'points of a ball grids are refined to the accuracy of &method.', 1, most_points, most_values=2))
+      keys%of = 'ball'
+      call keys%add(values%radius, key_type(real_value, 'radius', '', 'length', &
+         'radius of the ball.', above=0, way=20, required=.true.))
+      call keys%add(values%radius_x, key_type(real_value, 'radius_x', '', 'length', &
+         'radius of curvature along x of the ball.', above=0, way=21, needs='radius_y'))
+      call keys%add(values%radius_y, key_type(real_value, 'radius_y', '', 'length', &
+         'radius of curvature along y.', above=0, way=21, needs='radius_x'))
+   end subroutine list_surface_keys
 
    !> Checks the keys against the kind and sets the defaults that depend on it.
-   subroutine check_surface_group(values, problems)
-      type(group_values), intent(inout) :: values
-      type(problem_list_type), intent(inout) :: problems
+   subroutine check_surface_group(values)
+      type(surface_group), intent(inout) :: values
 
-      character(*), parameter :: radii(*) = [character(11) :: 'radius', 'form_radius']
-      real(dp), parameter :: largest_ratio_of_radii = 1e4_dp
-      character(:), allocatable :: x, y
-      integer :: k
-
-      call values%check_relations(problems)
-      select case (values%text('kind'))
+      select case (values%kind%text)
       case ('sum')
-         call check_sum(values, problems)
+         call check_sum(values)
       case ('self_affine')
-         call check_self_affine(values, problems)
+         call check_self_affine(values)
       case ('ball')
-         if (values%has('length_y') .and. .not. values%has('length_x')) &
-            call values%complain(problems, 'length_y', 'length_y needs length_x beside it')
+         if (values%length_y%is_given .and. .not. values%length_x%is_given) &
+            call values%complain(values%length_y, 'length_y needs length_x beside it')
       end select
-      do k = 1, size(radii)
-         x = trim(radii(k))//'_x'
-         y = trim(radii(k))//'_y'
-         associate (least => min(values%real(x), values%real(y)), most => max(values%real(x), values%real(y)))
-            if (least > 0.0_dp .and. most > largest_ratio_of_radii*least) call values%complain(problems, x, &
-               x//' and '//y//' must be within a factor of '//short_number(largest_ratio_of_radii)// &
+      call check_radii(values%radius_x, values%radius_y, 'radius')
+      call check_radii(values%form_radius_x, values%form_radius_y, 'form_radius')
+
+   contains
+
+      subroutine check_radii(x, y, name)
+         type(key_value), intent(in) :: x, y
+         character(*), intent(in) :: name
+
+         real(dp), parameter :: largest_ratio = 1e4_dp
+
+         associate (radii => [x%number, y%number])
+            if (minval(radii) > 0.0_dp .and. maxval(radii) > largest_ratio*minval(radii)) call values%complain(x, &
+               name//'_x and '//name//'_y must be within a factor of '//short_number(largest_ratio)// &
                '; for a roller give a profile')
          end associate
-      end do
+      end subroutine check_radii
+
    end subroutine check_surface_group
 
    !> Reports a cell that is so long that loads would take too many iterations.
-   subroutine check_sides(values, surface, problems)
-      type(group_values), intent(in) :: values         !! with which the surface was made
+   subroutine check_sides(values, surface)
+      type(surface_group), intent(inout) :: values      !! with which the surface was made
       type(surface_type), intent(in) :: surface
-      type(problem_list_type), intent(inout) :: problems
 
-      character(12), parameter :: pairs(2, 3) = reshape([character(12) :: 'length_x', 'length_y', 'wavelength', &
-         'wavelength_y', 'wavelength1', 'wavelength2'], [2, 3])
-      character(:), allocatable :: key, keys
+      character(:), allocatable :: keys
+      integer :: place
       real(dp) :: side(2)
-      integer :: k
 
       if (surface%dimension == 1) return
       side = surface%sides()
       if (maxval(side) <= largest_ratio*minval(side)) return
-      key = 'kind'
+      place = values%kind%place
       keys = 'both sides'
-      if (values%has('file')) then
-         key = 'file'
-         keys = 'the sides in '//escaped(values%text('file'))
+      if (values%file%is_given) then
+         place = values%file%place
+         keys = 'the sides in '//escaped(values%file%text)
       end if
-      do k = 1, size(pairs, 2)
-         if (.not. any([values%in_effect(trim(pairs(1, k))), values%in_effect(trim(pairs(2, k)))])) cycle
-         key = trim(pairs(merge(2, 1, values%has(trim(pairs(2, k)))), k))
-         keys = trim(pairs(1, k))//' and '//trim(pairs(2, k))
-      end do
-      call values%complain(problems, key, 'the cell is '//short_number(side(1))//' x '//short_number(side(2))// &
+      call name_sides(values%length_x, values%length_y, 'length_x and length_y')
+      call name_sides(values%wavelength, values%wavelength_y, 'wavelength and wavelength_y')
+      call name_sides(values%wavelength1, values%wavelength2, 'wavelength1 and wavelength2')
+      call values%problems%add(max(place, values%place), &
+         'the cell is '//short_number(side(1))//' x '//short_number(side(2))// &
          ', one side '//short_number(maxval(side)/minval(side))//' times the other; at most '// &
          short_number(largest_ratio)//' times is allowed. Are '//keys//' in one unit?')
+
+   contains
+
+      subroutine name_sides(x, y, names)
+         type(key_value), intent(in) :: x, y
+         character(*), intent(in) :: names
+
+         if (.not. (x%in_effect .or. y%in_effect)) return
+         keys = names
+         place = x%place
+         if (y%is_given) place = y%place
+      end subroutine name_sides
+
    end subroutine check_sides
 
    !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one
    !> and for heights of a kind that has no file.
    subroutine make_surface(values, surface, map, error, heights)
       !> Without problems. Keys that have no effect beside what a file says are left out of the resolved deck.
-      type(group_values), intent(inout) :: values
+      type(surface_group), intent(inout) :: values
       type(surface_type), allocatable, intent(out) :: surface   !! not allocated in case of an error
       type(map_statistics), allocatable, intent(out) :: map     !! allocated for a height map
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: heights(:, :)   !! in place of those of the file, as of surface_of_heights
 
-      if (values%text('kind') == '') return
+      if (values%kind%text == '') return
       allocate (surface)
       if (present(heights)) then
          call surface_of_heights(values, heights, surface, map, error)
       else
-         select case (values%text('kind'))
+         select case (values%kind%text)
          case ('file')
             call surface_of_file(values, surface, map, error)
          case ('self_affine')

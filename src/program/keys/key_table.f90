@@ -7,8 +7,7 @@ module wavycon_key_table
    implicit none (type, external)
    private
 
-   public :: key_type, key_group_type, of
-   public :: allowed_values, full_meaning, is_read, key_index, ways_in_words, words_of
+   public :: key_type, allowed_values, full_meaning, is_read, key_index, ways_in_words, words_of
 
    !> Types of values.
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
@@ -44,25 +43,7 @@ module wavycon_key_table
       character(48) :: of = ''
    end type key_type
 
-   type :: key_group_type
-      character(name_length) :: name = ''
-      character(80) :: meaning = ''
-      type(key_type), allocatable :: keys(:)
-      logical :: required = .false.
-      !> The key that selects an alternative, as a kind of surface or a solver, by its name; empty: there are none.
-      character(name_length) :: selector = ''
-   end type key_group_type
-
 contains
-
-   !> Keys that are read with some choices of the group's selector only.
-   elemental type(key_type) function of(choices, key) result(own)
-      character(*), intent(in) :: choices   !! as of key_type
-      type(key_type), intent(in) :: key
-
-      own = key
-      own%of = choices
-   end function of
 
    !> The words of a text with blanks between them.
    pure function words_of(text) result(words)

@@ -1,5 +1,6 @@
 !> Reads the value of a key from a word of a deck, and checks its type and bounds.
 module wavycon_key_values
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, ieee_set_status, &
       ieee_status_type
    use wavycon_constants, only: largest_number, smallest_number
@@ -12,7 +13,7 @@ module wavycon_key_values
    implicit none (type, external)
    private
 
-   public :: must_be, word_value, read_value
+   public :: check_number, must_be, read_value, word_value
 
    !> The value of a word: a number or a text, according to the type of the key.
    type :: word_value
@@ -83,24 +84,38 @@ contains
       character(:), allocatable, intent(out) :: trouble
 
       type(ieee_status_type) :: floating_point
-      logical :: is_integer, is_number
+      logical :: is_number
 
       ! Overflow must not trap: 1e999 must be reported as bad input in Debug builds too.
       call ieee_get_status(floating_point)
       call ieee_set_halting_mode(ieee_overflow, .false.)
       call read_decimal(word, number, is_number)
       call ieee_set_status(floating_point)
-      is_integer = key%kind == integer_value
-      if (is_integer) is_number = is_number .and. verify(word, digits//'+-') == 0
-      if (.not. is_number) then
+      if (key%kind == integer_value) is_number = is_number .and. verify(word, digits//'+-') == 0
+      if (is_number) then
+         call check_number(key, word, number, trouble)
+      else
          trouble = must_be(key, word)
-      else if (.not. is_integer .and. (abs(number) > largest_number .or. &
-                                       (abs(number) < smallest_number .and. abs(number) > 0.0_dp))) then
+      end if
+   end subroutine read_number
+
+   !> Checks a number against the bounds of a key.
+   pure subroutine check_number(key, word, number, trouble)
+      type(key_type), intent(in) :: key
+      character(*), intent(in) :: word   !! the number as it is written
+      real(dp), intent(in) :: number
+      character(:), allocatable, intent(out) :: trouble   !! as of read_value
+
+      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      if (ieee_is_nan(number)) then
+         trouble = must_be(key, word)
+      else if (key%kind == real_value .and. (abs(number) > largest_number .or. &
+                                             (abs(number) < smallest_number .and. abs(number) > 0.0_dp))) then
          trouble = must_be(key, word)//'; numbers may be 0 or from 1e-90 to 1e90 in size'
       else if (number < key%least .or. number > key%most .or. number <= key%above .or. number >= key%below) then
          trouble = must_be(key, word)
       end if
-   end subroutine read_number
+   end subroutine check_number
 
    pure subroutine read_text(key, word, text, trouble)
       type(key_type), intent(in) :: key

@@ -18,6 +18,7 @@ module wavycon_problems
       type(problem_type) :: items(most_kept)  !! the first ones found, in the order of their places
    contains
       procedure :: add
+      procedure :: join
       procedure :: is_full
    end type problem_list_type
 
@@ -40,6 +41,19 @@ contains
       self%items(i)%place = place
       self%items(i)%words = words
    end subroutine add
+
+   !> Adds the problems of another list.
+   pure subroutine join(self, other)
+      class(problem_list_type), intent(inout) :: self
+      type(problem_list_type), intent(in) :: other
+
+      integer :: i
+
+      do i = 1, min(other%number, most_kept)
+         call self%add(other%items(i)%place, other%items(i)%words)
+      end do
+      self%number = self%number + max(0, other%number - most_kept)
+   end subroutine join
 
    pure logical function is_full(self)
       class(problem_list_type), intent(in) :: self

@@ -52,7 +52,7 @@ contains
 
       self%points = map_points(results)
       ! A table with more than one plane a load counts all of them.
-      self%as_text = is_text(results%scene%output%text('map_format'), &
+      self%as_text = is_text(results%scene%output%map_format%text, &
                              self%points*[1, merge(product(planes), 1, size(planes) > 1)])
       self%side = results%solver%surface%sides()
       self%offset = map_offset(results, self%points)
@@ -113,7 +113,7 @@ contains
       integer :: points(2)
 
       points = 1
-      associate (given => nint(results%scene%output%reals('map_points')))
+      associate (given => nint(results%scene%output%map_points%numbers))
          points(:size(given)) = given
       end associate
    end function map_points

@@ -28,11 +28,11 @@ contains
 
       lines = prefix//'wavycon '//version//' ('//revision//')'
       call add('deck: '//escaped(scene%deck_path))
-      words = scene%scene_values%text('title')
+      words = scene%scene_values%title%text
       if (words /= '') call add('title: '//escaped(words))
       associate (length => scene%length_unit, pressure => scene%pressure_unit)
          side = surface%sides()
-         words = scene%surface_values%text('kind')//number('Delta', length, surface%amplitude)// &
+         words = scene%surface_values%kind%text//number('Delta', length, surface%amplitude)// &
                  number('cell_x', length, side(1))
          if (surface%dimension == 2) words = words//number('cell_y', length, side(2))
          if (surface%has_free_edges) then

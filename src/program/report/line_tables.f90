@@ -77,7 +77,7 @@ contains
       integer :: before, intervals, k
 
       line%number = number
-      intervals = results%scene%output%integer('line_points')
+      intervals = nint(results%scene%output%line_points%number)
       line%direction = [merge(0, 1, number == 3), merge(0, 1, number == 1)]
       associate (surface => results%solver%surface)
          way = 2*pi*line%direction/(surface%parts()*intervals)

@@ -51,7 +51,7 @@ contains
       integer(int64), allocatable :: own(:)
 
       points = map_points(results)
-      is_written_by_all = .not. is_text(results%scene%output%text('map_format'), points)
+      is_written_by_all = .not. is_text(results%scene%output%map_format%text, points)
       if (.not. is_written_by_all) return
       if (.not. allocated(results%loads)) then
          is_written_by_all = all(points == results%traits%given_grid .or. points == 2*results%traits%given_grid)

@@ -45,7 +45,7 @@ contains
          call log%say(head_lines(scene, surface, results%method, '', 'some'))
          words = scene%deck_path(index(scene%deck_path, '/', back=.true.) + 1:)
          if (index(words//'.nml', '.nml') > 1) words = words(:index(words//'.nml', '.nml') - 1)
-         if (.not. scene%scene_values%has('case') .and. index(scene%case, words) /= 1) call log%note( &
+         if (.not. scene%scene_values%case%is_given .and. index(scene%case, words) /= 1) call log%note( &
             'the results have the name '//scene%case//", with '_' for characters of the deck's name")
          loads = scene%target
          words = trim(target_words(scene%loads_by))
@@ -122,7 +122,7 @@ contains
       borders = ''
       cause = 'Are amplitudes and wavelengths in one unit?'
       if (allocated(scene%map)) then
-         if (scene%surface_values%text('kind') == 'file') &
+         if (scene%surface_values%kind%text == 'file') &
             cause = 'Do height_scale, and the sides of the cell, suit the units of the heights?'
          if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
       end if
@@ -307,13 +307,13 @@ contains
          if (loads_by == by_yield) then
             call note_some(count(loads%status == not_found), 'no mean pressure was found that brings the '// &
                            'stresses to the given part of the yield stress')
-            if (.not. results%traits%has_errors) call log%note("solver = '"//scene%method%text('solver')// &
+            if (.not. results%traits%has_errors) call log%note("solver = '"//scene%method%solver%text// &
                "' estimates no errors; a light load of first yield may be wrong by a factor of 2. solver = 'auto' "// &
                'estimates them')
          else
             call note_unreached(loads_by, loads, log)
          end if
-         if (scene%surface_values%text('kind') == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
+         if (scene%surface_values%kind%text == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
             call note_some(count(loads%value(concentrated_load) >= least_concentration), &
             "the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
          if (surface%has_free_edges) then
@@ -330,7 +330,7 @@ contains
          end if
          without_area = count(loads%status == converged .and. loads%value(contact_area) <= 0.0_dp)
          call note_some(without_area, 'no pressure reaches edge_level = '// &
-            short_number(scene%method%real('edge_level'))//' p*, so that the contact area shows as 0')
+            short_number(scene%method%edge_level%number)//' p*, so that the contact area shows as 0')
       end associate
 
    contains

@@ -171,10 +171,10 @@ contains
          end if
          call fields%on_grid(points, offset, pressure, displacement, gap)
          if (any(ieee_is_nan(pressure))) return
-         bins = scene%output%integer('histogram_bins')
+         bins = nint(scene%output%histogram_bins%number)
          ! The pressure of a series waves about zero outside the contact, whose edge is an isobar.
          least = 0.0_dp
-         if (scene%method%has('edge_level')) least = scene%method%real('edge_level')
+         if (scene%method%edge_level%is_given) least = scene%method%edge_level%number
          call make_histogram(pressure, pressure > least, bins, linear, pressures)
          call make_histogram(gap, .not. pressure > least, bins, linear, gaps)
       end associate

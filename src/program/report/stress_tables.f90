@@ -10,12 +10,12 @@ module wavycon_stress_tables
    use wavycon_constants, only: pi
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
-   use wavycon_group_values, only: group_values
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
    use wavycon_line_tables, only: start_surface_line, surface_line
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
+   use wavycon_scene_groups, only: stress_group
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
    use wavycon_surface, only: surface_type
@@ -116,7 +116,7 @@ contains
 
       ! A table in memory may be asked for although the deck has section = 'none': it is that along x.
       call start_surface_line(line, results, max(1, findloc(['x       ', 'diagonal', 'y       '] == &
-                              results%scene%stress%text('section'), .true., dim=1)))
+                              results%scene%stress%section%text, .true., dim=1)))
       call put_below(results, load, file, line)
    end subroutine put_section
 
@@ -222,7 +222,7 @@ contains
    !> The depths of a table: those of planes are the list of depths, if there is one, and those of line and section the
    !> range, if there is one.
    subroutine stress_depths(stress, surface, of_planes, depths)
-      type(group_values), intent(in) :: stress    !! the group &stress
+      type(stress_group), intent(in) :: stress
       type(surface_type), intent(in) :: surface
       logical, intent(in) :: of_planes
       real(dp), allocatable, intent(out) :: depths(:)   !! [length]
@@ -232,16 +232,16 @@ contains
       real(dp) :: side(2)
 
       side = surface%sides()
-      has_range = stress%has('depth_from') .or. stress%has('depth_to') .or. stress%has('depth_steps')
+      has_range = stress%depth_from%is_given .or. stress%depth_to%is_given .or. stress%depth_steps%is_given
       by_list = of_planes .or. .not. has_range
-      if (by_list .and. stress%has('depths')) then
-         depths = stress%reals('depths')
-      else if (by_list .and. stress%has('depths_over_cell_x')) then
-         depths = side(1)*stress%reals('depths_over_cell_x')
+      if (by_list .and. stress%depths%is_given) then
+         depths = stress%depths%numbers
+      else if (by_list .and. stress%depths_over_cell_x%is_given) then
+         depths = side(1)*stress%depths_over_cell_x%numbers
       else
-         steps = stress%integer('depth_steps')
+         steps = nint(stress%depth_steps%number)
          intervals = max(1, steps - 1)
-         depths = [(side(1)*(stress%real('depth_from')*(intervals - i) + stress%real('depth_to')*i)/intervals, &
+         depths = [(side(1)*(stress%depth_from%number*(intervals - i) + stress%depth_to%number*i)/intervals, &
                     i=0, steps - 1)]
       end if
    end subroutine stress_depths

@@ -5,8 +5,6 @@ module wavycon_table
    use wavycon_contact_status, only: status_name
    use wavycon_error, only: error_type
    use wavycon_formula_kinds, only: paper_waves
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: key_index, logical_value, text_value
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: column_kind, column_list, column_name, longest_word, of_words
    use wavycon_methods, only: solvers_for
@@ -90,38 +88,16 @@ contains
       class(table_type), intent(in) :: self
       type(scene_type), intent(in) :: scene
 
-      select case (self%group)
-      case ('stress')
-         is_requested = allocated(scene%stress_setting) .and. is_asked_for(self, scene%stress)
-      case ('interface')
-         is_requested = allocated(scene%interface_setting) .and. is_asked_for(self, scene%interface)
-      case default
-         is_requested = is_asked_for(self, scene%output)
-      end select
-   end function is_requested
-
-   !> Whether the keys of a group ask for the table.
-   pure logical function is_asked_for(self, values)
-      type(table_type), intent(in) :: self
-      type(group_values), intent(in) :: values
-
       character(len(self%asked_by)) :: keys(2)
       integer :: i
 
-      is_asked_for = .true.
       keys = self%asked_by
       if (keys(1) == '') keys(1) = self%key
-      do i = 1, count(keys /= '')
-         select case (values%table%keys(key_index(values%table%keys, keys(i)))%kind)
-         case (logical_value)
-            is_asked_for = is_asked_for .and. values%logical(trim(keys(i)))
-         case (text_value:)
-            is_asked_for = is_asked_for .and. values%text(trim(keys(i))) /= 'none'
-         case default
-            is_asked_for = is_asked_for .and. values%has(trim(keys(i)))
-         end select
+      is_requested = .true.
+      do i = 1, max(1, count(keys /= ''))
+         is_requested = is_requested .and. any(scene%asked_for == trim(self%group)//'.'//keys(i))
       end do
-   end function is_asked_for
+   end function is_requested
 
    !> Why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it can.
    function refusal(self, traits, surface) result(words)

@@ -114,7 +114,7 @@ contains
 
       ! As many terms of the series as the solver's has, otherwise as in the paper.
       terms = 10
-      if (results%scene%method%in_effect('harmonics')) terms = results%scene%method%integer('harmonics')
+      if (results%scene%method%harmonics%in_effect) terms = nint(results%scene%method%harmonics%number)
       of_line = not_a_number()
       of_plane = not_a_number()
       call results%begin_block(file, load)

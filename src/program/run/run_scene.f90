@@ -166,8 +166,7 @@ contains
    logical function asks_for_largest(scene)
       type(scene_type), intent(in) :: scene
 
-      asks_for_largest = allocated(scene%stress_setting) .and. scene%p_star > 0.0_dp
-      if (asks_for_largest) asks_for_largest = scene%stress%logical('largest')
+      asks_for_largest = allocated(scene%stress_setting) .and. scene%p_star > 0.0_dp .and. scene%stress%largest%is_true
    end function asks_for_largest
 
    !> Starts the solver of a scene, finds its tables and how the ranks share the work.
@@ -190,7 +189,7 @@ contains
          keep = keep_fields(scene, tables)
          if (present(with_fields)) keep = with_fields
          call start_solver(scene%surface, scene%method, keep, results%solver, description)
-         results%method = scene%method%text('solver')//', '//description
+         results%method = scene%method%solver%text//', '//description
          results%traits = results%solver%traits()
          results%sharing = choose_sharing(results%traits, size(scene%target), any(tables%needs_fields), &
                                           scene%loads_by == by_yield .or. allocated(scene%interface_setting))

@@ -222,7 +222,7 @@ contains
                                         integer_text(size(results%loads))//' loads')
                   call solve_partial_slip(results%solver, setting%friction, solution, setting%tangential(i)* &
                                           merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
-                                          results%scene%interface%logical('slip_loop'), results%slip(i, load))
+                                          results%scene%interface%slip_loop%is_true, results%slip(i, load))
                   if (results%slip(i, load)%slides) call log%note( &
                      'under load '//integer_text(load)//' tangential load '//integer_text(i)// &
                      ' is more than friction times the mean pressure: the bodies slide')

@@ -1,10 +1,12 @@
 !> A scene: all that a deck describes, the checked values of its groups with every default set, the surface, and the
 !> loads in the program's normalisation (pressures in p*, gaps in Delta).
 module wavycon_scene
-   use wavycon_group_values, only: group_values
+   use wavycon_key_table, only: name_length
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_roughness, only: roughness_type
+   use wavycon_scene_groups, only: interface_group, load_group, material_group, method_group, output_group, &
+      scene_group, stress_group, surface_group
    use wavycon_stress_setting, only: stress_setting
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -52,7 +54,15 @@ module wavycon_scene
       real(dp), allocatable :: target(:)
       real(dp), allocatable :: mean_pressure(:)     !! [pressure]; allocated where loads are given by pressure
       !> The groups of these names; `scene_values` and `surface_values` are &scene and &surface.
-      type(group_values) :: scene_values, material, surface_values, load, stress, interface, method, output
+      type(scene_group) :: scene_values
+      type(material_group) :: material
+      type(surface_group) :: surface_values
+      type(load_group) :: load
+      type(stress_group) :: stress
+      type(interface_group) :: interface
+      type(method_group) :: method
+      type(output_group) :: output
+      character(2*name_length), allocatable :: asked_for(:)   !! 'group.key' of all keys that ask for something
       type(stress_setting), allocatable :: stress_setting   !! allocated if the deck has &stress
       type(interface_setting), allocatable :: interface_setting   !! allocated if the deck has &interface
    end type scene_type

@@ -1,28 +1,28 @@
 !> What decks say about solvers: their names, their keys of &method, what they refuse, and how values start them.
 module wavycon_methods
-   use wavycon_auto_contact, only: auto_contact, has_closed_form, has_expansions
+   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
+      last_choice, points_are_given, points_are_of_the_map
    use wavycon_series_contact, only: series_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_constraint_points, only: choose_points
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
-   use wavycon_fitted_contact, only: fitted_contact, fitted_options
+   use wavycon_fitted_contact, only: fitted_contact
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_formula_kinds, only: paper_waves
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options
-   use wavycon_group_values, only: group_values
-   use wavycon_key_table, only: choice_value, integer_value, key_group_type, key_type, name_length, of, real_value, &
-      words_of
+   use wavycon_key_group, only: key_list
+   use wavycon_key_table, only: choice_value, integer_value, key_type, name_length, real_value, words_of
    use wavycon_kinds, only: dp
    use wavycon_paper_wave, only: has_smaller_cell, is_paper_wave
    use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
-   use wavycon_problems, only: problem_list_type
+   use wavycon_scene_groups, only: method_group
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: method_table, check_method_group, points_of_grid, solvers_for, traits_of, start_solver, why_chosen
+   public :: check_method_group, list_method_keys, points_of_grid, solvers_for, traits_of, start_solver, why_chosen
 
    !> All solvers, in the order of the key reference.
    character(*), parameter :: names = 'auto beale series fitted grid closed_form'
@@ -32,79 +32,74 @@ module wavycon_methods
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
    !> Most elements of its constraints' matrix. A few copies of it exist at a time, each of 160 MB.
    real(dp), parameter :: most_elements = 2.0e7_dp
-   !> The choices of its `symmetry`, in the order of the key.
-   integer, parameter :: symmetry_is(*) = [symmetry_full, symmetry_diagonal, symmetry_none]
 
 contains
 
-   !> The table of keys of &method: `solver` and the keys of all solvers.
-   function method_table() result(table)
-      type(key_group_type) :: table
+   !> The keys of &method.
+   subroutine list_method_keys(values, keys)
+      type(method_group), intent(in), target :: values
+      type(key_list), intent(out) :: keys
 
       type(qp_options) :: default
 
-      table = key_group_type('method', 'how the contact is computed', selector='solver', keys=[ &
-         key_type(choice_value, 'solver', "'auto'", '', &
-            "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for "// &
-            "loads at which these are not accurate enough, otherwise and at a hardness 'grid'. 'beale': the "// &
-            "paper's truncated Fourier series for its waves, whose energy Beale's method minimises. "// &
-            "'series': the same with Goldfarb and Idnani's dual method, for many harmonics. "// &
-            "'fitted': collocation fitted to the edge of contact, of spots or of closed pools of gap. 'grid': ever "// &
-            "finer grids until mean gap, area and peak pressure are accurate. 'closed_form': Westergaard's "// &
-            "solution of the 1-D wave, and Hertz's of a ball.", choices=names), &
-         of('beale series', [ &
-            key_type(integer_value, 'harmonics', '9 (2-D), 10 (1-D)', '', &
-               'highest harmonic of the pressure, in each direction.', 1, most_harmonics), &
-            key_type(integer_value, 'constraint_points', 'in proportion to harmonics', '', &
-               'equally spaced points on half a wavelength, ends included, in each direction, at which the '// &
-               'pressure is constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in '// &
-               "2-D and 2.5 harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, &
-               maxval(most_constraint_points)), &
-            key_type(choice_value, 'symmetry', "'full'", '', &
-               "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 "// &
-               "points by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", &
-               choices='full diagonal none'), &
-            key_type(real_value, 'edge_level', short_number(default%edge_level), 'p*', &
-               'the isobar that is taken as the edge of contact.', above=0, below=1)]), &
-         of('grid fitted auto', &
-            key_type(real_value, 'accuracy', short_number(default_accuracy), '-', &
-               'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
-               "'fitted' with lines, map, contours, spots, histograms or details also of the gap at a trough. A "// &
-               'load that misses it has the status not_accurate.', 1e-12_dp, 0.1_dp, way=10)), &
-         of('grid auto', [ &
-            key_type(integer_value, 'grid_points', '', '', &
-               'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for '// &
-               'both. Even numbers. For height maps, read or made, the default is their own grid. Errors are '// &
-               'estimated from 64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, &
-               way=11), &
-            key_type(real_value, 'residual', '', '-', &
-               'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
-               'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
-               'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=11)])])
-   end function method_table
+      keys = key_list('method', 'how the contact is computed', values%key_group, selector='solver')
+      call keys%add(values%solver, key_type(choice_value, 'solver', "'auto'", '', &
+         "'auto': the closed form where there is one, otherwise 'fitted' where it applies, with 'grid' for loads "// &
+         "at which these are not accurate enough, otherwise and at a hardness 'grid'. 'beale': the paper's "// &
+         "truncated Fourier series for its waves, whose energy Beale's method minimises. 'series': the same with "// &
+         "Goldfarb and Idnani's dual method, for many harmonics. 'fitted': collocation fitted to the edge of "// &
+         "contact, of spots or of closed pools of gap. 'grid': ever finer grids until mean gap, area and peak "// &
+         "pressure are accurate. 'closed_form': Westergaard's solution of the 1-D wave, and Hertz's of a ball.", &
+         choices=names))
+      keys%of = 'beale series'
+      call keys%add(values%harmonics, key_type(integer_value, 'harmonics', '9 (2-D), 10 (1-D)', '', &
+         'highest harmonic of the pressure, in each direction.', 1, most_harmonics))
+      call keys%add(values%constraint_points, key_type(integer_value, 'constraint_points', &
+         'in proportion to harmonics', '', &
+         'equally spaced points on half a wavelength, ends included, in each direction, at which the pressure is '// &
+         'constrained. More than harmonics; at most 601 in 2-D. The default is 3 harmonics in 2-D and 2.5 '// &
+         "harmonics + 1 in 1-D: the paper's 27 for 9 and 26 for 10.", 2, maxval(most_constraint_points)))
+      call keys%add(values%symmetry, key_type(choice_value, 'symmetry', "'full'", '', &
+         "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 points "// &
+         "by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", choices='full diagonal none'))
+      call keys%add(values%edge_level, key_type(real_value, 'edge_level', short_number(default%edge_level), 'p*', &
+         'the isobar that is taken as the edge of contact.', above=0, below=1))
+      keys%of = 'grid fitted auto'
+      call keys%add(values%accuracy, key_type(real_value, 'accuracy', short_number(default_accuracy), '-', &
+         'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
+         "'fitted' with lines, map, contours, spots, histograms or details also of the gap at a trough. A "// &
+         'load that misses it has the status not_accurate.', 1e-12_dp, 0.1_dp, way=10))
+      keys%of = 'grid auto'
+      call keys%add(values%grid_points, key_type(integer_value, 'grid_points', '', '', &
+         'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
+         'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated from '// &
+         '64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, way=11))
+      call keys%add(values%residual, key_type(real_value, 'residual', '', '-', &
+         'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
+         'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
+         'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=11))
+   end subroutine list_method_keys
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver.
-   subroutine check_method_group(values, surface, problems)
-      type(group_values), intent(inout) :: values
+   subroutine check_method_group(values, surface)
+      type(method_group), intent(inout) :: values
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
-      type(problem_list_type), intent(inout) :: problems
 
       character(:), allocatable :: solver, words
 
-      call values%check_relations(problems)
       ! Without a surface the remaining checks would report problems that are not there.
-      if (.not. allocated(surface) .or. values%is_bad('solver')) return
-      solver = values%text('solver')
+      if (.not. allocated(surface) .or. values%solver%is_bad) return
+      solver = values%solver%text
       words = refusal(solver, surface)
       if (words /= '') then
-         call values%complain(problems, 'solver', "solver = '"//solver//"' "//words//'. Give '//solvers_for(surface))
+         call values%complain(values%solver, "solver = '"//solver//"' "//words//'. Give '//solvers_for(surface))
          return
       end if
       select case (solver)
       case ('beale', 'series')
-         call check_series_keys(values, surface, problems)
+         call check_series_keys(values, surface)
       case ('grid', 'auto')
-         call check_grid_keys(values, surface, problems)
+         call check_grid_keys(values, surface)
       end select
    end subroutine check_method_group
 
@@ -191,7 +186,7 @@ contains
    !> Makes the solver that &method names and starts it. Not allocated if no solver has that name.
    subroutine start_solver(surface, values, keep_fields, solver, description)
       type(surface_type), intent(in) :: surface      !! which the solver does not refuse
-      type(group_values), intent(in) :: values       !! of &method, without problems
+      type(method_group), intent(in) :: values       !! of &method, without problems
       logical, intent(in) :: keep_fields             !! whether fields, edges or details of solutions will be needed
       class(contact_solver), allocatable, intent(out) :: solver
       character(:), allocatable, intent(out), optional :: description   !! the discretisation, for log and tables
@@ -201,26 +196,26 @@ contains
       character(:), allocatable :: fitted, words
       type(solver_traits) :: traits
 
-      call allocate_solver(values%text('solver'), solver)
+      call allocate_solver(values%solver%text, solver)
       if (.not. allocated(solver)) return
       words = ''
-      fitted = 'collocation fitted to the edge to within '//short_number(values%real('accuracy'))
+      fitted = 'collocation fitted to the edge to within '//short_number(values%accuracy%number)
       select type (solver)
       type is (series_contact)
          call solver%start(surface, qp_options( &
-            values%integer('harmonics'), values%integer('constraint_points'), symmetry_of(values), &
-            values%real('edge_level'), values%text('solver') == 'beale'))
+            nint(values%harmonics%number), nint(values%constraint_points%number), symmetry_of(values), &
+            values%edge_level%number, values%solver%text == 'beale'))
          words = series_in_words(values, surface)
       type is (closed_form_contact)
          call solver%start(surface)
          words = trim(closed_form(surface%dimension))
       type is (fitted_contact)
-         call solver%start(surface, fitted_options(values%real('accuracy')), keep_fields)
+         call solver%start(surface, values%accuracy%number, keep_fields)
          words = fitted
       class is (grid_contact)
          ! auto_contact extends it.
-         call solver%start(surface, grid_options(values%real('accuracy'), points_of_grid(values, surface), &
-                                                values%real('residual')), keep_fields)
+         call solver%start(surface, grid_options(values%accuracy%number, points_of_grid(values, surface), &
+                                                values%residual%number), keep_fields)
          traits = solver%traits()
          words = grid_in_words(values, surface)
          if (traits%choice == has_closed_form) words = trim(closed_form(surface%dimension))
@@ -236,48 +231,49 @@ contains
       type(solver_traits), intent(in) :: traits   !! of the started solver
       character(:), allocatable :: words
 
-      character(*), parameter :: reasons(0:*) = [character(112) :: '', &   ! in the order of wavycon_auto_contact
-         'the surface is the 1-D wave or a ball, which has a closed form', &
-         "the surface has a lattice of equal spots; grids solve the loads for which 'fitted' is not accurate enough", &
-         'the surface has neither a closed form nor a lattice of equal spots', &
-         "neither the closed form nor 'fitted' has a hardness", &
-         'the points of the grid are given', &
-         'a height map is solved on its own points unless an accuracy is given']
+      character(112) :: reasons(0:last_choice)
 
+      reasons = ''
+      reasons(has_closed_form) = 'the surface is the 1-D wave or a ball, which has a closed form'
+      reasons(has_expansions) = 'the surface has a lattice of equal spots; grids solve the loads for which '// &
+                                "'fitted' is not accurate enough"
+      reasons(has_neither) = 'the surface has neither a closed form nor a lattice of equal spots'
+      reasons(has_a_hardness) = "neither the closed form nor 'fitted' has a hardness"
+      reasons(points_are_given) = 'the points of the grid are given'
+      reasons(points_are_of_the_map) = 'a height map is solved on its own points unless an accuracy is given'
       words = trim(reasons(traits%choice))
    end function why_chosen
 
    !> Sets the defaults that depend on the surface, and reports numbers that do not fit each other or the memory.
-   subroutine check_series_keys(values, surface, problems)
-      type(group_values), intent(inout) :: values
+   subroutine check_series_keys(values, surface)
+      type(method_group), intent(inout) :: values
       type(surface_type), intent(in) :: surface
-      type(problem_list_type), intent(inout) :: problems
 
       integer :: constraints, harmonics, points, unknowns
 
-      call values%set_default('harmonics', [real(paper_harmonics(surface%dimension), dp)])
-      call values%set_default('constraint_points', &
-                              [real(paper_constraint_points(surface%dimension, values%integer('harmonics')), dp)])
+      call values%harmonics%set_default([real(paper_harmonics(surface%dimension), dp)])
+      call values%constraint_points%set_default( &
+         [real(paper_constraint_points(surface%dimension, nint(values%harmonics%number)), dp)])
       if (surface%dimension == 1) then
-         call values%leave_out('symmetry')
-         if (values%has('symmetry')) call values%complain(problems, 'symmetry', &
+         values%symmetry%in_effect = .false.
+         if (values%symmetry%is_given) call values%complain(values%symmetry, &
                                                           'symmetry means nothing in 1-D: leave it out')
       end if
-      if (values%is_bad('harmonics') .or. values%is_bad('constraint_points')) return
-      harmonics = values%integer('harmonics')
-      points = values%integer('constraint_points')
+      if (values%harmonics%is_bad .or. values%constraint_points%is_bad) return
+      harmonics = nint(values%harmonics%number)
+      points = nint(values%constraint_points%number)
       if (points > most_constraint_points(surface%dimension)) then
-         call values%complain(problems, 'constraint_points', 'constraint_points must be at most '// &
+         call values%complain(values%constraint_points, 'constraint_points must be at most '// &
             integer_text(most_constraint_points(surface%dimension))//' in '//integer_text(surface%dimension)// &
             '-D, got '//integer_text(points))
       else if (points <= harmonics) then
-         call problems%add(max(values%place_of('harmonics'), values%place_of('constraint_points')), &
+         call values%problems%add(max(values%harmonics%place, values%constraint_points%place), &
             'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
-            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%has('harmonics'))))
-      else if (.not. values%is_bad('symmetry')) then
+            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%harmonics%is_given)))
+      else if (.not. values%symmetry%is_bad) then
          call find_size(values, surface, unknowns, constraints)
          if (real(unknowns, dp)*constraints*merge(2, 1, surface%has_hardness()) > most_elements) &
-            call values%complain(problems, 'constraint_points', 'harmonics = '//integer_text(harmonics)// &
+            call values%complain(values%constraint_points, 'harmonics = '//integer_text(harmonics)// &
                ' and constraint_points = '//integer_text(points)//' make '//integer_text(unknowns)// &
                ' unknowns and '//integer_text(constraints)//' constraints: too many for the memory. Give fewer '// &
                'constraint_points (harmonics + 1 serve well), or a symmetry')
@@ -286,79 +282,79 @@ contains
 
    !> The size of the quadratic programme.
    subroutine find_size(values, surface, unknowns, constraints)
-      type(group_values), intent(in) :: values
+      type(method_group), intent(in) :: values
       type(surface_type), intent(in) :: surface
       integer, intent(out) :: unknowns, constraints   !! without those of a hardness, which are as many again
 
       type(fourier_terms) :: terms
       integer, allocatable :: k(:), l(:)
 
-      terms = choose_terms(surface%dimension, values%integer('harmonics'), symmetry_of(values))
-      call choose_points(surface%dimension, values%integer('constraint_points'), symmetry_of(values), k, l)
+      terms = choose_terms(surface%dimension, nint(values%harmonics%number), symmetry_of(values))
+      call choose_points(surface%dimension, nint(values%constraint_points%number), symmetry_of(values), k, l)
       unknowns = terms%count
       constraints = size(k)
    end subroutine find_size
 
    pure integer function symmetry_of(values) result(symmetry)
-      type(group_values), intent(in) :: values
+      type(method_group), intent(in) :: values
 
-      symmetry = symmetry_is(values%choice('symmetry'))
+      symmetry = symmetry_full
+      if (values%symmetry%text == 'diagonal') symmetry = symmetry_diagonal
+      if (values%symmetry%text == 'none') symmetry = symmetry_none
    end function symmetry_of
 
    !> The discretisation of the series in words.
    function series_in_words(values, surface) result(words)
-      type(group_values), intent(in) :: values   !! of &method
+      type(method_group), intent(in) :: values   !! of &method
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
       integer :: constraints, unknowns
 
       call find_size(values, surface, unknowns, constraints)
-      words = integer_text(values%integer('harmonics'))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
+      words = integer_text(nint(values%harmonics%number))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
               integer_text(constraints*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
-              short_number(values%real('edge_level'))
+              short_number(values%edge_level%number)
    end function series_in_words
 
-   !> The grid in effect on the whole cell, along x and y: that of the deck, which refers to surface%parts(), or,
-   !> without an accuracy, that which the surface was given on. Zeros if the accuracy decides.
+   !> The grid to solve, on the whole cell, along x and y. Zeros if the accuracy decides.
    pure function points_of_grid(values, surface) result(points)
-      type(group_values), intent(in) :: values     !! of &method
+      type(method_group), intent(in) :: values     !! of &method, after its check
       type(surface_type), intent(in) :: surface
       integer :: points(2)
 
-      points = surface%parts()*nint(values%pair('grid_points'))
-      if (all(points == 0) .and. .not. values%real('accuracy') > 0.0_dp) points = surface%points
+      points = surface%parts()*nint(values%grid_points%pair)
    end function points_of_grid
 
-   !> Removes the default of `accuracy` if the deck gives grid_points or the surface is a height map: these are then
-   !> solved on one given grid. Writes grid_points in full to the resolved deck. Reports a residual without a given
-   !> grid, and odd numbers of points.
-   subroutine check_grid_keys(values, surface, problems)
-      type(group_values), intent(inout) :: values  !! of &method
+   !> Sets grid_points in full, by default to the points that the surface was given on unless the deck gives an
+   !> accuracy: a grid that is given is solved in place of the accuracy. Reports a residual without a given grid, and
+   !> odd numbers of points.
+   subroutine check_grid_keys(values, surface)
+      type(method_group), intent(inout) :: values  !! of &method
       type(surface_type), intent(in) :: surface
-      type(problem_list_type), intent(inout) :: problems
 
       real(dp) :: points(2)
 
-      if (values%has('grid_points') .and. .not. values%is_bad('grid_points')) then
-         points = values%pair('grid_points')
-         call values%set('grid_points', points(:surface%dimension))
-      end if
-      if (.not. values%has('accuracy') .and. (values%has('grid_points') .or. all(surface%points > 0))) then
-         call values%set_default('accuracy', [0.0_dp])
-         call values%leave_out('accuracy')
-      end if
-      if (values%has('residual') .and. .not. values%has('accuracy') .and. all(points_of_grid(values, surface) == 0)) &
-         call values%complain(problems, 'residual', 'residual needs grid_points, or a height map on '// &
-                              'its own points: other grids have the residual that their accuracy takes')
-      if (.not. surface%mirrored .and. any(mod(nint(values%reals('grid_points')), 2) /= 0)) &
-         call values%complain(problems, 'grid_points', &
-         'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
+      associate (grid => values%grid_points)
+         points = grid%pair
+         if (size(grid%numbers) > 0) call grid%set(points(:surface%dimension))
+         if (.not. surface%mirrored .and. any(mod(nint(grid%numbers), 2) /= 0)) call values%complain(grid, &
+            'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
+         if (.not. (grid%is_given .or. values%accuracy%is_given) .and. all(surface%points > 0)) then
+            call grid%set(real(surface%points/surface%parts(), dp))
+            grid%in_effect = .false.
+         end if
+         if (size(grid%numbers) > 0 .and. .not. values%accuracy%is_given) values%accuracy%in_effect = .false.
+         if (values%residual%is_given .and. size(grid%numbers) == 0 .and. .not. values%accuracy%is_given) &
+            call values%complain(values%residual, &
+            'residual needs grid_points, or a height map on its own points: other grids have the '// &
+            'residual that their accuracy takes')
+      end associate
    end subroutine check_grid_keys
 
    !> The grid in words.
    pure function grid_in_words(values, surface) result(words)
-      type(group_values), intent(in) :: values     !! of &method
+      type(method_group), intent(in) :: values     !! of &method
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
@@ -369,11 +365,11 @@ contains
          words = 'a grid of '//integer_text(points(1))
          if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
          words = words//' points'
-         if (values%real('residual') > 0.0_dp) words = words//' to a residual of '// &
-                                                    short_number(values%real('residual'))
+         if (values%residual%number > 0.0_dp) words = words//' to a residual of '// &
+                                                    short_number(values%residual%number)
       else
          words = 'grids refined until mean gap, area and peak pressure are within '// &
-                 short_number(values%real('accuracy'))
+                 short_number(values%accuracy%number)
       end if
       if (surface%mirrored) then
          words = words//', on the map without its mirror images'

@@ -3,10 +3,10 @@
 module wavycon_formula_kinds
    use wavycon_constants, only: pi
    use wavycon_free_edges, only: surface_of_ball
-   use wavycon_group_values, only: group_values
+   use wavycon_key_group, only: key_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text
-   use wavycon_problems, only: problem_list_type
+   use wavycon_scene_groups, only: surface_group
    use wavycon_surface, only: surface_type
    use wavycon_wave_surfaces, only: crossed_1d, hexagonal, wave_1d, wave_2d, wave_sum
    implicit none (type, external)
@@ -21,69 +21,76 @@ module wavycon_formula_kinds
 contains
 
    !> Sets the defaults of 'sum', and reports lists of unlike lengths and waves without wave numbers.
-   subroutine check_sum(values, problems)
-      type(group_values), intent(inout) :: values
-      type(problem_list_type), intent(inout) :: problems
+   subroutine check_sum(values)
+      type(surface_group), intent(inout) :: values
 
-      character(7), parameter :: lists(3) = [character(7) :: 'waves_x', 'waves_y', 'phases']
-      character(:), allocatable :: key
-      integer :: i, number
+      integer :: i
       integer, allocatable :: m(:), n(:)
 
-      call values%set_default('length_y', values%reals('length_x'))
-      call values%set_default('waves_y', 0*values%reals('waves_x'))
-      call values%set_default('phases', 0*values%reals('amplitudes'))
-      if (values%any_bad() .or. .not. values%has('amplitudes')) return
-      number = size(values%reals('amplitudes'))
-      do i = 1, size(lists)
-         key = trim(lists(i))
-         if (values%has(key) .and. size(values%reals(key)) /= number) call values%complain(problems, key, &
-            key//' has '//integer_text(size(values%reals(key)))//' values and amplitudes '//integer_text(number)// &
-            ': give one for each wave')
-      end do
-      m = nint(values%reals('waves_x'))
-      n = nint(values%reals('waves_y'))
+      call values%length_y%set_default(values%length_x%numbers)
+      call values%waves_y%set_default(0*values%waves_x%numbers)
+      call values%phases%set_default(0*values%amplitudes%numbers)
+      if (values%any_bad .or. .not. values%amplitudes%is_given) return
+      call check_size(values%waves_x, 'waves_x')
+      call check_size(values%waves_y, 'waves_y')
+      call check_size(values%phases, 'phases')
+      m = nint(values%waves_x%numbers)
+      n = nint(values%waves_y%numbers)
       if (size(m) /= size(n)) return
       i = findloc(m == 0 .and. n == 0, .true., dim=1)
-      if (i > 0) call values%complain(problems, 'waves_x', 'wave '//integer_text(i)// &
+      if (i > 0) call values%complain(values%waves_x, 'wave '//integer_text(i)// &
          ' has waves_x = 0 and waves_y = 0: it is a height and no wave; leave it out')
+
+   contains
+
+      subroutine check_size(key, name)
+         type(key_value), intent(in) :: key
+         character(*), intent(in) :: name
+
+         associate (number => size(values%amplitudes%numbers))
+            if (key%is_given .and. size(key%numbers) /= number) call values%complain(key, &
+               name//' has '//integer_text(size(key%numbers))//' values and amplitudes '//integer_text(number)// &
+               ': give one for each wave')
+         end associate
+      end subroutine check_size
+
    end subroutine check_sum
 
    !> The surface of a kind of this module.
    function formula_surface(values) result(surface)
-      type(group_values), intent(inout) :: values   !! of &surface, without problems
+      type(surface_group), intent(inout) :: values   !! of &surface, without problems
       type(surface_type) :: surface
 
-      select case (values%text('kind'))
+      select case (values%kind%text)
       case ('wave_1d')
-         surface = wave_1d(values%real('amplitude'), values%real('wavelength'))
+         surface = wave_1d(values%amplitude%number, values%wavelength%number)
       case ('wave_2d')
-         call values%set_default('wavelength_y', values%reals('wavelength'))
-         surface = wave_2d(values%real('amplitude'), values%real('wavelength'), values%real('wavelength_y'))
+         call values%wavelength_y%set_default(values%wavelength%numbers)
+         surface = wave_2d(values%amplitude%number, values%wavelength%number, values%wavelength_y%number)
       case ('crossed_1d')
-         surface = crossed_1d(values%real('amplitude1'), values%real('wavelength1'), values%real('amplitude2'), &
-                              values%real('wavelength2'))
+         surface = crossed_1d(values%amplitude1%number, values%wavelength1%number, values%amplitude2%number, &
+                              values%wavelength2%number)
       case ('hexagonal')
-         surface = hexagonal(values%real('amplitude'), values%real('wavelength'))
+         surface = hexagonal(values%amplitude%number, values%wavelength%number)
       case ('sum')
-         surface = wave_sum([values%real('length_x'), values%real('length_y')], values%reals('amplitudes'), &
-                            nint(values%reals('waves_x')), nint(values%reals('waves_y')), values%reals('phases')*pi/180)
+         surface = wave_sum([values%length_x%number, values%length_y%number], values%amplitudes%numbers, &
+                            nint(values%waves_x%numbers), nint(values%waves_y%numbers), values%phases%numbers*pi/180)
       case ('ball')
-         surface = surface_of_ball([values%real('length_x'), values%real('length_y')], radii_of(values, 'radius'))
-         if (values%has('points')) surface%points = surface%parts()*nint(values%pair('points'))
+         surface = surface_of_ball([values%length_x%number, values%length_y%number], &
+                                   radii_of(values%radius, values%radius_x, values%radius_y))
+         if (values%points%is_given) surface%points = surface%parts()*nint(values%points%pair)
       end select
    end function formula_surface
 
-   !> The radii along x and y that the keys `name`, or `name_x` and `name_y`, give [length]; huge where they give none.
-   pure function radii_of(values, name) result(radii)
-      type(group_values), intent(in) :: values
-      character(*), intent(in) :: name
+   !> The radii along x and y that keys give, both at once or each [length]; huge where they give none.
+   pure function radii_of(both, x, y) result(radii)
+      type(key_value), intent(in) :: both, x, y
       real(dp) :: radii(2)
 
       radii = huge(radii)
-      if (values%has(name)) radii = values%real(name)
-      if (values%has(name//'_x')) radii(1) = values%real(name//'_x')
-      if (values%has(name//'_y')) radii(2) = values%real(name//'_y')
+      if (both%is_given) radii = both%number
+      if (x%is_given) radii(1) = x%number
+      if (y%is_given) radii(2) = y%number
    end function radii_of
 
 end module wavycon_formula_kinds

@@ -2,11 +2,11 @@
 module wavycon_self_affine_kind
    use wavycon_error, only: error_type
    use wavycon_formula_kinds, only: radii_of
-   use wavycon_group_values, only: group_values
+   use wavycon_key_group, only: key_value
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
-   use wavycon_problems, only: problem_list_type
+   use wavycon_scene_groups, only: surface_group
    use wavycon_self_affine, only: has_waves, least_points_of, self_affine_spectrum, self_affine_surface
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -22,23 +22,23 @@ contains
 
    !> Sets the defaults that depend on other keys.
    subroutine set_defaults(values)
-      type(group_values), intent(inout) :: values
+      type(surface_group), intent(inout) :: values
 
       real(dp) :: length(2)
       integer :: points(2)
 
       points = 0
-      if (values%has('points') .and. .not. values%is_bad('points')) points = nint(values%pair('points'))
-      length = values%real('length_x')
+      if (values%points%is_given .and. .not. values%points%is_bad) points = nint(values%points%pair)
+      length = values%length_x%number
       ! Without length_y points are as far apart along y as along x.
       if (points(2) > 1) length(2) = length(1)*points(2)/points(1)
-      call values%set_default('length_y', length(2:))
-      length(2) = values%real('length_y')
-      call values%set_default('long_wavelength', [merge(length(1), maxval(length), points(2) == 1)])
-      call values%set_default('rolloff_wavelength', values%reals('long_wavelength'))
-      call values%set_default('short_wavelength', values%reals('rolloff_wavelength')/64)
-      if (points(1) == 0) points = default_points(length/values%real('short_wavelength'))
-      if (.not. values%is_bad('points')) call values%set('points', real(points, dp))
+      call values%length_y%set_default(length(2:))
+      length(2) = values%length_y%number
+      call values%long_wavelength%set_default([merge(length(1), maxval(length), points(2) == 1)])
+      call values%rolloff_wavelength%set_default(values%long_wavelength%numbers)
+      call values%short_wavelength%set_default(values%rolloff_wavelength%numbers/64)
+      if (points(1) == 0) points = default_points(length/values%short_wavelength%number)
+      if (.not. values%points%is_bad) call values%points%set(real(points, dp))
    end subroutine set_defaults
 
    !> The least power of two with four points to the shortest wave.
@@ -52,56 +52,55 @@ contains
    end function default_points
 
    !> Reports cut-offs out of order, too few points, and cut-offs between which the cell has no wave.
-   subroutine check_self_affine(values, problems)
-      type(group_values), intent(inout) :: values
-      type(problem_list_type), intent(inout) :: problems
+   subroutine check_self_affine(values)
+      type(surface_group), intent(inout) :: values
 
       type(self_affine_spectrum) :: spectrum
-      integer :: before
 
       call set_defaults(values)
-      if (all(values%text('edges') /= ['periodic', 'free    '])) call values%complain(problems, 'edges', &
+      if (all(values%edges%text /= ['periodic', 'free    '])) call values%complain(values%edges, &
          "a random surface is made periodic: edges must be 'periodic' or 'free'")
-      if (values%any_bad()) return
-      before = problems%number
+      if (values%any_bad) return
       spectrum = spectrum_of(values)
-      call check_order('long_wavelength', spectrum%longest, &
+      call check_order(values%long_wavelength, 'long_wavelength', spectrum%longest, &
                        'the longest side of the cell', maxval(spectrum%length(:spectrum%dimension)))
-      call check_order('rolloff_wavelength', spectrum%rolloff, 'long_wavelength', spectrum%longest)
-      call check_order('short_wavelength', spectrum%shortest, 'rolloff_wavelength', spectrum%rolloff)
-      call check_points(values, spectrum, problems)
-      if (problems%number > before) return
-      if (.not. has_waves(spectrum)) call values%complain(problems, 'short_wavelength', &
+      call check_order(values%rolloff_wavelength, 'rolloff_wavelength', spectrum%rolloff, 'long_wavelength', &
+                       spectrum%longest)
+      call check_order(values%short_wavelength, 'short_wavelength', spectrum%shortest, 'rolloff_wavelength', &
+                       spectrum%rolloff)
+      call check_points(values, spectrum)
+      if (values%problems%number > 0) return
+      if (.not. has_waves(spectrum)) call values%complain(values%short_wavelength, &
          'nothing varies: no wave of the cell has a length from short_wavelength = '// &
          short_number(spectrum%shortest)//' to long_wavelength = '//short_number(spectrum%longest))
 
    contains
 
       !> Reports a length that is longer than another one.
-      subroutine check_order(key, length, most_words, most)
-         character(*), intent(in) :: key, most_words
+      subroutine check_order(key, name, length, most_words, most)
+         type(key_value), intent(in) :: key
+         character(*), intent(in) :: name, most_words
          real(dp), intent(in) :: length, most
 
-         if (length > most) call values%complain(problems, key, key//' = '//short_number(length)// &
+         if (length > most) call values%complain(key, name//' = '//short_number(length)// &
                                                  ' must not be longer than '//most_words//', '//short_number(most))
       end subroutine check_order
 
    end subroutine check_self_affine
 
    !> Reports numbers of points that are too small, by themselves or for the shortest wave.
-   subroutine check_points(values, spectrum, problems)
-      type(group_values), intent(in) :: values
+   subroutine check_points(values, spectrum)
+      type(surface_group), intent(inout) :: values
       type(self_affine_spectrum), intent(in) :: spectrum
-      type(problem_list_type), intent(inout) :: problems
 
       !> Factor for a wave longer than two steps, within the digits of a message.
       real(dp), parameter :: longer = 1.001_dp
       character(:), allocatable :: advice
       integer :: least(2), points(2)
 
-      points = nint(values%reals('points'))
+      points = nint(values%points%numbers)
       if (points(1) < least_points .or. (points(2) < least_points .and. spectrum%dimension == 2)) then
-         call values%complain(problems, 'points', 'there must be at least '//integer_text(least_points)// &
+         call values%complain(values%points, 'there must be at least '//integer_text(least_points)// &
                               ' points along each side, or 1 along y for a profile')
          return
       end if
@@ -110,43 +109,43 @@ contains
       advice = ', and accurate contact areas twice as many each way or more'
       if (all(points >= least - 1)) advice = advice//'. Waves of exactly two steps have no phase on the points: '// &
          'short_wavelength = '//short_number(longer*spectrum%shortest)//' leaves them out'
-      call values%complain(problems, 'points', integer_text(points(1))//' x '//integer_text(points(2))// &
+      call values%complain(values%points, integer_text(points(1))//' x '//integer_text(points(2))// &
          ' points are too few for short_wavelength = '//short_number(spectrum%shortest)//': it needs '// &
          integer_text(least(1))//' x '//integer_text(least(2))//advice)
    end subroutine check_points
 
    !> The spectrum that the keys describe.
    pure function spectrum_of(values) result(spectrum)
-      type(group_values), intent(in) :: values
+      type(surface_group), intent(in) :: values
       type(self_affine_spectrum) :: spectrum
 
       integer :: points(2)
 
-      points = nint(values%reals('points'))
+      points = nint(values%points%numbers)
       spectrum%dimension = merge(1, 2, points(2) == 1)
-      spectrum%length = [values%real('length_x'), values%real('length_y')]
-      spectrum%hurst = values%real('hurst')
-      spectrum%longest = values%real('long_wavelength')
-      spectrum%rolloff = values%real('rolloff_wavelength')
-      spectrum%shortest = values%real('short_wavelength')
-      spectrum%by_slope = values%has('rms_slope')
-      spectrum%rms = merge(values%real('rms_slope'), values%real('rms_height'), spectrum%by_slope)
-      if (values%has('spectral_density')) spectrum%density = values%real('spectral_density')
-      spectrum%random_amplitudes = values%text('spectrum') == 'random'
-      spectrum%seed = values%integer('seed')
+      spectrum%length = [values%length_x%number, values%length_y%number]
+      spectrum%hurst = values%hurst%number
+      spectrum%longest = values%long_wavelength%number
+      spectrum%rolloff = values%rolloff_wavelength%number
+      spectrum%shortest = values%short_wavelength%number
+      spectrum%by_slope = values%rms_slope%is_given
+      spectrum%rms = merge(values%rms_slope%number, values%rms_height%number, spectrum%by_slope)
+      if (values%spectral_density%is_given) spectrum%density = values%spectral_density%number
+      spectrum%random_amplitudes = values%spectrum%text == 'random'
+      spectrum%seed = nint(values%seed%number)
    end function spectrum_of
 
    !> Makes the surface. Errors: as of self_affine_surface.
    subroutine self_affine_of(values, surface, map, error)
-      type(group_values), intent(inout) :: values
+      type(surface_group), intent(inout) :: values
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
       call self_affine_surface(escaped(values%deck_path)//": kind = 'self_affine'", spectrum_of(values), &
-                               nint(values%reals('points')), surface, map, error, values%text('edges') == 'free', &
-                               radii_of(values, 'form_radius'))
-      if (.not. allocated(error)) map%changes%edges = values%text('edges')
+                               nint(values%points%numbers), surface, map, error, values%edges%text == 'free', &
+                               radii_of(values%form_radius, values%form_radius_x, values%form_radius_y))
+      if (.not. allocated(error)) map%changes%edges = values%edges%text
    end subroutine self_affine_of
 
 end module wavycon_self_affine_kind
