@@ -164,7 +164,7 @@ contains
       logical, intent(out) :: in_unit         !! whether it is in the deck's units
 
       character(len(name)) :: of_value
-      integer :: i
+      integer :: i, length
       type(quantity_type) :: listed
 
       of_value = name
@@ -173,10 +173,13 @@ contains
       quantity = 0
       do i = 1, size(quantity_list)
          listed = quantity_list(i)
-         if (of_value /= listed%name .and. of_value /= trim(listed%name)//behind_name(listed%kind)) cycle
+         length = len_trim(listed%name)
+         if (index(of_value, listed%name(:length)) /= 1) cycle
+         in_unit = of_value(length + 1:) == ''
+         if (.not. in_unit .and. of_value(length + 1:) /= behind_name(listed%kind)) cycle
          quantity = listed%number
          kind = listed%kind
-         in_unit = of_value == listed%name
+         exit
       end do
       call assert(quantity > 0, 'a column of the list: '//name)
    end subroutine find_quantity
