@@ -231,8 +231,8 @@ contains
       end do
    end subroutine evaluate_line
 
-   !> A series with each wave multiplied by its stiffness, or divided by it, or without a kernel multiplied by the square
-   !> of its frequency, one over its wavelength; the mean becomes 0.
+   !> A series with each wave multiplied by its stiffness, or divided by it, or without a kernel multiplied by the
+   !> square of its frequency, one over its wavelength; the mean becomes 0.
    pure type(fourier_series) function weighted(series, length, kernel, divides)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
