@@ -7,7 +7,7 @@ module wavycon_fourier_series
    implicit none (type, external)
    private
 
-   public :: fourier_series, divide_series, evaluate_line, turn, wave_factor, weighted
+   public :: fourier_series, divide_series, evaluate_line, turn, weighted
 
    !> f(X, Y) = Re sum_kl W_kl exp(i (kX + lY)), k = 0..m, l = -n..n; in 1-D l = 0 only. For k = 0 the waves of l and -l
    !> are one: each of W_0l and its conjugate W_0,-l is half of it.
@@ -231,33 +231,24 @@ contains
       end do
    end subroutine evaluate_line
 
-   !> What a wave is multiplied by: its stiffness, which makes the pressure of a displacement, one over that, or the
-   !> square of its frequency; 0 for the mean.
-   elemental real(dp) function wave_factor(frequency_x, frequency_y, power)
-      real(dp), intent(in) :: frequency_x, frequency_y
-      integer, intent(in) :: power   !! 1, -1 or 2
-
-      wave_factor = hypot(frequency_x, frequency_y)
-      if (power == 2) then
-         wave_factor = wave_factor**2
-      else if (wave_factor > 0.0_dp) then
-         wave_factor = wave_stiffness(frequency_x, frequency_y)**power
-      end if
-   end function wave_factor
-
-   !> A series with each wave multiplied by that and by a number.
-   pure type(fourier_series) function weighted(series, length, power, number)
+   !> A series with each wave multiplied by its stiffness, or divided by it, or without a kernel multiplied by the
+   !> square of its frequency, one over its wavelength; the mean becomes 0.
+   pure type(fourier_series) function weighted(series, length, kernel, divides)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
-      integer, intent(in) :: power        !! as of `wave_factor`
-      real(dp), intent(in) :: number
+      type(wave_stiffness), intent(in), optional :: kernel
+      logical, intent(in), optional :: divides   !! by the stiffness
 
       real(dp) :: factor(series%first():series%last(1), 0:series%last(2))
       integer :: k, l
 
       do l = 0, series%last(2)
-         factor(:, l) = number*wave_factor([(k/length(1), k=series%first(), series%last(1))], l/length(2), power)
+         factor(:, l) = [((k/length(1))**2 + (l/length(2))**2, k=series%first(), series%last(1))]
+         if (present(kernel)) call kernel%of(factor(:, l))
       end do
+      if (present(divides)) then
+         where (factor > 0.0_dp) factor = 1.0_dp/factor
+      end if
       weighted = series
       call weighted%multiply(factor)
    end function weighted

@@ -108,14 +108,10 @@ contains
    end subroutine series
 
    !> The values of a series at the points. Waves beyond the grid's highest wave number are left out.
-   !>
-   !> With `power` each harmonic is first multiplied by the `wave_factor` of its wave numbers times `per_wave`.
-   subroutine sample(self, from, field, power, per_wave)
+   subroutine sample(self, from, field)
       class(grid_transform), intent(in) :: self
       type(fourier_series), intent(in) :: from                !! even, if the points are those of a quarter
       real(dp), intent(out), contiguous :: field(:, :)        !! shape (M, slab%columns())
-      integer, intent(in), optional :: power                  !! as of `wave_factor`
-      real(dp), intent(in), optional :: per_wave(2)           !! with power
 
       real(c_double), allocatable :: own_columns(:, :, :), spectrum(:, :, :)
       real(dp), allocatable :: own_values(:, :)
@@ -128,9 +124,9 @@ contains
                          self%points(2)))
       spectrum(:, carried + 1:, :) = 0.0_dp
       if (self%even) then
-         call give_cosines(self%points, from, spectrum(:, :carried, :), power, per_wave)
+         call give_cosines(self%points, from, spectrum(:, :carried, :))
       else
-         call give_waves(self%points, from, spectrum(:, :carried, :), power, per_wave)
+         call give_waves(self%points, from, spectrum(:, :carried, :))
       end if
       call transform_rows(self%even, spectrum(:, :carried, :), forwards=.false.)
       if (.not. from%is_distributed()) then

@@ -1,7 +1,7 @@
 !> Converts between the coefficients of a Fourier series and the spectrum of its values on a grid of
 !> wavycon_grid_points. The rows of the spectrum are cosines for an even field, waves for any other.
 module wavycon_wave_packing
-   use wavycon_fourier_series, only: fourier_series, wave_factor
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
@@ -44,12 +44,10 @@ contains
    end subroutine take_waves
 
    !> The inverse of `take_cosines`; the number of points may differ.
-   pure subroutine give_cosines(points, from, spectrum, power, per_wave)
+   pure subroutine give_cosines(points, from, spectrum)
       integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
       real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
-      integer, intent(in), optional :: power              !! as of `grid_transform%sample`
-      real(dp), intent(in), optional :: per_wave(2)
 
       integer :: k, l, r
 
@@ -58,18 +56,16 @@ contains
          do r = 1, size(spectrum, 2)
             k = lbound(from%c, 1) + r - 1
             spectrum(1, r, l + 1) = merge(1.0_dp, 0.5_dp, k == 0)*merge(1.0_dp, 0.5_dp, l == 0)* &
-                                    from%c(k, l)*factor(k, l, power, per_wave)
+                                    from%c(k, l)
          end do
       end do
    end subroutine give_cosines
 
    !> The inverse of `take_waves`; the number of points may differ.
-   pure subroutine give_waves(points, from, spectrum, power, per_wave)
+   pure subroutine give_waves(points, from, spectrum)
       integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
       real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
-      integer, intent(in), optional :: power              !! as of `grid_transform%sample`
-      real(dp), intent(in), optional :: per_wave(2)
 
       complex(dp) :: waves(from%first():from%first() + size(spectrum, 2) - 1)
       integer :: k, l, last, opposite, place, r
@@ -77,8 +73,7 @@ contains
       spectrum = 0.0_dp
       last = min(points(2)/2, from%last(2))
       do l = -last, last
-         waves = 0.5_dp*[(factor(k, l, power, per_wave), k=lbound(waves, 1), ubound(waves, 1))] &
-                 *from%row(l, ubound(waves, 1))
+         waves = 0.5_dp*from%row(l, ubound(waves, 1))
          place = modulo(l, points(2)) + 1
          opposite = modulo(-l, points(2)) + 1
          spectrum(1, :, place) = spectrum(1, :, place) + waves%re
@@ -115,15 +110,5 @@ contains
          if (2*r <= points(1)) spectrum(r, opposite) = spectrum(r, opposite) + conjg(waves(k))
       end do
    end subroutine fold_waves
-
-   !> The factor of a harmonic: 1 without a power.
-   pure real(dp) function factor(k, l, power, per_wave)
-      integer, intent(in) :: k, l                         !! wave numbers
-      integer, intent(in), optional :: power
-      real(dp), intent(in), optional :: per_wave(2)
-
-      factor = 1.0_dp
-      if (present(power)) factor = wave_factor(k*per_wave(1), l*per_wave(2), power)
-   end function factor
 
 end module wavycon_wave_packing

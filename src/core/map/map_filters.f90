@@ -140,7 +140,8 @@ contains
 
       call transform%start(points, even=mirrored)
       call transform%series(height, waves)
-      call waves%multiply(merge(1.0_dp, 0.0_dp, shortest*waves%frequencies(merge(2, 1, mirrored)*sides) <= 1 + rounding))
+      call waves%multiply(merge(1.0_dp, 0.0_dp, &
+                                shortest*waves%frequencies(merge(2, 1, mirrored)*sides) <= 1 + rounding))
       allocate (smooth, mold=height)
       call transform%sample(waves, smooth)
       squares = transform%slab%column_totals(reshape(sum((height - smooth)**2, dim=1), [1, size(height, 2)]))

@@ -247,33 +247,33 @@ contains
 
       complex(dp), allocatable :: along(:, :), turn_x(:), waves(:)
       complex(dp) :: turned, wave
-      real(dp) :: even(6), n_x, n_y, q, q_y, sums(number_of_sums)
+      real(dp), allocatable :: q(:)
+      real(dp) :: even(6), n_x, n_y, q_y, q_z, sums(number_of_sums)
       integer :: i, k, l, last(2), m
 
       last = self%waves%last_waves(depth)
       m = dot_product(abs(direction), last)
       allocate (along(number_of_sums, -m:m), source=(0.0_dp, 0.0_dp))
-      allocate (turn_x(0:last(1)), waves(0:last(1)))
+      allocate (q(0:last(1)), turn_x(0:last(1)), waves(0:last(1)))
       turn_x(:) = turn([(k*(start(1) - self%first(1)), k=0, last(1))])
       do l = -last(2), last(2)
          q_y = l/self%side_ratio
-         waves(:) = self%waves%pressure%row(l, last(1))*turn_x*turn(l*(start(2) - self%first(2)))
-         do k = merge(1, 0, l == 0), last(1)
-            if (max(abs(waves(k)%re), abs(waves(k)%im)) <= 0.0_dp) cycle
-            q = sqrt(k**2 + q_y**2)
-            if (q*depth > self%waves%faintest) exit
-            wave = exp(-q*depth)*waves(k)
+         q(:) = sqrt([(real(k, dp)**2 + q_y**2, k=0, last(1))])
+         waves(:) = exp(-q*depth)*self%waves%pressure%row(l, last(1))*turn_x*turn(l*(start(2) - self%first(2)))
+         do k = merge(1, 0, l == 0), count(q*depth <= self%waves%faintest) - 1
+            wave = waves(k)
             turned = cmplx(-wave%im, wave%re, dp)
-            n_x = k/q
-            n_y = q_y/q
+            n_x = k/q(k)
+            n_y = q_y/q(k)
+            q_z = q(k)*depth
             even(:3) = [1.0_dp, n_x**2, n_x*n_y]
-            even(4:) = q*depth*even(:3)
+            even(4:) = q_z*even(:3)
             m = direction(1)*k + direction(2)*l
             along(:6, m) = along(:6, m) + even*wave
             along(7, m) = along(7, m) + k*depth*turned
             along(8, m) = along(8, m) + q_y*depth*turned
-            if (q > self%waves%sampled_from) &
-               along(9:, m) = along(9:, m) + (1.0_dp + q*depth)*[wave, n_x*turned, n_y*turned]
+            if (q(k) > self%waves%sampled_from) &
+               along(9:, m) = along(9:, m) + (1.0_dp + q_z)*[wave, n_x*turned, n_y*turned]
          end do
       end do
       do i = 1, size(t)

@@ -114,8 +114,8 @@ contains
                weighted(:m, 1, 2) = weighted(:m, 2, 2)/q(:m)
             end if
          end associate
-         call dgemm('N', 'N', 2*(n + 1), merge(2, 4, is_even), number, 1.0_dp, powers, 2*(n + 1), weighted, last(1) + 1, &
-                    0.0_dp, sums, 2*(n + 1))
+         call dgemm('N', 'N', 2*(n + 1), merge(2, 4, is_even), number, 1.0_dp, powers, 2*(n + 1), &
+                    weighted, last(1) + 1, 0.0_dp, sums, 2*(n + 1))
          sum_x = cmplx(sums(1, :, :, 1) - sums(2, :, :, 2), sums(2, :, :, 1) + sums(1, :, :, 2), dp)
          turn_y = turn(l*place(2))
          do b = 0, n

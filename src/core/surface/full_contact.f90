@@ -1,7 +1,7 @@
 !> The pressure of a displacement on a half-space and back, in the units of a surface, and full contact, where the
 !> displacement is the shape.
 module wavycon_full_contact
-   use wavycon_fourier_series, only: fourier_series, weighted
+   use wavycon_fourier_series, only: divide_series, fourier_series, weighted
    use wavycon_kinds, only: dp
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_surface, only: surface_type
@@ -17,7 +17,8 @@ contains
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: displacement
 
-      pressure = weighted(displacement, surface%length, 1, surface%stiffness)
+      pressure = weighted(displacement, surface%length, surface%kernel)
+      call divide_series(pressure, 1.0_dp/surface%stiffness)
    end function pressure_of
 
    !> The displacement (u - ubar)/Delta of a pressure (p - pbar)/p*: the inverse of `pressure_of`.
@@ -25,7 +26,8 @@ contains
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure
 
-      displacement = weighted(pressure, surface%length, -1, 1.0_dp/surface%stiffness)
+      displacement = weighted(pressure, surface%length, surface%kernel, divides=.true.)
+      call divide_series(displacement, surface%stiffness)
    end function displacement_of
 
    !> p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.

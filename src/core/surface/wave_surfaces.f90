@@ -89,6 +89,7 @@ contains
       real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
       type(fourier_series), intent(in) :: height   !! [length]; its mean is ignored
 
+      type(fourier_series) :: pressure
       real(dp) :: lowest, unused(2)
 
       surface%shape = height
@@ -99,8 +100,10 @@ contains
       if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
       if (surface%amplitude <= 0.0_dp) return
       call divide_series(surface%shape, surface%amplitude)
-      call find_peak(weighted(surface%shape, surface%length, 1, 1.0_dp), surface%full_contact_peak, unused)
-      call find_peak(weighted(surface%shape, surface%length, 1, -1.0_dp), lowest, unused)
+      pressure = weighted(surface%shape, surface%length, surface%kernel)
+      call find_peak(pressure, surface%full_contact_peak, unused)
+      call divide_series(pressure, -1.0_dp)
+      call find_peak(pressure, lowest, unused)
       surface%stiffness = 1.0_dp/lowest
       surface%full_contact_peak = surface%full_contact_peak/lowest
    end function surface_of_series
