@@ -3,6 +3,7 @@ module wavycon_fourier_series
    use wavycon_cosine_table, only: cosine_table
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
+   use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private
 
@@ -140,19 +141,22 @@ contains
       end do
    end subroutine evaluate_line
 
-   !> A series with each term multiplied by a power of its frequency, one over its wavelength; the mean becomes 0.
-   pure type(fourier_series) function weighted(series, length, power)
+   !> A series with each term multiplied by the stiffness of its wave, or divided by it, or without a kernel multiplied
+   !> by the square of its frequency, one over its wavelength; the mean becomes 0.
+   pure type(fourier_series) function weighted(series, length, kernel, divides)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
-      integer, intent(in) :: power        !! not 0
+      type(wave_stiffness), intent(in), optional :: kernel
+      logical, intent(in), optional :: divides   !! by the stiffness
 
       real(dp) :: weight(lbound(series%c, 1):ubound(series%c, 1))
       integer :: i, j
 
       weighted = series
       do j = 0, ubound(series%c, 2)
-         weight = hypot([(i, i=lbound(series%c, 1), ubound(series%c, 1))]/length(1), j/length(2))
-         where (weight > 0.0_dp) weight = weight**power
+         weight = ([(i, i=lbound(series%c, 1), ubound(series%c, 1))]/length(1))**2 + (j/length(2))**2
+         if (present(kernel)) call kernel%of(weight)
+         if (present(divides)) where (weight > 0.0_dp) weight = 1.0_dp/weight
          weighted%c(:, j) = weight*series%c(:, j)
          if (series%is_even()) cycle
          weighted%cs(:, j) = weight*series%cs(:, j)

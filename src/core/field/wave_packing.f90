@@ -57,12 +57,10 @@ contains
    end subroutine take_waves
 
    !> The inverse of `take_cosines`; the number of points may differ.
-   pure subroutine give_cosines(points, from, spectrum, power, per_wave)
+   pure subroutine give_cosines(points, from, spectrum)
       integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
       real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
-      integer, intent(in), optional :: power              !! as of `grid_transform%sample`
-      real(dp), intent(in), optional :: per_wave(2)
 
       integer :: k, l, r
 
@@ -71,22 +69,19 @@ contains
          do r = 1, size(spectrum, 2)
             k = lbound(from%c, 1) + r - 1
             spectrum(1, r, l + 1) = merge(1.0_dp, 0.5_dp, k == 0)*merge(1.0_dp, 0.5_dp, l == 0)* &
-                                    from%c(k, l)*factor(k, l, power, per_wave)
+                                    from%c(k, l)
          end do
       end do
    end subroutine give_cosines
 
    !> The inverse of `take_waves`; the number of points may differ.
-   pure subroutine give_waves(points, from, spectrum, power, per_wave)
+   pure subroutine give_waves(points, from, spectrum)
       integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
       real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
-      integer, intent(in), optional :: power              !! as of `grid_transform%sample`
-      real(dp), intent(in), optional :: per_wave(2)
 
       !> One half where k and -k are two waves, and whether they have sines.
       real(dp), dimension(size(spectrum, 2)) :: halves, sines
-      real(dp) :: weight
       real(dp) :: of_c, of_cs, of_sc, of_ss
       integer :: k, l, last, r
       logical :: even
@@ -106,12 +101,11 @@ contains
          do l = 0, last
             do r = 1, size(spectrum, 2)
                k = lbound(from%c, 1) + r - 1
-               weight = halves(r)*factor(k, l, power, per_wave)
-               of_c = weight*from%c(k, l)
+               of_c = halves(r)*from%c(k, l)
                if (.not. even) then
-                  of_cs = weight*from%cs(k, l)
-                  of_sc = weight*sines(r)*from%sc(k, l)
-                  of_ss = weight*sines(r)*from%ss(k, l)
+                  of_cs = halves(r)*from%cs(k, l)
+                  of_sc = halves(r)*sines(r)*from%sc(k, l)
+                  of_ss = halves(r)*sines(r)*from%ss(k, l)
                end if
                if (l == 0 .or. 2*l == n) then
                   spectrum(:, r, l + 1) = [of_c, -of_sc]
@@ -123,17 +117,5 @@ contains
          end do
       end associate
    end subroutine give_waves
-
-   !> A power of the frequency of a harmonic: 1 without a power, and 0 for the mean.
-   pure real(dp) function factor(k, l, power, per_wave)
-      integer, intent(in) :: k, l                         !! wave numbers, >= 0
-      integer, intent(in), optional :: power
-      real(dp), intent(in), optional :: per_wave(2)
-
-      factor = 1.0_dp
-      if (.not. present(power)) return
-      factor = 0.0_dp
-      if (k > 0 .or. l > 0) factor = sqrt((k*per_wave(1))**2 + (l*per_wave(2))**2)**power
-   end function factor
 
 end module wavycon_wave_packing

@@ -17,7 +17,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: displacement
 
-      pressure = divided(weighted(displacement, surface%length, 1), 1.0_dp/surface%stiffness)
+      pressure = divided(weighted(displacement, surface%length, surface%kernel), 1.0_dp/surface%stiffness)
    end function pressure_of
 
    !> The displacement (u - ubar)/Delta of a pressure (p - pbar)/p*: the inverse of `pressure_of`.
@@ -25,7 +25,7 @@ contains
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure
 
-      displacement = divided(weighted(pressure, surface%length, -1), surface%stiffness)
+      displacement = divided(weighted(pressure, surface%length, surface%kernel, divides=.true.), surface%stiffness)
    end function displacement_of
 
    !> p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.

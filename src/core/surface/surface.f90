@@ -11,6 +11,7 @@ module wavycon_surface
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
    use wavycon_series_samples, only: sample_series
+   use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private
 
@@ -36,7 +37,9 @@ module wavycon_surface
       logical :: has_steps = .false.
       type(paraboloid) :: form                  !! with free edges: the paraboloid in h/Delta
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
-      real(dp) :: stiffness = 1.0_dp            !! pressure [p*] over displacement [Delta] of a wave, times wavelength
+      type(wave_stiffness) :: kernel            !! of the bodies under it
+      !> Pressure [p*] over displacement [Delta] of a wave of the half-space, times wavelength [length].
+      real(dp) :: stiffness = 1.0_dp
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
       real(dp) :: hardness = huge(1.0_dp)       !! H, the largest pressure that it bears [p*]; huge: it stays elastic
    contains
@@ -118,11 +121,11 @@ contains
       if (self%is_height_map()) then
          call transform%start(self%points/self%parts(), even=self%mirrored)
          allocate (values(transform%points(1), transform%slab%columns()))
-         call transform%sample(self%shape, values, 2, 1.0_dp/self%length)
+         call transform%sample(weighted(self%shape, self%length), values)
          largest = maxval(values)
          call transform%slab%largest(largest)
       else
-         call find_peak(weighted(self%shape, self%length, 2), largest(1), unused)
+         call find_peak(weighted(self%shape, self%length), largest(1), unused)
       end if
       curvature = largest(1)
       if (self%has_free_edges) curvature = curvature + 2*sum(self%form%c/self%length**2)

@@ -2,7 +2,7 @@
 module wavycon_surface_of_points
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: divide_series
+   use wavycon_fourier_series, only: divide_series, weighted
    use wavycon_free_edges, only: form_of_radii, set_units_without_closure
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
@@ -75,7 +75,7 @@ contains
       if (surface%has_free_edges) then
          call set_units_without_closure(surface)
       else
-         call transform%sample(surface%shape, values, 1, 1.0_dp/surface%length)
+         call transform%sample(weighted(surface%shape, surface%length, surface%kernel), values)
          extremes = [maxval(values), -minval(values)]
          call transform%slab%largest(extremes)
          surface%stiffness = 1.0_dp/extremes(2)

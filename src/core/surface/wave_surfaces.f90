@@ -104,7 +104,7 @@ contains
       if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
       surface%shape = divided(waves, surface%amplitude)
       if (surface%amplitude <= 0.0_dp) return
-      waves = weighted(surface%shape, surface%length, 1)
+      waves = weighted(surface%shape, surface%length, surface%kernel)
       call find_peak(waves, surface%full_contact_peak, unused)
       call find_peak(divided(waves, -1.0_dp), lowest, unused)
       surface%stiffness = 1.0_dp/lowest
