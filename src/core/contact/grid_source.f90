@@ -13,6 +13,7 @@ module wavycon_grid_source
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_region_numbers, only: region_numbers
@@ -70,7 +71,7 @@ contains
       is_here = .true.
       if (self%distributed_points == 0) return
       associate (slab => self%edge%slab)
-         call slab%gather_to_first(self%edge%pressure_or_gap, values)
+         call slab%gather_whole(self%edge%pressure_or_gap, values, first_only=.true.)
       end associate
       is_here = allocated(values)
       if (.not. is_here) return
@@ -186,7 +187,7 @@ contains
                                   or_nan(record%measures%peak_pressure_error), is_sampled=.true.)
          call transform%start(points, self%edge%even, whole=.true.)
       end associate
-      call own%remove_images([transform%x_angle(1), transform%y_angle(1)])
+      call own%remove_images(point_angle([1, 1], transform%points, transform%even))
       call move_alloc(own, answer)
    end subroutine stresses_with_free_edges
 

@@ -9,7 +9,6 @@ module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_f_pointer, c_loc
    use wavycon_assertion, only: assert
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_line_plans, only: cosines_to_values, line_plan, plan_of_line, real_to_waves, values_to_cosines, &
@@ -35,8 +34,6 @@ module wavycon_grid_transform
       procedure :: sample_waves
       procedure :: sum_along_y
       procedure :: sample_column
-      procedure :: x_angle
-      procedure :: y_angle
    end type grid_transform
 
    !> Rows of the spectrum that are copied at a time, so that copies fill lines of the processor's cache. On 1024 x 1024
@@ -189,22 +186,6 @@ contains
       call plan%execute(plan%plan, column, aligned)
       values = aligned
    end subroutine sample_column
-
-   !> X of the points with first index i [rad].
-   elemental real(dp) function x_angle(self, i)
-      class(grid_transform), intent(in) :: self
-      integer, intent(in) :: i
-
-      x_angle = point_angle(i, self%points(1), self%even)
-   end function x_angle
-
-   !> Y of the points with second index j [rad].
-   elemental real(dp) function y_angle(self, j)
-      class(grid_transform), intent(in) :: self
-      integer, intent(in) :: j
-
-      y_angle = point_angle(j, self%points(2), self%even)
-   end function y_angle
 
    !> Transforms columns along x: sum_i f_i e^(-ikX_i), k = 0 .. M/2, or twice sum_i f_i cos kX_i, k = 0 .. M - 1.
    subroutine columns_to_waves(self, field, spectrum)

@@ -52,15 +52,9 @@ contains
       subroutine gather_array(values)
          real(dp), allocatable, intent(inout) :: values(:, :)
 
-         real(dp), allocatable :: own(:, :), whole(:, :)
+         real(dp), allocatable :: whole(:, :)
 
-         allocate (own, source=transpose(values))
-         if (first_only) then
-            call rows%gather_to_first(own, whole)
-         else
-            allocate (whole(size(values, 2), rows%points(2)))
-            call rows%gather(8*size(own, 1), own, whole, first_only=.false.)
-         end if
+         call rows%gather_whole(transpose(values), whole, first_only)
          is_whole = allocated(whole)
          if (.not. is_whole) return
          deallocate (values)
