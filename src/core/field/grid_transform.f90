@@ -124,7 +124,7 @@ contains
       end if
       call transform_rows(self%even, spectrum(:, :carried, :), forwards=.false.)
       if (.not. from%is_distributed()) then
-         call waves_to_columns(self, spectrum(:, :, self%slab%first:self%slab%last), field)
+         call waves_to_columns(self, size(spectrum, 2), spectrum(:, :, self%slab%first:self%slab%last), field)
          return
       end if
       kept = self%slab
@@ -132,10 +132,10 @@ contains
       allocate (own_columns(self%numbers, from%distributed_waves, kept%columns()))
       call kept%exchange_rows(wave_slab(from), 8*self%numbers, own_columns, spectrum, to_rows=.false.)
       if (self%slab%is_distributed) then
-         call waves_to_columns(self, own_columns, field)
+         call waves_to_columns(self, from%distributed_waves, own_columns, field)
       else
          allocate (own_values(self%points(1), kept%columns()))
-         call waves_to_columns(self, own_columns, own_values)
+         call waves_to_columns(self, from%distributed_waves, own_columns, own_values)
          call kept%gather(8*self%points(1), own_values, field, first_only=.false.)
       end if
    end subroutine sample
@@ -191,39 +191,40 @@ contains
    subroutine columns_to_waves(self, field, spectrum)
       type(grid_transform), intent(in) :: self
       real(dp), intent(in) :: field(:, :)
-      real(dp), intent(inout) :: spectrum(:, :, :)
+      real(dp), intent(inout) :: spectrum(self%numbers*self%waves, size(field, 2))
 
       ! FFTW's vectors must be aligned, here and below.
-      real(dp), allocatable :: values(:), waves(:, :)
+      real(dp), allocatable :: values(:), waves(:)
       type(line_plan) :: plan
       integer :: j
 
-      allocate (values(self%points(1)), waves(self%numbers, self%waves))
+      allocate (values(self%points(1)), waves(self%numbers*self%waves))
       plan = plan_of_line(merge(values_to_cosines, real_to_waves, self%even), self%points(1), dp)
       do j = 1, size(field, 2)
          values = field(:, j)
          call plan%execute(plan%plan, values, waves)
-         spectrum(:, :, j) = waves
+         spectrum(:, j) = waves
       end do
    end subroutine columns_to_waves
 
    !> The inverse, times M or 2M. Wave numbers that the spectrum does not have are zero, those beyond the grid's are
    !> left out.
-   subroutine waves_to_columns(self, spectrum, field)
+   subroutine waves_to_columns(self, waves_of_column, spectrum, field)
       type(grid_transform), intent(in) :: self
-      real(dp), intent(in) :: spectrum(:, :, :)
+      integer, intent(in) :: waves_of_column   !! of the spectrum
       real(dp), intent(out) :: field(:, :)
+      real(dp), intent(in) :: spectrum(self%numbers*waves_of_column, size(field, 2))
 
-      real(dp), allocatable :: values(:), waves(:, :)
+      real(dp), allocatable :: values(:), waves(:)
       type(line_plan) :: plan
       integer :: j, number
 
-      number = min(self%waves, size(spectrum, 2))
-      allocate (values(self%points(1)), waves(self%numbers, self%waves))
+      number = self%numbers*min(self%waves, waves_of_column)
+      allocate (values(self%points(1)), waves(self%numbers*self%waves))
       plan = plan_of_line(merge(cosines_to_values, waves_to_real, self%even), self%points(1), dp)
       do j = 1, size(field, 2)
-         waves(:, :number) = spectrum(:, :number, j)
-         waves(:, number + 1:) = 0.0_dp
+         waves(:number) = spectrum(:number, j)
+         waves(number + 1:) = 0.0_dp
          call plan%execute(plan%plan, waves, values)
          field(:, j) = values
       end do
@@ -235,9 +236,9 @@ contains
       real(dp), intent(inout) :: spectrum(:, :, :)   !! numbers of an element, wave numbers in X, points or waves
       logical, intent(in) :: forwards
 
-      real(dp), allocatable :: block(:, :, :), line(:, :)
+      real(dp), allocatable :: block(:, :), line(:)
       type(line_plan) :: plan
-      integer :: j, k, last, r
+      integer :: i, j, k, last, r
 
       associate (numbers => size(spectrum, 1), n => size(spectrum, 3), rows => min(block_rows, size(spectrum, 2)))
          if (even) then
@@ -245,18 +246,22 @@ contains
          else
             plan = plan_of_line(merge(waves_forward, waves_backward, forwards), n, dp)
          end if
-         allocate (block(numbers, n + modulo(n, 2) + row_space, rows), line(numbers, n))
+         allocate (block(numbers*(n + modulo(n, 2) + row_space), rows), line(numbers*n))
          do k = 1, size(spectrum, 2), block_rows
             last = min(k + block_rows - 1, size(spectrum, 2))
             do j = 1, n
-               block(:, j, :last - k + 1) = spectrum(:, k:last, j)
+               do i = 1, numbers
+                  block(numbers*(j - 1) + i, :last - k + 1) = spectrum(i, k:last, j)
+               end do
             end do
             do r = 1, last - k + 1
-               call plan%execute(plan%plan, block(:, :, r), line)
-               block(:, :n, r) = line
+               call plan%execute(plan%plan, block(:, r), line)
+               block(:numbers*n, r) = line
             end do
             do j = 1, n
-               spectrum(:, k:last, j) = block(:, j, :last - k + 1)
+               do i = 1, numbers
+                  spectrum(i, k:last, j) = block(numbers*(j - 1) + i, :last - k + 1)
+               end do
             end do
          end do
       end associate
