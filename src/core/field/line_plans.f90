@@ -21,7 +21,7 @@ module wavycon_line_plans
    integer, parameter, public :: values_to_cosines = 5, cosines_to_values = 6
 
    type :: line_plan
-      integer, private :: transform = 0, length = 0, precision = 0
+      integer, private :: key(3) = 0     !! transform, length and precision
       type(c_ptr) :: plan = c_null_ptr
       procedure(execute_plan), pointer, nopass :: execute => null()
    end type line_plan
@@ -53,7 +53,7 @@ contains
       !$omp critical (wavycon_fftw_planner)
       if (.not. allocated(kept)) allocate (kept(0))
       do i = 1, size(kept)
-         if (kept(i)%transform == transform .and. kept(i)%length == length .and. kept(i)%precision == precision) exit
+         if (all(kept(i)%key == [transform, length, precision])) exit
       end do
       if (i > size(kept)) then
          allocate (more(i))
@@ -79,9 +79,7 @@ contains
       ! FFTW looks at the alignment of these arrays only.
       allocate (values(length), more_values(length), waves(length), more_waves(length))
       allocate (single_values(length), single_waves(length), more_single_waves(length))
-      new%transform = transform
-      new%length = length
-      new%precision = precision
+      new%key = [transform, int(length), precision]
       execute = c_null_funptr
       associate (plan => new%plan, sign_of_waves => merge(FFTW_FORWARD, FFTW_BACKWARD, transform == waves_forward), &
                  kind_of_cosines => merge(FFTW_REDFT10, FFTW_REDFT01, transform == values_to_cosines))
