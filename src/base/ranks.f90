@@ -29,7 +29,6 @@ module wavycon_ranks
       procedure(combine_reals), deferred, nopass :: add_reals
       procedure(add_whole_numbers), deferred, nopass :: add_integers
       procedure(combine_reals), deferred, nopass :: largest
-      procedure(exchange_two_blocks), deferred, nopass :: exchange
       procedure(move_blocks), deferred :: move
       procedure(exchange_rows_and_columns), deferred :: exchange_rows
       procedure(end_run), deferred :: finish
@@ -45,14 +44,6 @@ module wavycon_ranks
          import :: int64
          integer(int64), intent(inout), contiguous :: values(:)
       end subroutine add_whole_numbers
-
-      !> Sends columns to the neighbours and receives theirs.
-      subroutine exchange_two_blocks(low, high, bytes, to_low, to_high, from_low, from_high)
-         integer, intent(in) :: low, high    !! ranks that have the columns before and after the own ones; -1: none
-         integer, intent(in) :: bytes        !! of the columns for one neighbour
-         type(*), intent(in), target :: to_low(*), to_high(*)            !! the own first and last columns
-         type(*), intent(inout), target :: from_low(*), from_high(*)     !! theirs; unchanged where there is none
-      end subroutine exchange_two_blocks
 
       !> Moves columns of a matrix from the ranks that have them to those that want them.
       !>

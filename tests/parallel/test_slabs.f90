@@ -155,7 +155,7 @@ contains
             call check(same([all_columns], [whole]))
             deallocate (all_columns)
          end if
-         call slab%gather_to_first(whole(:, slab%first:slab%last), gathered)
+         call slab%gather_whole(whole(:, slab%first:slab%last), gathered, first_only=.true.)
          call check(allocated(gathered) .eqv. this_rank() == 0)
          if (allocated(gathered)) call check(same([gathered], [whole]))
       end do

@@ -59,7 +59,7 @@ contains
          end associate
          state%slab = whole
          call move_alloc(pressure, state%pressure)
-         transform_pairs = transform_pairs + part*(half_space%transform_pairs + half_space%single_pairs)
+         transform_pairs = transform_pairs + part*half_space%transform_pairs
          if (state%interrupted) return
          ! Means over the whole grid, on which they are told.
          violation = sqrt(part)*state%residual*max(state%size_of_gaps(), rounding)

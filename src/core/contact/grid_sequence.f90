@@ -150,7 +150,7 @@ contains
       else
          call half_space%start(surface, answer%state%slab%points)
          call solve_on_grid(half_space, h, residual, most, answer%state, progress)
-         answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs + half_space%single_pairs
+         answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs
       end if
       if (.not. answer%state%interrupted) answer%value(elastic_energy) = energy_of(answer%state, h)
       answer%grids = answer%grids + 1

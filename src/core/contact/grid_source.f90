@@ -11,8 +11,8 @@ module wavycon_grid_source
    use wavycon_grid_derivatives, only: differentiate_on_grid
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
-   use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
@@ -70,7 +70,7 @@ contains
       is_here = .true.
       if (self%distributed_points == 0) return
       associate (slab => self%edge%slab)
-         call slab%gather_to_first(self%edge%pressure_or_gap, values)
+         call slab%gather_whole(self%edge%pressure_or_gap, values, first_only=.true.)
       end associate
       is_here = allocated(values)
       if (.not. is_here) return

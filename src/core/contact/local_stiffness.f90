@@ -3,9 +3,9 @@
 !> S^-1 is |k|. Its kernel falls with the third power of the distance, so that the next neighbours have most of it.
 module wavycon_local_stiffness
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_constants, only: pi
    use wavycon_contact_region, only: contact_region, longest_chunk
    use wavycon_contact_tuning, only: stencil_reach
+   use wavycon_grid_convolution_dp, only: grid_convolution
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp, sp
@@ -38,9 +38,10 @@ contains
       type(compliance_operator), intent(in) :: half_space   !! S, started on the grid
       type(grid_slab), intent(in) :: slab                   !! of the grid
 
-      real(dp) :: cosines(0:kernel_points - 1, 0:stencil_reach), symbol(0:kernel_points - 1, 0:kernel_points - 1)
+      type(grid_convolution) :: cell
+      real(dp), allocatable :: pressure(:, :)
       real(dp) :: per_step(2)
-      integer :: i, j
+      integer :: i, j, points(2)
 
       self%is_started = .true.
       self%even = half_space%even
@@ -52,17 +53,15 @@ contains
       associate (m => slab%points(1), n => slab%columns(), r => stencil_reach)
          allocate (self%field(1 - r:m + r, 1 - r:n + r), source=0.0_sp)
       end associate
-      do j = 0, kernel_points - 1
-         cosines(j, :) = cos(2*pi*j*[(i, i=0, stencil_reach)]/kernel_points)/kernel_points
-         do i = 0, kernel_points - 1
-            symbol(i, j) = norm2(per_step*[min(i, kernel_points - i), &
-                                           merge(min(j, kernel_points - j), 0, slab%points(2) > 1)])/kernel_points
-         end do
-      end do
+      points = merge(kernel_points, 1, slab%points > 1)
+      allocate (pressure(0:points(1) - 1, 0:points(2) - 1), source=0.0_dp)
+      pressure(0, 0) = 1.0_dp
+      call cell%start(points, .false., half_space%kernel, per_step/kernel_points)
+      call cell%apply(pressure, 1, threads=1)
       do j = 0, merge(stencil_reach, 0, slab%points(2) > 1)
          do i = 0, stencil_reach
             if (i**2 + j**2 > stencil_reach**2) cycle
-            self%weights([-i, i], [-j, j]) = real(dot_product(cosines(:, i), matmul(symbol, cosines(:, j))), sp)
+            self%weights([-i, i], [-j, j]) = real(pressure(i, j), sp)
          end do
       end do
    end subroutine start

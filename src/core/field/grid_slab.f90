@@ -58,7 +58,7 @@ module wavycon_grid_slab
       generic :: halo => halo_dp, halo_sp
       procedure :: fetch
       procedure :: gather
-      procedure :: gather_to_first
+      procedure :: gather_whole
       procedure :: exchange_rows
       procedure, private :: add_reals, add_integers, halo_dp, halo_sp
    end type grid_slab
@@ -324,21 +324,22 @@ contains
 
    end subroutine fetch
 
-   !> The whole grid on the rank that writes the log and the tables.
-   subroutine gather_to_first(self, own, whole)
+   !> The whole grid on the rank that writes the log and the tables, or on all.
+   subroutine gather_whole(self, own, whole, first_only)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(in), contiguous :: own(:, :)   !! shape (M, columns())
-      !> Shape (M, N); not allocated on the other ranks if the grid is distributed.
+      real(dp), intent(in), contiguous :: own(:, :)   !! shape (any, columns())
+      !> Shape (any, N); not allocated on ranks that do not want it if the grid is distributed.
       real(dp), allocatable, intent(out) :: whole(:, :)
+      logical, intent(in) :: first_only
 
-      if (.not. self%is_distributed) then
+      if (self%is_distributed) then
+         allocate (whole(size(own, 1), merge(0, self%points(2), first_only .and. this_rank() > 0)))
+         call self%gather(size(own, 1)*storage_size(own)/8, own, whole, first_only)
+         if (size(whole, 2) == 0) deallocate (whole)
+      else
          allocate (whole, source=own)
-         return
       end if
-      allocate (whole(size(own, 1), merge(self%points(2), 0, this_rank() == 0)))
-      call self%gather(size(own, 1)*storage_size(own)/8, own, whole, first_only=.true.)
-      if (this_rank() > 0) deallocate (whole)
-   end subroutine gather_to_first
+   end subroutine gather_whole
 
    !> The whole of a distributed grid, on every rank or on the first.
    subroutine gather(self, column_bytes, own, whole, first_only)

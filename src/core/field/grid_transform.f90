@@ -6,15 +6,13 @@
 !> numbers in X: a series of the shape (first:last, :), whose component `distributed_waves` is the number of all wave
 !> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is distributed.
 module wavycon_grid_transform
-   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_f_pointer, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_double_complex, c_f_pointer, c_loc
    use wavycon_assertion, only: assert
-   use wavycon_fftw, only: fftw_execute_dft, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_execute_r2r
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_line_plans, only: cosines_to_values, plan_of_line, real_to_waves, values_to_cosines, waves_backward, &
-      waves_forward, waves_to_real
+   use wavycon_line_plans, only: cosines_to_values, line_plan, plan_of_line, real_to_waves, values_to_cosines, &
+      waves_backward, waves_forward, waves_to_real
    use wavycon_own_waves, only: slab_of_waves, wave_slab
    use wavycon_wave_packing, only: give_cosines, give_waves, take_cosines, take_waves
    implicit none (type, external)
@@ -36,8 +34,6 @@ module wavycon_grid_transform
       procedure :: sample_waves
       procedure :: sum_along_y
       procedure :: sample_column
-      procedure :: x_angle
-      procedure :: y_angle
    end type grid_transform
 
    !> Rows of the spectrum that are copied at a time, so that copies fill lines of the processor's cache. On 1024 x 1024
@@ -87,7 +83,7 @@ contains
       real(dp), intent(in) :: field(:, :)            !! shape (M, slab%columns())
       type(fourier_series), intent(out) :: answer    !! distributed if the grid is
 
-      real(c_double), allocatable :: own_rows(:, :, :), spectrum(:, :, :)
+      real(dp), allocatable :: own_rows(:, :, :), spectrum(:, :, :)
 
       call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
       call self%new_series(answer)
@@ -113,7 +109,7 @@ contains
       type(fourier_series), intent(in) :: from                !! even, if the points are those of a quarter
       real(dp), intent(out), contiguous :: field(:, :)        !! shape (M, slab%columns())
 
-      real(c_double), allocatable :: own_columns(:, :, :), spectrum(:, :, :)
+      real(dp), allocatable :: own_columns(:, :, :), spectrum(:, :, :)
       real(dp), allocatable :: own_values(:, :)
       type(grid_slab) :: kept   ! columns after the exchange
       integer :: carried
@@ -130,7 +126,7 @@ contains
       end if
       call transform_rows(self%even, spectrum(:, :carried, :), forwards=.false.)
       if (.not. from%is_distributed()) then
-         call waves_to_columns(self, spectrum(:, :, self%slab%first:self%slab%last), field)
+         call waves_to_columns(self, size(spectrum, 2), spectrum(:, :, self%slab%first:self%slab%last), field)
          return
       end if
       kept = self%slab
@@ -138,10 +134,10 @@ contains
       allocate (own_columns(self%numbers, from%distributed_waves, kept%columns()))
       call kept%exchange_rows(wave_slab(from), 8*self%numbers, own_columns, spectrum, to_rows=.false.)
       if (self%slab%is_distributed) then
-         call waves_to_columns(self, own_columns, field)
+         call waves_to_columns(self, from%distributed_waves, own_columns, field)
       else
          allocate (own_values(self%points(1), kept%columns()))
-         call waves_to_columns(self, own_columns, own_values)
+         call waves_to_columns(self, from%distributed_waves, own_columns, own_values)
          call kept%gather(8*self%points(1), own_values, field, first_only=.false.)
       end if
    end subroutine sample
@@ -169,7 +165,7 @@ contains
       !> Of the first wave numbers k, shape (:, N).
       complex(c_double_complex), intent(inout), contiguous, target :: waves(:, :)
 
-      real(c_double), pointer :: spectrum(:, :, :)
+      real(dp), pointer :: spectrum(:, :, :)
 
       call assert(size(waves, 2) == self%points(2), 'there are waves of all l')
       call c_f_pointer(c_loc(waves), spectrum, [2, shape(waves)])
@@ -183,134 +179,91 @@ contains
       real(dp), intent(out) :: values(:)                 !! shape (M)
 
       complex(c_double_complex), allocatable :: column(:)
-      real(c_double), allocatable :: aligned(:)
+      real(dp), allocatable :: aligned(:)
+      type(line_plan) :: plan
 
       allocate (column, source=sums)
       allocate (aligned(self%points(1)))
-      call fftw_execute_dft_c2r(plan_of_line(waves_to_real, self%points(1), dp), column, aligned)
+      plan = plan_of_line(waves_to_real, self%points(1), dp)
+      call plan%execute(plan%plan, column, aligned)
       values = aligned
    end subroutine sample_column
-
-   !> X of the points with first index i [rad].
-   elemental real(dp) function x_angle(self, i)
-      class(grid_transform), intent(in) :: self
-      integer, intent(in) :: i
-
-      x_angle = point_angle(i, self%points(1), self%even)
-   end function x_angle
-
-   !> Y of the points with second index j [rad].
-   elemental real(dp) function y_angle(self, j)
-      class(grid_transform), intent(in) :: self
-      integer, intent(in) :: j
-
-      y_angle = point_angle(j, self%points(2), self%even)
-   end function y_angle
 
    !> Transforms columns along x: sum_i f_i e^(-ikX_i), k = 0 .. M/2, or twice sum_i f_i cos kX_i, k = 0 .. M - 1.
    subroutine columns_to_waves(self, field, spectrum)
       type(grid_transform), intent(in) :: self
       real(dp), intent(in) :: field(:, :)
-      real(c_double), intent(inout) :: spectrum(:, :, :)
+      real(dp), intent(inout) :: spectrum(self%numbers*self%waves, size(field, 2))
 
-      complex(c_double_complex), allocatable :: waves(:)
-      real(c_double), allocatable :: cosines(:), values(:)
-      type(c_ptr) :: plan
+      ! FFTW's vectors must be aligned, here and below.
+      real(dp), allocatable :: values(:), waves(:)
+      type(line_plan) :: plan
       integer :: j
 
-      associate (m => self%points(1))
-         allocate (values(m), cosines(merge(m, 0, self%even)), waves(0:merge(0, m/2, self%even)))
-         plan = plan_of_line(merge(values_to_cosines, real_to_waves, self%even), m, dp)
-         do j = 1, size(field, 2)
-            values = field(:, j)
-            if (self%even) then
-               call fftw_execute_r2r(plan, values, cosines)
-               spectrum(1, :, j) = cosines
-            else
-               call fftw_execute_dft_r2c(plan, values, waves)
-               spectrum(1, :, j) = real(waves)
-               spectrum(2, :, j) = aimag(waves)
-            end if
-         end do
-      end associate
+      allocate (values(self%points(1)), waves(self%numbers*self%waves))
+      plan = plan_of_line(merge(values_to_cosines, real_to_waves, self%even), self%points(1), dp)
+      do j = 1, size(field, 2)
+         values = field(:, j)
+         call plan%execute(plan%plan, values, waves)
+         spectrum(:, j) = waves
+      end do
    end subroutine columns_to_waves
 
    !> The inverse, times M or 2M. Wave numbers that the spectrum does not have are zero, those beyond the grid's are
    !> left out.
-   subroutine waves_to_columns(self, spectrum, field)
+   subroutine waves_to_columns(self, waves_of_column, spectrum, field)
       type(grid_transform), intent(in) :: self
-      real(c_double), intent(in) :: spectrum(:, :, :)
+      integer, intent(in) :: waves_of_column   !! of the spectrum
       real(dp), intent(out) :: field(:, :)
+      real(dp), intent(in) :: spectrum(self%numbers*waves_of_column, size(field, 2))
 
-      complex(c_double_complex), allocatable :: waves(:)
-      real(c_double), allocatable :: cosines(:), values(:)
-      type(c_ptr) :: plan
-      integer :: j, last
+      real(dp), allocatable :: values(:), waves(:)
+      type(line_plan) :: plan
+      integer :: j, number
 
-      last = min(self%waves, size(spectrum, 2)) - 1
-      associate (m => self%points(1))
-         allocate (values(m), cosines(merge(m, 0, self%even)), waves(0:merge(0, m/2, self%even)))
-         plan = plan_of_line(merge(cosines_to_values, waves_to_real, self%even), m, dp)
-         do j = 1, size(field, 2)
-            if (self%even) then
-               cosines(:last + 1) = spectrum(1, :last + 1, j)
-               cosines(last + 2:) = 0.0_dp
-               call fftw_execute_r2r(plan, cosines, values)
-            else
-               waves(:last) = cmplx(spectrum(1, :last + 1, j), spectrum(2, :last + 1, j), dp)
-               waves(last + 1:) = 0.0_dp
-               call fftw_execute_dft_c2r(plan, waves, values)
-            end if
-            field(:, j) = values
-         end do
-      end associate
+      number = self%numbers*min(self%waves, waves_of_column)
+      allocate (values(self%points(1)), waves(self%numbers*self%waves))
+      plan = plan_of_line(merge(cosines_to_values, waves_to_real, self%even), self%points(1), dp)
+      do j = 1, size(field, 2)
+         waves(:number) = spectrum(:number, j)
+         waves(number + 1:) = 0.0_dp
+         call plan%execute(plan%plan, waves, values)
+         field(:, j) = values
+      end do
    end subroutine waves_to_columns
 
    !> Transforms rows of the spectrum along y, in place.
    subroutine transform_rows(even, spectrum, forwards)
       logical, intent(in) :: even
-      real(c_double), intent(inout) :: spectrum(:, :, :)   !! numbers of an element, wave numbers in X, points or waves
+      real(dp), intent(inout) :: spectrum(:, :, :)   !! numbers of an element, wave numbers in X, points or waves
       logical, intent(in) :: forwards
 
-      complex(c_double_complex), allocatable :: block(:, :), waves(:)
-      real(c_double), allocatable :: cosines(:), values(:, :)
-      type(c_ptr) :: plan
-      integer :: j, k, last, r
+      real(dp), allocatable :: block(:, :), line(:)
+      type(line_plan) :: plan
+      integer :: i, j, k, last, r
 
-      associate (n => size(spectrum, 3), number => min(block_rows, size(spectrum, 2)))
-         ! FFTW's vectors must be aligned, also if N is odd.
+      associate (numbers => size(spectrum, 1), n => size(spectrum, 3), rows => min(block_rows, size(spectrum, 2)))
          if (even) then
             plan = plan_of_line(merge(values_to_cosines, cosines_to_values, forwards), n, dp)
          else
             plan = plan_of_line(merge(waves_forward, waves_backward, forwards), n, dp)
          end if
-         allocate (values(merge(n + modulo(n, 2) + row_space, 0, even), number), cosines(n))
-         allocate (block(merge(0, n + row_space/2, even), number), waves(n))
+         allocate (block(numbers*(n + modulo(n, 2) + row_space), rows), line(numbers*n))
          do k = 1, size(spectrum, 2), block_rows
             last = min(k + block_rows - 1, size(spectrum, 2))
             do j = 1, n
-               if (even) then
-                  values(j, :last - k + 1) = spectrum(1, k:last, j)
-               else
-                  block(j, :last - k + 1) = cmplx(spectrum(1, k:last, j), spectrum(2, k:last, j), c_double)
-               end if
+               do i = 1, numbers
+                  block(numbers*(j - 1) + i, :last - k + 1) = spectrum(i, k:last, j)
+               end do
             end do
             do r = 1, last - k + 1
-               if (even) then
-                  call fftw_execute_r2r(plan, values(:n, r), cosines)
-                  values(:n, r) = cosines
-               else
-                  call fftw_execute_dft(plan, block(:n, r), waves)
-                  block(:n, r) = waves
-               end if
+               call plan%execute(plan%plan, block(:, r), line)
+               block(:numbers*n, r) = line
             end do
             do j = 1, n
-               if (even) then
-                  spectrum(1, k:last, j) = values(j, :last - k + 1)
-               else
-                  spectrum(1, k:last, j) = real(block(j, :last - k + 1))
-                  spectrum(2, k:last, j) = aimag(block(j, :last - k + 1))
-               end if
+               do i = 1, numbers
+                  spectrum(i, k:last, j) = block(numbers*(j - 1) + i, :last - k + 1)
+               end do
             end do
          end do
       end associate

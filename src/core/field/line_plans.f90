@@ -1,95 +1,113 @@
-!> FFTW's plans of one-dimensional transforms, each made once and kept until the program ends.
+!> FFTW's transforms of lines, in both precisions. Each plan is made once and kept until the program ends.
 !>
 !> N.B. FFTW_ESTIMATE, not FFTW_MEASURE: which plan is measured to be the fastest, and with it the last digits of the
 !> results, differs from run to run.
 module wavycon_line_plans
-   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_float, c_float_complex, c_int, c_null_ptr, c_ptr
-   use wavycon_fftw, only: FFTW_BACKWARD, FFTW_DESTROY_INPUT, FFTW_ESTIMATE, FFTW_FORWARD, fftw_plan_dft_1d, &
-                           fftw_plan_dft_c2r_1d, fftw_plan_dft_r2c_1d, fftw_plan_r2r_1d, FFTW_REDFT01, FFTW_REDFT10, &
-                           fftwf_plan_dft_1d, fftwf_plan_dft_c2r_1d, fftwf_plan_dft_r2c_1d
+   use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_f_procpointer, c_float, c_float_complex, &
+      c_funloc, c_funptr, c_int, c_null_funptr, c_null_ptr, c_ptr
+   use wavycon_fftw, only: FFTW_BACKWARD, FFTW_DESTROY_INPUT, FFTW_ESTIMATE, fftw_execute_dft, fftw_execute_dft_c2r, &
+      fftw_execute_dft_r2c, fftw_execute_r2r, FFTW_FORWARD, fftw_plan_dft_1d, fftw_plan_dft_c2r_1d, &
+      fftw_plan_dft_r2c_1d, fftw_plan_r2r_1d, FFTW_REDFT01, FFTW_REDFT10, fftwf_execute_dft, fftwf_execute_dft_c2r, &
+      fftwf_execute_dft_r2c, fftwf_plan_dft_1d, fftwf_plan_dft_c2r_1d, fftwf_plan_dft_r2c_1d
    use wavycon_kinds, only: dp
    implicit none (type, external)
    private
 
-   public :: plan_of_line
+   public :: line_plan, plan_of_line
 
    !> The transforms: of real numbers to complex waves and back, of complex numbers to complex waves and back.
    integer, parameter, public :: real_to_waves = 1, waves_to_real = 2, waves_forward = 3, waves_backward = 4
    !> In double precision only: of the values of an even field to its cosines (DCT-II), and back (DCT-III).
    integer, parameter, public :: values_to_cosines = 5, cosines_to_values = 6
 
-   type :: kept_plan
-      integer :: transform = 0, length = 0, precision = 0
+   type :: line_plan
+      integer, private :: key(3) = 0     !! transform, length and precision
       type(c_ptr) :: plan = c_null_ptr
-   end type kept_plan
+      procedure(execute_plan), pointer, nopass :: execute => null()
+   end type line_plan
 
-   type(kept_plan), allocatable :: kept(:)
+   abstract interface
+      !> Transforms one array to another, both aligned as `allocate` does it and of the kind that the plan is for. The
+      !> input is overwritten.
+      subroutine execute_plan(plan, from, to) bind(c)
+         import :: c_ptr
+         type(c_ptr), value :: plan               !! the component of the same line_plan
+         type(*), intent(inout) :: from(*), to(*)
+      end subroutine execute_plan
+   end interface
+
+   type(line_plan), allocatable :: kept(:)
 
 contains
 
-   !> The plan of a transform from one array to another, both aligned as `allocate` does it. The input is overwritten.
-   !> It may be executed by several threads at a time, and is never destroyed.
-   type(c_ptr) function plan_of_line(transform, length, precision) result(plan)
+   !> The plan of a transform. It may be executed by several threads at a time, and is never destroyed.
+   type(line_plan) function plan_of_line(transform, length, precision) result(plan)
       integer, intent(in) :: transform   !! one of the six above
       integer, intent(in) :: length      !! number of real values, or of complex ones, >= 1
       integer, intent(in) :: precision   !! kind of the numbers: dp or sp
 
-      type(kept_plan), allocatable :: more(:)
+      type(line_plan), allocatable :: more(:)
       integer :: i
 
       ! FFTW's planner is not thread-safe.
       !$omp critical (wavycon_fftw_planner)
       if (.not. allocated(kept)) allocate (kept(0))
       do i = 1, size(kept)
-         if (kept(i)%transform == transform .and. kept(i)%length == length .and. kept(i)%precision == precision) exit
+         if (all(kept(i)%key == [transform, length, precision])) exit
       end do
       if (i > size(kept)) then
          allocate (more(i))
          more(:i - 1) = kept
-         more(i) = kept_plan(transform, length, precision, new_plan(transform, int(length, c_int), precision == dp))
+         more(i) = new_plan(transform, int(length, c_int), precision)
          call move_alloc(more, kept)
       end if
-      plan = kept(i)%plan
+      plan = kept(i)
       !$omp end critical (wavycon_fftw_planner)
    end function plan_of_line
 
-   type(c_ptr) function new_plan(transform, length, is_double) result(plan)
-      integer, intent(in) :: transform
+   type(line_plan) function new_plan(transform, length, precision) result(new)
+      integer, intent(in) :: transform, precision
       integer(c_int), intent(in) :: length
-      logical, intent(in) :: is_double
 
       integer(c_int), parameter :: flags = ior(FFTW_ESTIMATE, FFTW_DESTROY_INPUT)
-      complex(c_double_complex), allocatable :: waves(:), more_waves(:)
-      complex(c_float_complex), allocatable :: single_waves(:), more_single_waves(:)
+      complex(c_double_complex), allocatable :: more_waves(:), waves(:)
+      complex(c_float_complex), allocatable :: more_single_waves(:), single_waves(:)
       real(c_double), allocatable :: more_values(:), values(:)
       real(c_float), allocatable :: single_values(:)
-      integer(c_int) :: sign_of_waves
+      type(c_funptr) :: execute
 
-      sign_of_waves = merge(FFTW_FORWARD, FFTW_BACKWARD, transform == waves_forward)
-      if (is_double) then
-         allocate (values(length), more_values(length), waves(length), more_waves(length))
-         select case (transform)
+      ! FFTW looks at the alignment of these arrays only.
+      allocate (values(length), more_values(length), waves(length), more_waves(length))
+      allocate (single_values(length), single_waves(length), more_single_waves(length))
+      new%key = [transform, int(length), precision]
+      execute = c_null_funptr
+      associate (plan => new%plan, sign_of_waves => merge(FFTW_FORWARD, FFTW_BACKWARD, transform == waves_forward), &
+                 kind_of_cosines => merge(FFTW_REDFT10, FFTW_REDFT01, transform == values_to_cosines))
+         select case (merge(transform, -transform, precision == dp))
          case (real_to_waves)
             plan = fftw_plan_dft_r2c_1d(length, values, waves, flags)
+            execute = c_funloc(fftw_execute_dft_r2c)
          case (waves_to_real)
             plan = fftw_plan_dft_c2r_1d(length, waves, values, flags)
-         case (values_to_cosines, cosines_to_values)
-            plan = fftw_plan_r2r_1d(length, values, more_values, &
-                                    merge(FFTW_REDFT10, FFTW_REDFT01, transform == values_to_cosines), flags)
-         case default
+            execute = c_funloc(fftw_execute_dft_c2r)
+         case (waves_forward, waves_backward)
             plan = fftw_plan_dft_1d(length, waves, more_waves, sign_of_waves, flags)
-         end select
-      else
-         allocate (single_values(length), single_waves(length), more_single_waves(length))
-         select case (transform)
-         case (real_to_waves)
+            execute = c_funloc(fftw_execute_dft)
+         case (values_to_cosines, cosines_to_values)
+            plan = fftw_plan_r2r_1d(length, values, more_values, kind_of_cosines, flags)
+            execute = c_funloc(fftw_execute_r2r)
+         case (-real_to_waves)
             plan = fftwf_plan_dft_r2c_1d(length, single_values, single_waves, flags)
-         case (waves_to_real)
+            execute = c_funloc(fftwf_execute_dft_r2c)
+         case (-waves_to_real)
             plan = fftwf_plan_dft_c2r_1d(length, single_waves, single_values, flags)
-         case default
+            execute = c_funloc(fftwf_execute_dft_c2r)
+         case (-waves_forward, -waves_backward)
             plan = fftwf_plan_dft_1d(length, single_waves, more_single_waves, sign_of_waves, flags)
+            execute = c_funloc(fftwf_execute_dft)
          end select
-      end if
+      end associate
+      call c_f_procpointer(execute, new%execute)
    end function new_plan
 
 end module wavycon_line_plans

@@ -46,12 +46,7 @@ contains
       else
          own = transpose(reshape([series%wave%re, series%wave%im], [size(series%wave, 1), 2*size(series%wave, 2)]))
       end if
-      if (first_only) then
-         call rows%gather_to_first(own, whole)
-      else
-         allocate (whole(size(own, 1), rows%points(2)))
-         call rows%gather(8*size(own, 1), own, whole, first_only=.false.)
-      end if
+      call rows%gather_whole(own, whole, first_only)
       if (.not. allocated(whole)) return
       series%distributed_waves = 0
       if (series%is_even()) then

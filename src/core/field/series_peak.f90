@@ -2,6 +2,7 @@
 module wavycon_series_peak
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series, turn
+   use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
    use wavycon_newton_maximiser, only: newton_maximiser
    use wavycon_kinds, only: dp
@@ -56,7 +57,7 @@ contains
       peak = -huge(peak)
       place = 0.0_dp
       do i = 1, most_crests
-         crest = [transform%x_angle(best(1)), transform%y_angle(best(2))]
+         crest = point_angle(best, transform%points, transform%even)
          call field%maximise(crest, found)
          if (found > peak + rounding*largest) then
             peak = found

@@ -11,34 +11,31 @@ module wavycon_compliance_operator
    use wavycon_kinds, only: dp, sp
    use wavycon_surface, only: surface_type
    use wavycon_threads, only: threads_for
+   use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private
 
    public :: compliance_operator
 
    type :: compliance_operator
-      integer :: transform_pairs = 0               !! number of applications so far to fields in double precision
-      integer :: single_pairs = 0                  !! the same in single precision
+      integer :: transform_pairs = 0               !! number of applications so far
       integer :: points(2) = 0                     !! of the grid that it was started on
       !> Whether the points are those of a quarter of an even surface's cell.
       logical :: even = .true.
-      !> Stiffness of a harmonic whose wavelength is a step in x or y [p*/Delta].
+      type(wave_stiffness) :: kernel               !! of the surface
+      !> Stiffness of a harmonic of the half-space whose wavelength is a step in x or y [p*/Delta].
       real(dp) :: stiffness_per_step(2) = 0.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
       type(convolution_dp), private :: in_double
       type(convolution_sp), private :: in_single
-      type(convolution_dp), private :: free_double
-      type(convolution_sp), private :: free_single
+      type(convolution_sp), private :: with_images   !! of a surface with free edges, in single precision
    contains
       procedure :: start
       !> From a pressure [p*] to its displacement [Delta], in place: u - ubar, with free edges u.
       generic :: displacement => displacement_dp, displacement_sp
-      !> From a displacement [Delta] to its pressure p - pbar [p*] on a periodic surface, in place.
-      generic :: pressure => pressure_dp, pressure_sp
+      procedure :: pressure
       procedure, private :: displacement_dp
       procedure, private :: displacement_sp
-      procedure, private :: pressure_dp
-      procedure, private :: pressure_sp
    end type compliance_operator
 
 contains
@@ -49,42 +46,30 @@ contains
       integer, intent(in) :: points(2)   !! M, N >= 1, of the whole cell, or of a quarter of an even surface's cell
       integer, intent(in), optional :: part(2)   !! points of the part of this grid that it is for, of free edges
 
-      real(dp), allocatable :: kernel(:, :), square_x(:), square_y(:)
-      real(dp) :: frequency(2), step(2)
-      integer :: i
+      real(dp), allocatable :: love(:, :)
+      real(dp) :: per_wave(2), step(2)
 
       self%even = surface%shape%is_even()
       self%points = points
       if (present(part)) self%points = part
+      self%kernel = surface%kernel
       self%is_free = surface%has_free_edges
       step = surface%length/(merge(2, 1, self%even)*points)
       if (points(2) == 1) step(2) = surface%length(2)
       self%stiffness_per_step = surface%stiffness/step
-      associate (points => self%points, stiffness => surface%stiffness)
-         ! Stiffness over wavelength, squared: of the order of one in any unit of length.
-         frequency = stiffness/(merge(2, 1, self%even .and. points > 1)*points*step)
-         square_x = (frequency(1)*[(wave(i, points(1)), i=0, points(1) - 1)])**2
-         square_y = (frequency(2)*[(wave(i, points(2)), i=0, points(2) - 1)])**2
-         call self%in_double%start(self%even, square_x, square_y)
-         call self%in_single%start(self%even, square_x, square_y)
-         if (.not. self%is_free) return
-         call free_kernel(points, step, kernel)
-         kernel = kernel/stiffness
-      end associate
-      call transform_of_kernel(kernel)
-      call self%free_double%start_free(kernel)
-      call self%free_single%start_free(kernel)
-
-   contains
-
-      !> The wave number of an index of the spectrum, without sign.
-      pure integer function wave(index, length)
-         integer, intent(in) :: index    !! from 0
-         integer, intent(in) :: length
-
-         wave = merge(index, min(index, length - index), self%even)
-      end function wave
-
+      ! Stiffness over wavelength: of the order of one in any unit of length.
+      per_wave = surface%stiffness/(merge(2, 1, self%even .and. self%points > 1)*self%points*step)
+      if (self%is_free) then
+         call free_kernel(self%points, step, love)
+         love = love/surface%stiffness
+         call transform_of_kernel(love)
+         call self%in_double%start_free(love)
+         call self%in_single%start_free(love)
+         call self%with_images%start(self%points, self%even, self%kernel, per_wave)
+      else
+         call self%in_double%start(self%points, self%even, self%kernel, per_wave)
+         call self%in_single%start(self%points, self%even, self%kernel, per_wave)
+      end if
    end subroutine start
 
    subroutine displacement_dp(self, field, nonzero, wanted)
@@ -93,11 +78,7 @@ contains
       logical, intent(in), optional :: nonzero(:)   !! own columns that may not be zero; default: all
       logical, intent(in), optional :: wanted(:)    !! own columns of the result that are needed, others are undefined
 
-      if (self%is_free) then
-         call self%free_double%apply_free(field, threads_for(size(field)), nonzero, wanted)
-      else
-         call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
-      end if
+      call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
       self%transform_pairs = self%transform_pairs + 1
    end subroutine displacement_dp
 
@@ -107,32 +88,22 @@ contains
       real(sp), intent(inout), contiguous :: field(:, :)
       logical, intent(in), optional :: nonzero(:), wanted(:)
 
-      if (self%is_free) then
-         call self%free_single%apply_free(field, threads_for(size(field)), nonzero, wanted)
-      else
-         call self%in_single%apply(field, -1, threads_for(size(field)), nonzero, wanted)
-      end if
-      self%single_pairs = self%single_pairs + 1
+      call self%in_single%apply(field, -1, threads_for(size(field)), nonzero, wanted)
+      self%transform_pairs = self%transform_pairs + 1
    end subroutine displacement_sp
 
-   !> As `displacement_dp`.
-   subroutine pressure_dp(self, field, nonzero, wanted)
+   !> From a displacement [Delta] to its pressure p - pbar [p*] on a periodic surface, in place. Free edges have that of
+   !> the mirror images.
+   subroutine pressure(self, field)
       class(compliance_operator), intent(inout) :: self
-      real(dp), intent(inout), contiguous :: field(:, :)
-      logical, intent(in), optional :: nonzero(:), wanted(:)
+      real(sp), intent(inout), contiguous :: field(:, :)   !! the own columns of the slab
 
-      call self%in_double%apply(field, 1, threads_for(size(field)), nonzero, wanted)
+      if (self%is_free) then
+         call self%with_images%apply(field, 1, threads_for(size(field)))
+      else
+         call self%in_single%apply(field, 1, threads_for(size(field)))
+      end if
       self%transform_pairs = self%transform_pairs + 1
-   end subroutine pressure_dp
-
-   !> As `displacement_dp`.
-   subroutine pressure_sp(self, field, nonzero, wanted)
-      class(compliance_operator), intent(inout) :: self
-      real(sp), intent(inout), contiguous :: field(:, :)
-      logical, intent(in), optional :: nonzero(:), wanted(:)
-
-      call self%in_single%apply(field, 1, threads_for(size(field)), nonzero, wanted)
-      self%single_pairs = self%single_pairs + 1
-   end subroutine pressure_sp
+   end subroutine pressure
 
 end module wavycon_compliance_operator

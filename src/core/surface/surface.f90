@@ -4,6 +4,7 @@ module wavycon_surface
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series, weighted
+   use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
@@ -177,7 +178,7 @@ contains
       call transform%start(slab%points, self%shape%is_even())
       call transform%sample(self%shape, h)
       if (self%has_steps) call sample_blocks(self, [0.5_dp, 0.5_dp], h)
-      call self%form%subtract_from(h, [transform%x_angle(1), transform%y_angle(slab%first)], &
+      call self%form%subtract_from(h, point_angle([1, slab%first], transform%points, transform%even), &
                                    2*pi/(self%parts()*slab%points))
       h = 1.0_dp - h
    end subroutine sample_gap

@@ -58,8 +58,8 @@ contains
       surface%has_steps = surface%has_steps .and. surface%has_free_edges .and. &
                           (sum(extremes) > 0.0_dp .or. surface%form%is_flat())
       allocate (values, source=height)
-      call surface%form%subtract_from(values, [transform%x_angle(1), transform%y_angle(transform%slab%first)], &
-                                      2*pi/surface%points)
+      call surface%form%subtract_from( &
+         values, point_angle([1, transform%slab%first], transform%points, transform%even), 2*pi/surface%points)
       call transform%slab%find_largest(values, surface%amplitude, crest)
       surface%amplitude = surface%amplitude - mean(1)
       if (surface%has_steps .and. surface%amplitude <= 0.0_dp) then

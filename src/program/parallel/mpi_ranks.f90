@@ -4,9 +4,9 @@ module wavycon_mpi_ranks
    use mpi_f08, only: mpi_abort, mpi_address_kind, mpi_allreduce, mpi_alltoallv, mpi_alltoallw, mpi_byte, mpi_comm, &
       mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
       mpi_datatype, mpi_double_precision, mpi_finalize, mpi_get_library_version, mpi_ibarrier, mpi_in_place, &
-      mpi_info_null, mpi_init_thread, mpi_integer8, mpi_irecv, mpi_isend, mpi_max, mpi_max_library_version_string, &
-      mpi_proc_null, mpi_request, mpi_status_ignore, mpi_statuses_ignore, mpi_sum, mpi_test, mpi_thread_funneled, &
-      mpi_type_commit, mpi_type_contiguous, mpi_type_create_hindexed_block, mpi_type_free, mpi_type_vector, mpi_waitall
+      mpi_info_null, mpi_init_thread, mpi_integer8, mpi_max, mpi_max_library_version_string, mpi_request, &
+      mpi_status_ignore, mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
+      mpi_type_create_hindexed_block, mpi_type_free, mpi_type_vector
    use wavycon_error, only: exit_bad_input, exit_file_trouble
    use wavycon_kinds, only: dp
    use wavycon_ranks, only: communicator, use_communicator
@@ -20,7 +20,6 @@ module wavycon_mpi_ranks
       procedure, nopass :: add_reals
       procedure, nopass :: add_integers
       procedure, nopass :: largest
-      procedure, nopass :: exchange
       procedure :: move
       procedure :: exchange_rows
       procedure :: finish
@@ -71,25 +70,6 @@ contains
 
       call mpi_allreduce(mpi_in_place, values, size(values), mpi_double_precision, mpi_max, mpi_comm_world)
    end subroutine largest
-
-   subroutine exchange(low, high, bytes, to_low, to_high, from_low, from_high)
-      integer, intent(in) :: low, high, bytes
-      type(*), intent(in), target :: to_low(*), to_high(*)
-      type(*), intent(inout), target :: from_low(*), from_high(*)
-
-      !> Two ranks may be neighbours on both sides: the tag tells which block a message is.
-      integer, parameter :: downwards = 1, upwards = 2
-      integer :: above, below
-      type(mpi_request) :: requests(4)
-
-      below = merge(low, mpi_proc_null, low >= 0)
-      above = merge(high, mpi_proc_null, high >= 0)
-      call mpi_irecv(from_low, bytes, mpi_byte, below, upwards, mpi_comm_world, requests(1))
-      call mpi_isend(to_low, bytes, mpi_byte, below, downwards, mpi_comm_world, requests(2))
-      call mpi_irecv(from_high, bytes, mpi_byte, above, downwards, mpi_comm_world, requests(3))
-      call mpi_isend(to_high, bytes, mpi_byte, above, upwards, mpi_comm_world, requests(4))
-      call mpi_waitall(size(requests), requests, mpi_statuses_ignore)
-   end subroutine exchange
 
    !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.
    subroutine move(self, column_bytes, have, own, want, wanted)
