@@ -23,8 +23,8 @@ module wavycon_multilevel_preconditioner
       logical, private :: even = .false.       !! whether the field is mirrored at the borders; otherwise it is periodic
       real(sp), private :: decay = 1.0_sp      !! factor of a value for each doubling of the distance from the contact
       type(grid_slab), private :: slab         !! the columns of the grid
-      !> Part of a point's area that is in contact, on the finest grid 1 or 0; own columns, shape (M, columns). Allocated
-      !> by `start`.
+      !> Part of a point's area that is in contact, on the finest grid 1 or 0; own columns, shape (M, columns).
+      !> Allocated by `start`.
       real(sp), allocatable :: contact(:, :)
       type(multilevel_preconditioner), allocatable, private :: coarser   !! of half the points, unless this is coarsest
       type(grid_slab), private :: part         !! its columns whose means are taken from these: all or some
@@ -96,8 +96,8 @@ contains
    !> coarser grid.
    recursive subroutine extend(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
-      !> Zero outside the contact, own columns, shape (M, columns); on coarser grids means over the area in contact times
-      !> it.
+      !> Zero outside the contact, own columns, shape (M, columns); on coarser grids means over the area in contact
+      !> times it.
       real(sp), intent(inout), contiguous :: field(:, :)
 
       if (allocated(self%coarser)) then

@@ -1,5 +1,5 @@
-!> The kernel: how stiffly the bodies under a surface hold a wave of its displacement. Series and grids ask the surface's
-!> kernel for it, and nothing else knows it.
+!> The kernel: how stiffly the bodies under a surface hold a wave of its displacement. Series and grids ask the
+!> surface's kernel for it, and nothing else knows it.
 module wavycon_wave_stiffness
    use wavycon_kinds, only: dp, sp
    implicit none (type, external)
@@ -11,8 +11,8 @@ module wavycon_wave_stiffness
    !> component, in the unit of length of the frequencies.
    type :: wave_stiffness
    contains
-      !> From squared frequencies of waves, 1/wavelength^2, to their stiffness, pressure over displacement, in place. Its
-      !> unit is such that it is the frequency for short waves: at the scale of a short wave every body is a half-space.
+      !> From squared frequencies of waves, 1/wavelength^2, to their stiffness, pressure over displacement, in place.
+      !> Its unit is such that it is the frequency for short waves: at their scale every body is a half-space.
       generic :: of => of_dp, of_sp
       procedure, nopass, private :: of_dp, of_sp
    end type wave_stiffness
