@@ -161,6 +161,8 @@ contains
          call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity, keys(1), keys))
          return
       end if
+      ! As of a deck that has the group.
+      values%place = 1
       call keys(1)%take_value(k, number=value)
       call keys(1)%check_relations()
       call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)

@@ -32,8 +32,9 @@ contains
    pure logical function is_ball(surface)
       type(surface_type), intent(in) :: surface
 
-      is_ball = surface%has_free_edges .and. surface%dimension == 2 .and. all(surface%form%c > 0.0_dp) .and. &
-                all(abs(surface%shape%c) <= 0.0_dp)
+      is_ball = surface%has_free_edges .and. surface%dimension == 2 .and. all(surface%form%c > 0.0_dp)
+      ! Only an even series has the array.
+      if (is_ball) is_ball = all(abs(surface%shape%c) <= 0.0_dp)
    end function is_ball
 
    !> The paraboloid [length]: half its curvatures over the square of an angle.
