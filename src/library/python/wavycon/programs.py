@@ -55,7 +55,7 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             running.discard(process)
             if table.exists():
-                lines = [line for line in table.open() if not line.startswith("#")]
+                lines = [line for line in table.read_text().splitlines(True) if not line.startswith("#")]
                 rows = pandas.read_csv(io.StringIO("".join(lines)), sep=r"\s+", quoting=csv.QUOTE_NONE,
                                        float_precision="round_trip").loc[:, "load":]
             else:
