@@ -49,7 +49,8 @@ contains
          rank (0)
             one%numbers = [x]
          rank (1)
-            one%numbers = x
+            ! With gfortran 12 x may begin at 0, and then a plain copy would.
+            one%numbers = [x]
          rank (2)
             one%numbers = reshape(x, [size(x)])
          end select
@@ -77,7 +78,7 @@ contains
          rank (0)
             one%numbers = [real(x, dp)]
          rank (1)
-            one%numbers = real(x, dp)
+            one%numbers = [real(x, dp)]
          rank (2)
             one%numbers = reshape(real(x, dp), [size(x)])
          end select
@@ -106,7 +107,7 @@ contains
          rank (0)
             one%numbers = [merge(1.0_dp, 0.0_dp, x)]
          rank (1)
-            one%numbers = merge(1.0_dp, 0.0_dp, x)
+            one%numbers = [merge(1.0_dp, 0.0_dp, x)]
          rank (2)
             one%numbers = reshape(merge(1.0_dp, 0.0_dp, x), [size(x)])
          end select
