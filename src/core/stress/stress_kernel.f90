@@ -42,13 +42,11 @@ contains
       real(dp), intent(inout) :: fields(stress_fields)        !! of surface_field the first one
 
       real(dp), dimension(n) :: inverse, r
-      real(dp) :: along, cross, difference, factors(stress_fields), fifth, im, l, of_dh, re, seventh, third, &
-         total(stress_fields)
+      real(dp) :: along, cross, difference, fifth, im, l, of_dh, re, seventh, third, total(stress_fields)
       integer :: i
 
       ! Roots and quotients of arrays are of vectors.
       total = 0.0_dp
-      factors = 1.0_dp
       if (kernel == surface_field .and. source == of_pressure) then
          total(1) = sum(strength_x/sqrt(x**2 + y**2))
       else if (kernel == surface_field) then
@@ -67,7 +65,7 @@ contains
             im = 2*x(i)*y(i)
             total = total + [third, third - 3*z**2*fifth, l*re, l*im, fifth*re, fifth*im, fifth*x(i), fifth*y(i)]
          end do
-         factors = [z, z, 1.0_dp, 1.0_dp, 3*z, 3*z, -3*z**2, -3*z**2]/(2*pi)
+         total = total*[z, z, 1.0_dp, 1.0_dp, 3*z, 3*z, -3*z**2, -3*z**2]/(2*pi)
       else if (source == of_gap) then
          ! (F56).
          inverse = 1.0_dp/sqrt(x**2 + y**2 + z**2)
@@ -80,7 +78,7 @@ contains
             total = total + [fifth*(2*z**2 - x(i)**2 - y(i)**2), 9*fifth - 15*z**2*seventh, fifth*re, fifth*im, &
                              seventh*re, seventh*im, of_dh*x(i), of_dh*y(i)]
          end do
-         factors = [1.0_dp, z**2, 3.0_dp, 3.0_dp, 15*z**2, 15*z**2, z, z]/(4*pi**2)
+         total = total*[1.0_dp, z**2, 3.0_dp, 3.0_dp, 15*z**2, 15*z**2, z, z]/(4*pi**2)
       else
          ! (F53).
          inverse = 1.0_dp/sqrt(x**2 + y**2 + z**2)
@@ -94,9 +92,9 @@ contains
             total = total + [along*third, along*fifth, difference*third, cross*third, difference*fifth, cross*fifth, &
                              strength_x(i)*of_dh, strength_y(i)*of_dh]
          end do
-         factors = [1.0_dp, -3*z**2, -1.0_dp, -1.0_dp, -3*z**2, -3*z**2, -z, -z]/(4*pi**2)
+         total = total*[1.0_dp, -3*z**2, -1.0_dp, -1.0_dp, -3*z**2, -3*z**2, -z, -z]/(4*pi**2)
       end if
-      fields = fields + total*factors
+      fields = fields + total
    end subroutine add_sources
 
    !> The stresses from the fields, (F51): xx, yy, zz, xy, xz, yz as parts(:, 1) + nu parts(:, 2).
