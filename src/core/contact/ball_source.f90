@@ -20,7 +20,7 @@ module wavycon_ball_source
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
-   use wavycon_solution_record, only: by_closed_form, solution_record
+   use wavycon_solution_record, only: by_closed_form
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -116,13 +116,11 @@ contains
       mean = mean*contact%peak_pressure*product(contact%half_axis)/(pi*surface%nominal_area()*surface%amplitude)
    end function mean_displacement
 
-   subroutine fields(self, record, surface, answer)
+   subroutine fields(self, surface, answer)
       class(ball_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      associate (unused => record); end associate
       allocate (answer, source=ball_fields(surface=surface, contact=self%contact))
    end subroutine fields
 
@@ -178,9 +176,8 @@ contains
    end subroutine on_grid
 
    !> The ellipse and its mirror images.
-   subroutine contact_contours(self, record, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves, loads)
       class(ball_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
@@ -190,7 +187,6 @@ contains
       integer :: k
       real(dp) :: axes(2), t(0:points)
 
-      associate (unused => record); end associate
       axes = 2*pi*self%contact%half_axis/surface%length
       t = [(2*pi*modulo(k, points)/points, k=0, points)]
       allocate (curves(4))
@@ -202,9 +198,8 @@ contains
    end subroutine contact_contours
 
    !> Of the ball on a rectangle of its own, four half axes wide.
-   subroutine stresses(self, record, surface, answer)
+   subroutine stresses(self, surface, answer)
       class(ball_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
@@ -218,7 +213,7 @@ contains
       stress%unit = own%full_contact_pressure(1.0_dp)/surface%full_contact_pressure(1.0_dp)
       associate (areas => surface%nominal_area()/own%nominal_area())
          call solver%start(own, grid_options(accuracy=self%accuracy), keep_fields=.true.)
-         call solver%solve(record%pbar_over_pstar*areas/stress%unit, solution)
+         call solver%solve(self%record%pbar_over_pstar*areas/stress%unit, solution)
       end associate
       call solution%stresses(own, stress%own)
       stress%scale = [surface%length, surface%length(1)]/[own%length, own%length(1)]
@@ -262,13 +257,12 @@ contains
    end subroutine start_places
 
    !> Of the powers of the force: 2/3 of approach and area.
-   subroutine derivatives(self, record, surface, answer)
+   subroutine derivatives(self, surface, answer)
       class(ball_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(quantities), intent(out) :: answer
 
-      associate (unused => self, unused_too => surface, p => record%pbar_over_pstar)
+      associate (unused => surface, record => self%record, p => self%record%pbar_over_pstar)
          answer%value(gap_slope) = -record%value(approach)*2/(3*p)
          answer%value(area_slope) = record%value(contact_area)*2/(3*p)
          answer%value(gap_curvature) = record%value(approach)*2/(9*p**2)

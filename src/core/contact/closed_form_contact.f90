@@ -18,7 +18,7 @@ module wavycon_closed_form_contact
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
-   use wavycon_solution_record, only: by_closed_form, no_solution, solution_record
+   use wavycon_solution_record, only: by_closed_form, no_solution
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -110,14 +110,13 @@ contains
       end associate
    end subroutine solve_partial_contact
 
-   subroutine fields(self, record, surface, answer)
+   subroutine fields(self, surface, answer)
       class(closed_form_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      associate (unused => self, unused_too => surface); end associate
-      allocate (answer, source=closed_form_fields(pbar_over_pstar=record%pbar_over_pstar))
+      associate (unused => surface); end associate
+      allocate (answer, source=closed_form_fields(pbar_over_pstar=self%record%pbar_over_pstar))
    end subroutine fields
 
    !> Eqs. (4) and (5) of the paper. Its psi is half of X.
@@ -132,26 +131,24 @@ contains
       gap = westergaard_gap_over_amplitude(x/2, self%pbar_over_pstar)
    end subroutine at
 
-   subroutine contact_contours(self, record, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves, loads)
       class(closed_form_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
-      associate (unused => self, unused_too => surface); end associate
-      call make_strips([pi*record%value(contact_area)], .true., .true., curves)
+      associate (unused => surface); end associate
+      call make_strips([pi*self%record%value(contact_area)], .true., .true., curves)
       loads = [1.0_dp]
    end subroutine contact_contours
 
-   subroutine stresses(self, record, surface, answer)
+   subroutine stresses(self, surface, answer)
       class(closed_form_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
-      associate (unused => self, unused_too => surface); end associate
-      allocate (answer, source=closed_form_stress(pbar_over_pstar=record%pbar_over_pstar, dimension=1))
+      associate (unused => surface); end associate
+      allocate (answer, source=closed_form_stress(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1))
    end subroutine stresses
 
    !> The stresses under Westergaard's pressure.
@@ -192,13 +189,12 @@ contains
    end subroutine start_places
 
    !> Of (20) and of A = 2 psi/pi, P = sin^2 psi (7). Both ends of a strip are alike.
-   subroutine derivatives(self, record, surface, answer)
+   subroutine derivatives(self, surface, answer)
       class(closed_form_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(quantities), intent(out) :: answer
 
-      associate (unused => self, unused_too => surface, p => record%pbar_over_pstar)
+      associate (unused => surface, record => self%record, p => self%record%pbar_over_pstar)
          answer%value(gap_slope) = log(p)
          answer%value(area_slope) = 1.0_dp/(pi*sqrt(p*(1.0_dp - p)))
          answer%value(gap_curvature) = 1.0_dp/p

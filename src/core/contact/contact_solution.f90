@@ -84,7 +84,7 @@ contains
       type(series_fields), allocatable :: own
 
       if (allocated(self%source)) then
-         call self%source%fields(self%solution_record, surface, answer)
+         call self%source%fields(surface, answer)
       else
          allocate (own)
          call start_edgeless_fields(own, surface, self%pbar_over_pstar, self%status)
@@ -104,7 +104,7 @@ contains
       real(dp), allocatable :: loads_of_spots(:)
 
       if (allocated(self%source)) then
-         call self%source%contact_contours(self%solution_record, surface, curves, loads_of_spots)
+         call self%source%contact_contours(surface, curves, loads_of_spots)
       else
          allocate (curves(0), loads_of_spots(0))
       end if
@@ -122,7 +122,7 @@ contains
       type(series_stress), allocatable :: own
 
       if (allocated(self%source)) then
-         call self%source%stresses(self%solution_record, surface, answer)
+         call self%source%stresses(surface, answer)
       else if (self%status /= full_contact .and. self%status /= no_load) then
          allocate (answer, source=stress_fields(exist=.false.))
       else
@@ -163,7 +163,7 @@ contains
       type(fourier_series), intent(out) :: series
 
       if (allocated(self%source)) then
-         call self%source%coefficients(self%solution_record, series)
+         call self%source%coefficients(series)
       else if (self%status == full_contact) then
          series = full_contact_series(surface, self%pbar_over_pstar)
       else
@@ -194,7 +194,7 @@ contains
       type(quantities), intent(out) :: answer
 
       if (allocated(self%source)) then
-         call self%source%derivatives(self%solution_record, surface, answer)
+         call self%source%derivatives(surface, answer)
       else if (self%status == full_contact) then
          answer%value([gap_slope, area_slope]) = 0.0_dp
          answer%error([gap_slope, area_slope]) = 0.0_dp
@@ -259,6 +259,7 @@ contains
       complete = size(words) == record_words
       if (complete) return
       if (.not. allocated(self%source)) allocate (grid_source :: self%source)
+      self%source%record = self%solution_record
       select type (source => self%source)
       type is (grid_source)
          call source%unpack(transfer(words(record_words + 1:), [0.0_dp]), whole, complete)

@@ -113,6 +113,7 @@ contains
                solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
             else
                call self%solve_partial_contact(pbar_over_pstar, solution)
+               if (allocated(solution%source)) solution%source%record = solution%solution_record
             end if
          end if
       end associate

@@ -17,9 +17,10 @@ module wavycon_field_source
 
    public :: field_source
 
-   !> All that the procedures need besides the record of the solution and the surface. Of the procedures the deferred
-   !> ones must be written; the others have defaults.
+   !> All that the procedures need besides the surface. Of the procedures the deferred ones must be written; the others
+   !> have defaults.
    type, abstract :: field_source
+      type(solution_record) :: record    !! the numbers of the solution: `solve` of contact_solver sets it
       !> of the grid if its columns are distributed over the ranks, otherwise 0
       integer(int64) :: distributed_points = 0
    contains
@@ -34,19 +35,17 @@ module wavycon_field_source
 
    abstract interface
       !> Pressure, displacement and gap.
-      subroutine fields_of_source(self, record, surface, answer)
-         import :: contact_fields, field_source, solution_record, surface_type
+      subroutine fields_of_source(self, surface, answer)
+         import :: contact_fields, field_source, surface_type
          class(field_source), intent(in) :: self
-         type(solution_record), intent(in) :: record           !! of the solution
          type(surface_type), intent(in) :: surface             !! that was solved
          class(contact_fields), allocatable, intent(out) :: answer
       end subroutine fields_of_source
 
       !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D.
-      subroutine edge_of_source(self, record, surface, curves, loads)
-         import :: dp, contact_contour, field_source, solution_record, surface_type
+      subroutine edge_of_source(self, surface, curves, loads)
+         import :: dp, contact_contour, field_source, surface_type
          class(field_source), intent(in) :: self
-         type(solution_record), intent(in) :: record           !! of the solution
          type(surface_type), intent(in) :: surface             !! that was solved
          type(contact_contour), allocatable, intent(out) :: curves(:)
          !> What each spot carries of the load, by their numbers; of no size if that is not known.
@@ -54,19 +53,17 @@ module wavycon_field_source
       end subroutine edge_of_source
 
       !> The stresses below the surface.
-      subroutine stresses_of_source(self, record, surface, answer)
-         import :: field_source, solution_record, stress_fields, surface_type
+      subroutine stresses_of_source(self, surface, answer)
+         import :: field_source, stress_fields, surface_type
          class(field_source), intent(in) :: self
-         type(solution_record), intent(in) :: record           !! of the solution
          type(surface_type), intent(in) :: surface             !! that was solved
          class(stress_fields), allocatable, intent(out) :: answer
       end subroutine stresses_of_source
 
       !> How the solution changes with the load.
-      subroutine slopes_of_source(self, record, surface, answer)
-         import :: field_source, quantities, solution_record, surface_type
+      subroutine slopes_of_source(self, surface, answer)
+         import :: field_source, quantities, surface_type
          class(field_source), intent(in) :: self
-         type(solution_record), intent(in) :: record           !! of the solution
          type(surface_type), intent(in) :: surface             !! that was solved
          type(quantities), intent(out) :: answer               !! where unknown NaN
       end subroutine slopes_of_source
@@ -75,12 +72,11 @@ module wavycon_field_source
 contains
 
    !> p/p* as the Fourier series in X and Y that the solver computed; series%c is not allocated here: there is none.
-   subroutine coefficients(self, record, series)
+   subroutine coefficients(self, series)
       class(field_source), intent(in) :: self
-      type(solution_record), intent(in) :: record    !! of the solution
       type(fourier_series), intent(out) :: series
 
-      associate (unused => self, unused_too => record, none => series); end associate
+      associate (unused => self, none => series); end associate
    end subroutine coefficients
 
    !> Adds the quantities that are only computed when they are asked for. Here there are none.

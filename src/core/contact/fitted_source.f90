@@ -13,7 +13,6 @@ module wavycon_fitted_source
    use wavycon_load_slopes, only: find_load_slopes
    use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, least_intensity, most_intensity, &
       perimeter, quantities, saddle_gap, saddle_pressure, trough_gap, unknown
-   use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -47,15 +46,14 @@ module wavycon_fitted_source
 
 contains
 
-   subroutine fields(self, record, surface, answer)
+   subroutine fields(self, surface, answer)
       class(fitted_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
       type(fitted_contact_fields), allocatable :: own
 
-      associate (unused => record, unused_too => surface); end associate
+      associate (unused => surface); end associate
       allocate (own)
       own%frame = self%frame
       own%symmetry = self%frame%symmetry()
@@ -65,16 +63,15 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine stresses(self, record, surface, answer)
+   subroutine stresses(self, surface, answer)
       class(fitted_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fitted_stress_fields), allocatable :: own
 
       allocate (own)
-      call start_fitted_stress_fields(own, surface, self%frame, self%answer, self%accuracy, record%pbar_over_pstar)
+      call start_fitted_stress_fields(own, surface, self%frame, self%answer, self%accuracy, self%record%pbar_over_pstar)
       call move_alloc(own, answer)
    end subroutine stresses
 
@@ -97,9 +94,8 @@ contains
    end subroutine prepare_places
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
-   subroutine contact_contours(self, record, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves, loads)
       class(fitted_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
@@ -128,8 +124,8 @@ contains
          curves(k)%spot = merge(1, k, self%answer%pool)
          curves(k)%pool = merge(k, 1, self%answer%pool)
          curves(k)%area = (2*pi)**2/size(curves)* &
-                          (record%value(contact_area) - merge(1, 0, self%answer%pool))
-         curves(k)%length = record%value(perimeter)
+                          (self%record%value(contact_area) - merge(1, 0, self%answer%pool))
+         curves(k)%length = self%record%value(perimeter)
       end do
       associate (count => merge(1, size(curves), self%answer%pool))
          allocate (loads(count), source=1.0_dp/count)
@@ -150,16 +146,15 @@ contains
    end subroutine details
 
    !> From one more linear system of Newton's method, in units of p*.
-   subroutine derivatives(self, record, surface, answer)
+   subroutine derivatives(self, surface, answer)
       class(fitted_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(quantities), intent(out) :: answer
 
       logical :: found
       real(dp) :: errors(3), intensities(2), slopes(3)
 
-      associate (unused => record, unused_too => surface); end associate
+      associate (unused => surface); end associate
       call find_load_slopes(self%frame%lattice, self%answer, slopes, errors, intensities, found)
       if (.not. found) return
       associate (units => self%frame%pressure_unit**[1, 1, 2])

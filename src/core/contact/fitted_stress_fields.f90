@@ -18,7 +18,6 @@ module wavycon_fitted_stress_fields
    type, extends(stress_fields) :: fitted_stress_fields
       private
       type(fitted_frame) :: frame
-      type(fitted_answer) :: answer
       type(fitted_stress) :: fitted
    contains
       procedure :: at
@@ -39,7 +38,6 @@ contains
       fields%side_ratio = surface%length(2)/surface%length(1)
       fields%frame = frame
       fields%symmetry = frame%symmetry()
-      fields%answer = answer
       call start_fitted_stress(fields%fitted, frame%lattice, answer, accuracy)
    end subroutine start_fitted_stress_fields
 
@@ -90,15 +88,15 @@ contains
       real(dp) :: radius
       integer :: directions, i, k, n
 
-      associate (shape => self%answer%solution%shape)
-         centre = merge(self%frame%lattice%trough, (0.0_dp, 0.0_dp), self%answer%pool)
+      associate (shape => self%fitted%answer%solution%shape)
+         centre = merge(self%frame%lattice%trough, (0.0_dp, 0.0_dp), self%fitted%answer%pool)
          directions = 2*shape%fold
          allocate (edge(directions/2 + 1))
          edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
          radius = maxval(abs(edge))
       end associate
       allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])
-      if (self%answer%pool) then
+      if (self%fitted%answer%pool) then
          at_surface = [at_surface, (0.0_dp, 0.0_dp), self%frame%lattice%saddle, 0.5_dp*self%frame%lattice%saddle, &
                        0.5_dp*self%frame%lattice%trough, 0.25_dp*self%frame%lattice%trough]
          below = [radius*depths_of_spot, depths_of_cell]

@@ -20,7 +20,6 @@ module wavycon_grid_source
    use wavycon_series_stress, only: series_stress, start_series_stress
    use wavycon_paper_wave, only: smaller_cell
    use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
-   use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -79,22 +78,20 @@ contains
       call self%take_edge(whole)
    end subroutine collect
 
-   subroutine fields(self, record, surface, answer)
+   subroutine fields(self, surface, answer)
       class(grid_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
       type(grid_fields), allocatable :: own
 
       allocate (own)
-      call start_grid_fields(own, surface, self%edge, record%value(approach), self%rotated)
+      call start_grid_fields(own, surface, self%edge, self%record%value(approach), self%rotated)
       call move_alloc(own, answer)
    end subroutine fields
 
-   subroutine contact_contours(self, record, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves, loads)
       class(grid_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
@@ -103,7 +100,6 @@ contains
       real(dp), allocatable :: edges(:)
       integer :: i
 
-      associate (unused => record); end associate
       if (surface%dimension == 2) then
          if (self%rotated) then
             ! The surface's cell consists of two cells of the grid.
@@ -130,9 +126,8 @@ contains
    !> and the part of the series' last octave; it is unknown where that of the peak is. With free edges the series has
    !> zeros beyond the map, and the stresses are those without its images. Without the memory for the series there are
    !> no stresses.
-   subroutine stresses(self, record, surface, answer)
+   subroutine stresses(self, surface, answer)
       class(grid_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
@@ -156,31 +151,30 @@ contains
       end associate
       ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would be
       ! P - 1.
-      error = record%error(peak_pressure)
-      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - record%pbar_over_pstar)
+      error = self%record%error(peak_pressure)
+      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%record%pbar_over_pstar)
       call transform%start(shape(values), self%edge%even .and. parts == 1, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
       if (self%rotated) pressure = to_difference_angles(pressure)
       allocate (own)
-      call start_series_stress(own, surface, pressure, record%pbar_over_pstar/parts**2, or_nan(error), &
+      call start_series_stress(own, surface, pressure, self%record%pbar_over_pstar/parts**2, or_nan(error), &
                                is_sampled=.true.)
       if (parts > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses
 
    !> From solutions of the same grid at loads near by. Unknown with a hardness, and of a distributed grid.
-   subroutine derivatives(self, record, surface, answer)
+   subroutine derivatives(self, surface, answer)
       class(grid_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(quantities), intent(out) :: answer
 
       if (self%distributed_points > 0 .or. surface%has_hardness()) return
       if (self%rotated) then
-         call differentiate_on_grid(smaller_cell(surface), self%edge%period, record, answer)
+         call differentiate_on_grid(smaller_cell(surface), self%edge%period, self%record, answer)
       else
-         call differentiate_on_grid(surface, self%edge%period, record, answer)
+         call differentiate_on_grid(surface, self%edge%period, self%record, answer)
       end if
    end subroutine derivatives
 

@@ -28,7 +28,7 @@ module wavycon_series_contact
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress, only: series_stress, start_series_stress
-   use wavycon_solution_record, only: by_beale, by_dual, solution_record
+   use wavycon_solution_record, only: by_beale, by_dual
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_working_set, only: working_set
@@ -227,52 +227,48 @@ contains
       call self%terms%coefficients(self%terms%compliance*self%x, series%c)
    end function displacement
 
-   subroutine fields(self, record, surface, answer)
+   subroutine fields(self, surface, answer)
       class(series_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
       type(series_fields), allocatable :: own
 
       allocate (own)
-      call self%coefficients(record, own%pressure)
+      call self%coefficients(own%pressure)
       own%displacement = displacement_of(surface, own%pressure)
       own%surface = surface
-      own%mean_gap = 1.0_dp - record%value(approach)
+      own%mean_gap = 1.0_dp - self%record%value(approach)
       call move_alloc(own, answer)
    end subroutine fields
 
    !> The error of a truncated series is not estimated.
-   subroutine stresses(self, record, surface, answer)
+   subroutine stresses(self, surface, answer)
       class(series_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fourier_series) :: series
       type(series_stress), allocatable :: own
 
-      call self%coefficients(record, series)
+      call self%coefficients(series)
       allocate (own)
-      call start_series_stress(own, surface, series, record%pbar_over_pstar, &
+      call start_series_stress(own, surface, series, self%record%pbar_over_pstar, &
                                pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
       call move_alloc(own, answer)
    end subroutine stresses
 
-   subroutine coefficients(self, record, series)
+   subroutine coefficients(self, series)
       class(series_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(fourier_series), intent(out) :: series
 
-      series = self%pressure(record%pbar_over_pstar)
+      series = self%pressure(self%record%pbar_over_pstar)
       if (self%rotated) series = to_sum_angles(series)
    end subroutine coefficients
 
    !> The isobar p = edge_level p*.
-   subroutine contact_contours(self, record, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves, loads)
       class(series_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
@@ -281,7 +277,7 @@ contains
       type(isobar_grid) :: grid
       real(dp), allocatable :: zeros(:)
 
-      series = self%pressure(record%pbar_over_pstar)
+      series = self%pressure(self%record%pbar_over_pstar)
       associate (level => self%options%edge_level, harmonics => self%terms%harmonics)
          if (surface%dimension == 2) then
             call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
@@ -304,9 +300,8 @@ contains
 
    !> The slope of the mean gap at fixed active constraints, from the least energy of pressures of mean 1 that vanish at
    !> these: (C30) of README.md in this directory. Unknown with a hardness, or if the constraints depend on each other.
-   subroutine derivatives(self, record, surface, answer)
+   subroutine derivatives(self, surface, answer)
       class(series_source), intent(in) :: self
-      type(solution_record), intent(in) :: record
       type(surface_type), intent(in) :: surface
       type(quantities), intent(out) :: answer
 
@@ -320,8 +315,8 @@ contains
 
       if (surface%has_hardness()) return
       problem = energy_problem(self%terms, self%options%constraint_points, self%options%symmetry, has_hardness=.false.)
-      associate (pressure => record%pbar_over_pstar + matmul(self%x, problem%normals), &
-                 least => active*record%value(peak_pressure))
+      associate (pressure => self%record%pbar_over_pstar + matmul(self%x, problem%normals), &
+                 least => active*self%record%value(peak_pressure))
          constraints = pack([(i, i=1, size(pressure))], pressure < least)
       end associate
       problem%linear = 0.0_dp

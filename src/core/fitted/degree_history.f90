@@ -23,7 +23,6 @@ module wavycon_degree_history
    contains
       procedure :: push
       procedure :: best_meets
-      procedure, private :: estimate
    end type degree_history
 
    !> Solutions that it takes for an estimate.
@@ -50,7 +49,19 @@ contains
       self%newest_is_best = self%solutions == least_solutions
       if (self%solutions >= least_solutions) then
          self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
-         call self%estimate(remaining)
+         ! A pool's gap at its trough converges as fields do, later than integrals of them, and energy and perimeter
+         ! converge at rates of their own: their errors are estimated apart from the rest.
+         associate (values => self%measures(:, :min(self%solutions - 1, most_previous)), error => self%error)
+            error = [error_estimate(values(:peak_measure, :), self%decay, measures(:peak_measure)), &
+                     error_estimate(values([centre_measure], :), max(self%decay, fastest_decay_at_point), &
+                                    measures([centre_measure])), &
+                     error_estimate(values(energy_measure:, :), self%decay, measures(energy_measure:))]
+            ! The perimeter converges no faster than the area, and its differences are small by chance more often.
+            error(perimeter_measure) = max(error(perimeter_measure), measures(perimeter_measure) &
+                                           *maxval(error(:peak_measure)/measures(:peak_measure)))
+            ! The last term of README.md (F44).
+            error = max(error, error_per_remainder*remaining*measures)
+         end associate
          ! Close to merging a higher degree may be worse.
          if (.not. self%newest_is_best) self%newest_is_best = sum(self%error(:peak_measure)/measures(:peak_measure)) &
             < sum(self%best_error(:peak_measure)/measures(:peak_measure))
@@ -62,27 +73,6 @@ contains
       end do
       self%newest(0) = now
    end subroutine push
-
-   !> Estimates the errors of the newest solution. A pool's gap at its trough converges as fields do, later than
-   !> integrals of them, and energy and perimeter converge at rates of their own: they are estimated apart from the
-   !> rest.
-   pure subroutine estimate(self, remaining)
-      class(degree_history), intent(inout) :: self
-      real(dp), intent(in) :: remaining                  !! as of push
-
-      associate (values => self%measures(:, :min(self%solutions - 1, most_previous)), error => self%error, &
-                 measures => self%measures(:, 0))
-         error = [error_estimate(values(:peak_measure, :), self%decay, measures(:peak_measure)), &
-                  error_estimate(values([centre_measure], :), max(self%decay, fastest_decay_at_point), &
-                                 measures([centre_measure])), &
-                  error_estimate(values(energy_measure:, :), self%decay, measures(energy_measure:))]
-         ! The perimeter converges no faster than the area, and its differences are small by chance more often.
-         error(perimeter_measure) = max(error(perimeter_measure), measures(perimeter_measure) &
-                                        *maxval(error(:peak_measure)/measures(:peak_measure)))
-         ! The last term of README.md (F44).
-         error = max(error, error_per_remainder*remaining*measures)
-      end associate
-   end subroutine estimate
 
    !> Whether the best solution is as accurate as required, relative to the measures.
    pure logical function best_meets(self, accuracy, required)

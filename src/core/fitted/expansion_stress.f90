@@ -43,10 +43,21 @@ contains
       type(expansion), intent(in) :: solution
       real(dp), intent(in) :: accuracy             !! of the stresses over the peak pressure
 
+      complex(dp), allocatable :: centre(:)
+      complex(dp) :: first
+      integer :: k
+
       stress%lattice = lattice
       call start_spot_integral(stress%spot, solution, accuracy, all_fields)
       stress%edge = edge_points(solution%shape)
-      call find_centres(stress)
+      ! Those near the rectangle that places are reduced to.
+      first = merge(lattice%trough, (0.0_dp, 0.0_dp), solution%pool)
+      allocate (stress%centre(0), stress%half_turn(0))
+      do k = 1, merge(lattice%troughs, 1, solution%pool)
+         centre = lattice%rows%points_about(near_clearance + stress%spot%radius, merge(first, -first, k == 1))
+         stress%centre = [stress%centre, centre]
+         stress%half_turn = [stress%half_turn, spread(merge(1.0_dp, -1.0_dp, k == 1), 1, size(centre))]
+      end do
    end subroutine start_expansion_stress
 
    !> The stresses at a place, less those of the mean pressure.
@@ -79,7 +90,7 @@ contains
             call add_wave(2*pi*self%lattice%wave(:, i), self%lattice%pressure(i), place, depth, fields)
          end do
       end if
-      call stress_parts(fields, parts)
+      parts = stress_parts(fields)
    end subroutine at
 
    !> Distance on the surface from the nearest edge of a spot or pool [s].
@@ -98,25 +109,6 @@ contains
                                                          self%half_turn(i)*(z - self%centre(i)))))
       end do
    end function distance_from_edges
-
-   !> Finds the spots or pools near the rectangle that places are reduced to.
-   subroutine find_centres(stress)
-      type(expansion_stress), intent(inout) :: stress
-
-      complex(dp), allocatable :: centre(:)
-      complex(dp) :: first
-      integer :: k
-
-      associate (lattice => stress%lattice, pool => stress%spot%solution%pool)
-         first = merge(lattice%trough, (0.0_dp, 0.0_dp), pool)
-         allocate (stress%centre(0), stress%half_turn(0))
-         do k = 1, merge(lattice%troughs, 1, pool)
-            centre = lattice%rows%points_about(near_clearance + stress%spot%radius, merge(first, -first, k == 1))
-            stress%centre = [stress%centre, centre]
-            stress%half_turn = [stress%half_turn, spread(merge(1.0_dp, -1.0_dp, k == 1), 1, size(centre))]
-         end do
-      end associate
-   end subroutine find_centres
 
    !> Makes the Fourier series.
    subroutine prepare_series(self)

@@ -15,9 +15,8 @@ module wavycon_fitted_stress
    public :: fitted_stress, start_fitted_stress
 
    type :: fitted_stress
+      type(fitted_answer) :: answer
       real(dp), private :: accuracy = 0.0_dp
-      real(dp), private :: peak_pressure = 0.0_dp         !! of the answer [pi E* Delta/s]
-      real(dp), private :: misfit_decay(2) = 1.0_dp
       real(dp), private :: relative_error = 0.0_dp        !! the larger one of peak pressure and of area
       real(dp), private :: edge_error = 0.0_dp            !! of the edge's place, a mean [s]
       type(expansion_stress), allocatable, private :: of_degree(:)
@@ -39,9 +38,8 @@ contains
       real(dp) :: area, area_error
       integer :: i
 
+      stress%answer = answer
       stress%accuracy = accuracy
-      stress%peak_pressure = answer%value(peak_pressure)
-      stress%misfit_decay = answer%misfit_decay
       allocate (stress%of_degree(0:size(answer%previous)))
       call start_expansion_stress(stress%of_degree(0), lattice, answer%solution, accuracy)
       do i = 1, ubound(stress%of_degree, 1)
@@ -89,12 +87,12 @@ contains
          call self%of_degree(i)%at(place, depth, lower)
          values(:, i) = reshape(matmul(lower, at_limits), [12])
       end do
-      error = stress_error_safety*maxval(error_estimate(values, max(self%misfit_decay, fastest_decay_at_point), &
-                                                        spread(self%peak_pressure, 1, 12))) &
-         + self%accuracy*self%peak_pressure + self%relative_error*maxval(abs(values(:, 0)))
-      associate (solution => self%of_degree(0))
-         distance = hypot(solution%distance_from_edges(place), depth)
-         error = error + self%peak_pressure/sqrt(solution%spot%solution%shape%b(0)) &
+      distance = hypot(self%of_degree(0)%distance_from_edges(place), depth)
+      associate (peak => self%answer%value(peak_pressure))
+         error = stress_error_safety*maxval(error_estimate(values, max(self%answer%misfit_decay, &
+                                                                       fastest_decay_at_point), spread(peak, 1, 12))) &
+            + self%accuracy*peak + self%relative_error*maxval(abs(values(:, 0))) &
+            + peak/sqrt(self%answer%solution%shape%b(0)) &
             *self%edge_error/(sqrt(distance + self%edge_error) + sqrt(distance))
       end associate
    end function error_at

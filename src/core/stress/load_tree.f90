@@ -4,8 +4,8 @@
 !> The load is a lattice of point forces. From afar, blocks of them are replaced by fewer forces with the same field: a
 !> tree of blocks, all with the same number of forces, each with two blocks of half its length in it.
 module wavycon_load_tree
-   use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
+   use wavycon_stress_kernel, only: add_sources, all_fields, of_pressure, stress_fields
    use wavycon_stress_tuning, only: nodes, smooth_places, whole_from
    implicit none (type, external)
    private
@@ -101,11 +101,10 @@ contains
    pure function sums(self, place)
       class(load_tree), intent(in) :: self
       real(dp), intent(in) :: place(3)   !! x, y, Z [rad of x]
-      real(dp) :: sums(8)
+      real(dp) :: sums(stress_fields)
 
       sums = 0.0_dp
       call add_block(self, size(self%levels), [0, 0], place, sums)
-      sums = sums/(2*pi)
    end function sums
 
    !> The same on a plane: at fewer places if the smooth part varies less than the plane's points show, and from those
@@ -161,10 +160,11 @@ contains
       integer, intent(in) :: number     !! of the level
       integer, intent(in) :: block(2)   !! from 0
       real(dp), intent(in) :: place(3)
-      real(dp), intent(inout) :: sums(8)
+      real(dp), intent(inout) :: sums(stress_fields)
 
-      real(dp) :: distance, from_corner(2)
-      integer :: a, b, i, lower(2)
+      real(dp) :: depth, distance, fields(stress_fields), from_corner(2)
+      real(dp), dimension(nodes, nodes) :: x, y
+      integer :: i, lower(2)
 
       associate (level => tree%levels(number), first => nodes*block)
          if (any(first >= shape(level%force))) return
@@ -180,36 +180,18 @@ contains
                end do
                return
             end if
-            do b = 1, nodes
-               do a = 1, nodes
-                  sums = sums + force(a, b)*of_force(from_corner - ([a, b] - 0.5_dp)*level%step, place(3), tree%shift)
-               end do
+            x = spread(from_corner(1) - [(i - 0.5_dp, i=1, nodes)]*level%step(1), 2, nodes)
+            y = spread(from_corner(2) - [(i - 0.5_dp, i=1, nodes)]*level%step(2), 1, nodes)
+            ! (S12): where the depth is a factor of a field it is not shifted.
+            do i = 1, order
+               depth = place(3) + i*tree%shift
+               fields = 0.0_dp
+               call add_sources(all_fields, of_pressure, size(x), x, y, depth, factors(i)*force, force, fields)
+               fields([2, 5, 6, 7, 8]) = fields([2, 5, 6, 7, 8])*place(3)/depth
+               sums = sums + fields
             end do
          end associate
       end associate
    end subroutine add_block
-
-   !> The sums (S4) of a unit force at the shifted depths, times 2 pi: (S12).
-   pure function of_force(r, z, shift) result(sums)
-      real(dp), intent(in) :: r(2)    !! x, y from the force
-      real(dp), intent(in) :: z       !! depth
-      real(dp), intent(in) :: shift   !! d
-      real(dp) :: sums(8)
-
-      real(dp) :: c3, c5, depth, rho, s, t
-      integer :: j
-
-      sums = 0.0_dp
-      do j = 1, order
-         depth = z + j*shift
-         rho = sqrt(r(1)**2 + r(2)**2 + depth**2)
-         c3 = factors(j)/rho**3
-         c5 = 3*c3/rho**2
-         s = factors(j)/(rho*(rho + depth))
-         t = c3/(rho + depth) + s/(rho*(rho + depth))
-         sums = sums + [depth*c3, z*(c5*depth**2 - c3), s - r(1)**2*t, z*(c3 - c5*r(1)**2), -r(1)*r(2)*t, &
-                        -z*c5*r(1)*r(2), -z*c5*depth*r(1), -z*c5*depth*r(2)]
-      end do
-   end function of_force
 
 end module wavycon_load_tree

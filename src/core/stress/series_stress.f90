@@ -11,7 +11,8 @@ module wavycon_series_stress
    use wavycon_load_tree, only: load_tree, plant_load_tree
    use wavycon_series_samples, only: sample_series
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: von_mises, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_kernel, only: stress_parts
+   use wavycon_stress_tensor, only: von_mises, zz
    use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
       plane_points, plane_ratio, pressure_part, shift_of_smooth, steps_in_shift, waves_in_depth, window_depth, &
       window_points
@@ -169,8 +170,8 @@ contains
       real(dp), intent(out) :: parts(6, 2)
 
       associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
-         parts = parts_of(sums_near(known%moment, (place - known%centre)*scale, place(3)) &
-                          + smooth_sums(self, place))
+         parts = stress_parts(sums_near(known%moment, (place - known%centre)*scale, place(3)) &
+                              + smooth_sums(self, place))
       end associate
    end subroutine near
 
@@ -183,7 +184,7 @@ contains
 
       !> Powers of k, l' and q of each sum.
       integer, parameter :: power(3, 8) = reshape( &
-         [0, 0, 0, 0, 0, 1, 2, 0, -2, 2, 0, -1, 1, 1, -2, 1, 1, -1, 1, 0, 0, 0, 1, 0], [3, 8])
+         [0, 0, 0, 0, 0, 1, 2, 0, -2, 1, 1, -2, 2, 0, -1, 1, 1, -1, 1, 0, 0, 0, 1, 0], [3, 8])
       complex(dp) :: term(0:ubound(moment, 3) - 1, 3), total
       integer :: b, c, j, last, order
 
@@ -206,7 +207,9 @@ contains
          end do
          sums(j) = merge(-total%im, total%re, j > 6)
       end do
-      sums([2, 4, 6, 7, 8]) = depth*sums([2, 4, 6, 7, 8])
+      sums = sums*[1.0_dp, -depth, -2.0_dp, -2.0_dp, -2*depth, -2*depth, depth, depth]
+      ! n_y^2 - n_x^2 = 1 - 2 n_x^2.
+      sums([3, 5]) = sums([3, 5]) + [sums(1), -sums(2)]
    end function sums_near
 
    !> The part of the sums (S4) that the waves of a surface with free edges lack.
@@ -218,23 +221,6 @@ contains
       sums = 0.0_dp
       if (allocated(stress%load)) sums = stress%load%sums(place*[1.0_dp, stress%side_ratio, 1.0_dp])
    end function smooth_sums
-
-   !> The stresses from the sums (S4).
-   pure function parts_of(sums) result(parts)
-      real(dp), intent(in) :: sums(8)
-      real(dp) :: parts(6, 2)
-
-      parts = 0.0_dp
-      parts(xx, 1) = sums(4) - sums(3)
-      parts(yy, 1) = (sums(2) - sums(4)) - (sums(1) - sums(3))
-      parts(zz, 1) = -(sums(1) + sums(2))
-      parts(xy, 1) = sums(6) - sums(5)
-      parts(xz, 1) = sums(7)
-      parts(yz, 1) = sums(8)
-      parts(xx, 2) = -2*(sums(1) - sums(3))
-      parts(yy, 2) = -2*sums(3)
-      parts(xy, 2) = 2*sums(5)
-   end function parts_of
 
    !> The sums (S4) along a line: its waves are first added up to those with the same wave number d_x k + d_y l along t.
    subroutine on_line(self, start, direction, t, depth, parts, error)
@@ -266,8 +252,8 @@ contains
             n_x = k/q(k)
             n_y = q_y/q(k)
             q_z = q(k)*depth
-            even(:3) = [1.0_dp, n_x**2, n_x*n_y]
-            even(4:) = q_z*even(:3)
+            even(:4) = [1.0_dp, -q_z, (n_y - n_x)*(n_y + n_x), -2*n_x*n_y]
+            even(5:) = q_z*even(3:4)
             m = direction(1)*k + direction(2)*l
             along(:6, m) = along(:6, m) + even*wave
             along(7, m) = along(7, m) + k*depth*turned
@@ -281,8 +267,7 @@ contains
          do m = lbound(along, 2), ubound(along, 2)
             sums = sums + real(along(:, m)*turn(m*t(i)))
          end do
-         sums(:8) = sums([1, 4, 2, 5, 3, 6, 7, 8]) + smooth_sums(self, [start + direction*t(i), depth])
-         parts(:, :, i) = parts_of(sums(:8))
+         parts(:, :, i) = stress_parts(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))
          error(i) = error_of(self, parts(zz, 1, i) - self%pbar_over_pstar, sums(9:))
       end do
    end subroutine on_line
@@ -335,7 +320,7 @@ contains
          do k = 1, points(1)
             stress(k, l, :) = fields(k, l, :6) + mean
             if (allocated(self%load)) stress(k, l, :) = stress(k, l, :) &
-               + matmul(parts_of(smooth(:, k, l)), [1.0_dp, body%nu])
+               + matmul(stress_parts(smooth(:, k, l)), [1.0_dp, body%nu])
             error(k, l) = error_of(self, stress(k, l, zz), fields(k, l, 7:))
          end do
       end do

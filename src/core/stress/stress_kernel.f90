@@ -1,0 +1,115 @@
+!> Stresses in a half-space below point sources on its surface, as eight fields that do not depend on Poisson's ratio.
+!>
+!> The pressure p acts on z = 0, z into the solid. Let H be the harmonic function that is p on the surface and vanishes
+!> at depth, V and L its integrals, H = -dV/dz, V = -dL/dz, and D = d/dx + i d/dy. Then, by the numbers (F..) of
+!> src/core/fitted/README.md, (F51)
+!>
+!>     s_zz = -H + z H_z,                        s_xx + s_yy = -(1 + 2 nu) H - z H_z,
+!>     s_xx - s_yy + 2 i s_xy = (1 - 2 nu) D^2 L - z D^2 V,        s_xz + i s_yz = z D H.
+!>
+!> A point force has V = 1/(2 pi R): Boussinesq's solution.
+module wavycon_stress_kernel
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   implicit none (type, external)
+   private
+
+   public :: add_sources, stress_parts
+
+   !> Number of fields, and their order: H, z H_z, then real and imaginary parts of D^2 L, z D^2 V and z D H.
+   integer, parameter, public :: stress_fields = 8
+   integer, parameter, public :: h_field = 1, hz_field = 2, l_field = 3, v_field = 5, dh_field = 7
+
+   !> What sources are: a pressure, or a gap, by itself or by its gradient.
+   integer, parameter, public :: of_pressure = 1, of_gap = 2, of_gradient = 3
+
+   !> What they are summed for: all these fields or, on the surface, outside of the sources, the displacement by a
+   !> pressure [Delta] or the pressure by a gap.
+   integer, parameter, public :: all_fields = 1, surface_field = 2
+
+contains
+
+   !> Adds the fields of n point forces or of the pressure |k| g_k by a gap g at n points.
+   !>
+   !> N.B. On the surface, z = 0, no source may be at the place.
+   pure subroutine add_sources(kernel, source, n, x, y, z, strength_x, strength_y, fields)
+      integer, intent(in) :: kernel                           !! all_fields or surface_field
+      integer, intent(in) :: source                           !! of_pressure, of_gap or, for all fields, of_gradient
+      integer, intent(in) :: n
+      real(dp), intent(in) :: x(n), y(n)                      !! the place as seen from the sources [s]
+      real(dp), intent(in) :: z                               !! depth >= 0 [s]
+      real(dp), intent(in) :: strength_x(n), strength_y(n)    !! times area: pressure or gap, and 0; or the gradient
+      real(dp), intent(inout) :: fields(stress_fields)        !! of surface_field the first one
+
+      real(dp), dimension(n) :: inverse, r
+      real(dp) :: along, cross, difference, fifth, im, l, of_dh, re, seventh, third, total(stress_fields)
+      integer :: i
+
+      ! Roots and quotients of arrays are of vectors.
+      total = 0.0_dp
+      if (kernel == surface_field .and. source == of_pressure) then
+         total(1) = sum(strength_x/sqrt(x**2 + y**2))
+      else if (kernel == surface_field) then
+         total(1) = -sum(strength_x/sqrt(x**2 + y**2)**3)/(4*pi**2)
+      else if (source == of_pressure) then
+         ! (F52).
+         r = sqrt(x**2 + y**2 + z**2)
+         inverse = 1.0_dp/(r*(r + z))
+         do i = 1, n
+            associate (inverse_r => (r(i) + z)*inverse(i))
+               third = strength_x(i)*inverse_r**3
+               fifth = third*inverse_r**2
+               l = strength_x(i)*(2*r(i) + z)*inverse(i)**2*inverse_r
+            end associate
+            re = (x(i) - y(i))*(x(i) + y(i))
+            im = 2*x(i)*y(i)
+            total = total + [third, third - 3*z**2*fifth, l*re, l*im, fifth*re, fifth*im, fifth*x(i), fifth*y(i)]
+         end do
+         total = total*[z, z, 1.0_dp, 1.0_dp, 3*z, 3*z, -3*z**2, -3*z**2]/(2*pi)
+      else if (source == of_gap) then
+         ! (F56).
+         inverse = 1.0_dp/sqrt(x**2 + y**2 + z**2)
+         do i = 1, n
+            fifth = strength_x(i)*inverse(i)**5
+            seventh = fifth*inverse(i)**2
+            re = (x(i) - y(i))*(x(i) + y(i))
+            im = 2*x(i)*y(i)
+            of_dh = 3*fifth - 15*z**2*seventh
+            total = total + [fifth*(2*z**2 - x(i)**2 - y(i)**2), 9*fifth - 15*z**2*seventh, fifth*re, fifth*im, &
+                             seventh*re, seventh*im, of_dh*x(i), of_dh*y(i)]
+         end do
+         total = total*[1.0_dp, z**2, 3.0_dp, 3.0_dp, 15*z**2, 15*z**2, z, z]/(4*pi**2)
+      else
+         ! (F53).
+         inverse = 1.0_dp/sqrt(x**2 + y**2 + z**2)
+         do i = 1, n
+            third = inverse(i)**3
+            fifth = third*inverse(i)**2
+            along = x(i)*strength_x(i) + y(i)*strength_y(i)
+            difference = x(i)*strength_x(i) - y(i)*strength_y(i)
+            cross = x(i)*strength_y(i) + y(i)*strength_x(i)
+            of_dh = third - 3*z**2*fifth
+            total = total + [along*third, along*fifth, difference*third, cross*third, difference*fifth, cross*fifth, &
+                             strength_x(i)*of_dh, strength_y(i)*of_dh]
+         end do
+         total = total*[1.0_dp, -3*z**2, -1.0_dp, -1.0_dp, -3*z**2, -3*z**2, -z, -z]/(4*pi**2)
+      end if
+      fields = fields + total
+   end subroutine add_sources
+
+   !> The stresses from the fields, (F51): xx, yy, zz, xy, xz, yz as parts(:, 1) + nu parts(:, 2).
+   pure function stress_parts(fields) result(parts)
+      real(dp), intent(in) :: fields(stress_fields)
+      real(dp) :: parts(6, 2)
+
+      associate (h => fields(1), zhz => fields(2), l => fields(3:4), v => fields(5:6), dh => fields(7:8))
+         parts(1, :) = [0.5_dp*(-h - zhz + l(1) - v(1)), -h - l(1)]
+         parts(2, :) = [0.5_dp*(-h - zhz - l(1) + v(1)), -h + l(1)]
+         parts(3, :) = [-h + zhz, 0.0_dp]
+         parts(4, :) = [0.5_dp*(l(2) - v(2)), -l(2)]
+         parts(5, :) = [dh(1), 0.0_dp]
+         parts(6, :) = [dh(2), 0.0_dp]
+      end associate
+   end function stress_parts
+
+end module wavycon_stress_kernel
