@@ -61,8 +61,7 @@ contains
       if (allocated(error)) return
       allocate (height(points(1), slab%columns()))
       call make_heights(spectrum, height, points)
-      largest = maxval(abs(height))
-      call slab%largest(largest)
+      largest = slab%largest([maxval(abs(height))])
       if (largest(1) > largest_number .or. largest(1) < smallest_number) then
          call fatal_error(error, exit_bad_input, source//': heights are up to '//short_number(largest(1))// &
                           ' [length]: lengths may be from '//short_number(smallest_number)//' to '// &

@@ -123,8 +123,7 @@ contains
          call transform%start(self%points/self%parts(), even=self%mirrored)
          allocate (values(transform%points(1), transform%slab%columns()))
          call transform%sample(weighted(self%shape, self%length), values)
-         largest = maxval(values)
-         call transform%slab%largest(largest)
+         largest = transform%slab%largest([maxval(values)])
       else
          call find_peak(weighted(self%shape, self%length), largest(1), unused)
       end if
