@@ -1,6 +1,7 @@
 !> Periodic fields as Fourier series in two angles: surfaces, pressures and displacements.
 module wavycon_fourier_series
    use wavycon_cosine_table, only: cosine_table
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_wave_stiffness, only: wave_stiffness
@@ -17,9 +18,10 @@ module wavycon_fourier_series
    type :: fourier_series
       real(dp), allocatable :: c(:, :)         !! of an even field, shape (0:m, 0:n)
       complex(dp), allocatable :: wave(:, :)   !! W of any other field, shape (0:m, -n:n)
-      !> m + 1 for a series that is distributed as grids are, where the rank has some of the first indices only, see
-      !> wavycon_grid_transform. 0: it is whole.
-      integer :: distributed_waves = 0
+      !> Of a series that is distributed as grids are, where the rank has some of the first indices only, see
+      !> wavycon_grid_transform: its wave numbers in X as columns, k is column k + 1. It is not distributed if the series
+      !> is whole.
+      type(grid_slab) :: rows
    contains
       procedure :: is_even
       procedure :: is_distributed
@@ -46,7 +48,7 @@ contains
    pure logical function is_distributed(self)
       class(fourier_series), intent(in) :: self
 
-      is_distributed = self%distributed_waves > 0
+      is_distributed = self%rows%is_distributed
    end function is_distributed
 
    !> The first own wave number in X.

@@ -10,7 +10,6 @@ module wavycon_self_affine
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: check_room
    use wavycon_map_statistics, only: map_statistics, statistics_of
-   use wavycon_own_waves, only: wave_slab
    use wavycon_plain_text, only: short_number
    use wavycon_surface, only: surface_type
    use wavycon_surface_of_points, only: surface_of_points
@@ -139,7 +138,6 @@ contains
 
       type(c_ptr) :: generator
       type(fourier_series) :: waves
-      type(grid_slab) :: rows               ! the own wave numbers along x
       type(grid_transform) :: transform
       real(dp) :: moment(1)
       real(dp), allocatable :: moments(:, :)   ! of the waves of each of them
@@ -168,8 +166,7 @@ contains
          end if
       end do
       call gsl_rng_free(generator)
-      rows = wave_slab(waves)
-      moment = rows%column_totals(moments)
+      moment = waves%rows%column_totals(moments)
       call transform%sample(waves, height)
       ! Of the mean square of a wave each of its two wave vectors has half.
       if (spectrum%density > 0.0_dp) moment = product(spectrum%length(:spectrum%dimension))/(2*spectrum%density)

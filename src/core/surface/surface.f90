@@ -95,7 +95,7 @@ contains
       is_height_map = all(self%points > 0)
    end function is_height_map
 
-   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
+   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_grid_transform. Then only
    !> `sample_gap` can evaluate it; `gather_series` gathers the shape. All other components are those of the
    !> whole surface.
    pure logical function is_distributed(self)
