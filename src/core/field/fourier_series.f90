@@ -35,6 +35,7 @@ module wavycon_fourier_series
       procedure :: at
       procedure :: on_line
       procedure :: evaluate_on_grid
+      procedure :: gather
    end type fourier_series
 
 contains
@@ -212,6 +213,35 @@ contains
       call dgemm('N', 'T', rows, columns, n, 1.0_dp, half_way, rows, cosine_table(intervals, n - 1), rows, &
                  0.0_dp, values, rows)
    end subroutine evaluate_on_grid
+
+   !> Gathers a distributed series, on the rank that writes the tables or on all; on other ranks it stays as it is.
+   subroutine gather(self, first_only)
+      class(fourier_series), intent(inout) :: self
+      logical, intent(in) :: first_only   !! whether only where tables are written
+
+      real(dp), allocatable :: own(:, :), whole(:, :)   ! real parts of the waves, and then the imaginary ones
+      integer :: last, numbers
+
+      if (.not. self%rows%any(self%is_distributed() .and. self%rows%first == 1)) return
+      last = self%last(2)
+      numbers = 2*last + 1
+      if (self%is_even()) then
+         own = transpose(self%c)
+      else
+         own = transpose(reshape([self%wave%re, self%wave%im], [size(self%wave, 1), 2*numbers]))
+      end if
+      call self%rows%gather_whole(own, whole, first_only)
+      if (.not. allocated(whole)) return
+      self%rows = grid_slab()
+      if (self%is_even()) then
+         deallocate (self%c)
+         allocate (self%c(0:size(whole, 2) - 1, 0:last), source=transpose(whole))
+      else
+         deallocate (self%wave)
+         allocate (self%wave(0:size(whole, 2) - 1, -last:last), &
+                   source=transpose(cmplx(whole(:numbers, :), whole(numbers + 1:, :), dp)))
+      end if
+   end subroutine gather
 
    !> sum_i c_i cos(i x) and its derivative.
    pure subroutine evaluate_line(c, x, value, slope)

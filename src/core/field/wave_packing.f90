@@ -16,14 +16,12 @@ contains
       real(dp), intent(in) :: spectrum(:, :, :)         !! shape (1, wave numbers of the series in X, N)
       type(fourier_series), intent(inout) :: answer     !! its arrays are those of own wave numbers
 
-      integer :: k, l
+      integer :: l
 
       do l = 0, points(2) - 1
-         do k = lbound(answer%c, 1), ubound(answer%c, 1)
-            answer%c(k, l) = merge(0.5_dp, 1.0_dp, k == 0)*merge(0.5_dp, 1.0_dp, l == 0)* &
-                             (spectrum(1, k - lbound(answer%c, 1) + 1, l + 1)/(real(points(1), dp)*points(2)))
-         end do
+         answer%c(:, l) = merge(0.5_dp, 1.0_dp, l == 0)*(spectrum(1, :, l + 1)/(real(points(1), dp)*points(2)))
       end do
+      if (answer%first() == 0) answer%c(0, :) = 0.5_dp*answer%c(0, :)
    end subroutine take_cosines
 
    !> The waves of any other field. At the points those of 2l = N are equal for l and -l.
@@ -49,15 +47,12 @@ contains
       type(fourier_series), intent(in) :: from
       real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
 
-      integer :: k, l, r
+      integer :: l
 
       spectrum = 0.0_dp
-      do l = 0, min(points(2) - 1, ubound(from%c, 2))
-         do r = 1, size(spectrum, 2)
-            k = lbound(from%c, 1) + r - 1
-            spectrum(1, r, l + 1) = merge(1.0_dp, 0.5_dp, k == 0)*merge(1.0_dp, 0.5_dp, l == 0)* &
-                                    from%c(k, l)
-         end do
+      do l = 0, min(points(2) - 1, from%last(2))
+         spectrum(1, :, l + 1) = 0.5_dp*real(from%row(l, from%first() + size(spectrum, 2) - 1))
+         if (from%first() == 0) spectrum(1, :1, l + 1) = 2*spectrum(1, :1, l + 1)
       end do
    end subroutine give_cosines
 

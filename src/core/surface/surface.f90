@@ -96,7 +96,7 @@ contains
    end function is_height_map
 
    !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_grid_transform. Then only
-   !> `sample_gap` can evaluate it; `gather_series` gathers the shape. All other components are those of the
+   !> `sample_gap` can evaluate it; `gather` gathers the shape. All other components are those of the
    !> whole surface.
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
