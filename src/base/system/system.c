@@ -226,8 +226,8 @@ int blas_thread_shutdown_(void);
 void wavycon_keep_memory(void);
 
 /* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. Keeps
-   memory. Makes BLAS and LAPACK use one thread, if they are OpenBLAS, and ends the threads that OpenBLAS started when it
-   was loaded: without work they try to get some for a tenth of a second, each on its processor. */
+   memory. Makes BLAS and LAPACK use one thread, if they are OpenBLAS, and ends the threads that OpenBLAS started when
+   it was loaded: without work they try to get some for a tenth of a second, each on its processor. */
 void wavycon_prepare_process(void)
 {
     signal(SIGXFSZ, SIG_IGN);

@@ -19,8 +19,7 @@ module wavycon_fourier_series
       real(dp), allocatable :: c(:, :)         !! of an even field, shape (0:m, 0:n)
       complex(dp), allocatable :: wave(:, :)   !! W of any other field, shape (0:m, -n:n)
       !> Of a series that is distributed as grids are, where the rank has some of the first indices only, see
-      !> wavycon_grid_transform: its wave numbers in X as columns, k is column k + 1. It is not distributed if the series
-      !> is whole.
+      !> wavycon_grid_transform: its wave numbers in X as columns, k is column k + 1. A whole series has the default.
       type(grid_slab) :: rows
    contains
       procedure :: is_even
