@@ -238,15 +238,7 @@ contains
    pure logical function is_printable(text)
       character(*), intent(in) :: text
 
-      integer :: length, place
-
-      place = 1
-      length = 1
-      do while (place <= len(text) .and. length > 0)
-         length = printable_length(text, place)
-         place = place + length
-      end do
-      is_printable = length > 0
+      is_printable = escaped(text) == text
    end function is_printable
 
    !> The text with tabs replaced by blanks and other bytes that do not print by \xNN.
@@ -313,10 +305,7 @@ contains
 
       integer :: i
 
-      character_count = 0
-      do i = 1, len(text)
-         if (.not. is_continuation(text(i:i))) character_count = character_count + 1
-      end do
+      character_count = count([(.not. is_continuation(text(i:i)), i=1, len(text))])
    end function character_count
 
 end module wavycon_plain_text

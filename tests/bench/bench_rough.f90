@@ -13,7 +13,7 @@ program bench_rough
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
    use wavycon_surface_of_points, only: surface_of_points
-   use wavycon_system, only: keep_memory
+   use wavycon_system, only: prepare_process
    implicit none (type, external)
 
    type(surface_type) :: surface
@@ -39,7 +39,7 @@ program bench_rough
    close (unit)
 
    ! As the program does.
-   call keep_memory()
+   call prepare_process()
    call cpu_time(start)
    surface = surface_of_points([1.0_dp, 1.0_dp], height)
    full = surface%full_contact_pressure(1.0_dp/pi)

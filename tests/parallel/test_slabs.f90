@@ -29,15 +29,12 @@ contains
 
    subroutine test_layouts()
       type(grid_slab) :: coarse, slab
-      integer(int64) :: columns(1)
       integer :: k
 
       do k = 1, size(distributed_grids, 2)
          call slab%start(distributed_grids(:, k))
-         columns = slab%columns()
-         call slab%add(columns)
          call check(slab%is_distributed .eqv. rank_count() > 1)
-         call check(columns(1) == distributed_grids(2, k))
+         call check(slab%total_count(int(slab%columns(), int64)) == distributed_grids(2, k))
          call check(slab%columns() == 0 .or. slab%columns() >= most_reach)
          if (slab%columns() > 0) then
             call check(slab%first == this_rank()*slab%width + 1)
@@ -64,8 +61,6 @@ contains
    subroutine test_sums()
       type(grid_slab) :: slab
       real(dp), allocatable :: columns(:, :), strips(:, :), whole(:, :)
-      real(dp) :: most(1)
-      integer(int64) :: number(1)
       integer :: k, s
 
       do k = 1, size(distributed_grids, 2)
@@ -80,13 +75,9 @@ contains
          s = (slab%first - 1)/strip_columns
          call check(same(slab%strip_totals(strips(:, s + 1:s + slab%strips())), sum(strips, dim=2)))
          associate (own => whole(:, slab%first:slab%last))
-            number = count(own < 0.3_dp)
-            most = maxval([0.0_dp, own])
+            call check(slab%total_count(count(own < 0.3_dp, kind=int64)) == count(whole < 0.3_dp))
+            call check(same(slab%largest([maxval([0.0_dp, own])]), [maxval(whole)]))
          end associate
-         call slab%add(number)
-         call slab%largest(most)
-         call check(number(1) == count(whole < 0.3_dp))
-         call check(same(most, [maxval(whole)]))
          deallocate (strips)
       end do
       call report('sums, counts and extremes')

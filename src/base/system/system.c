@@ -115,12 +115,6 @@ int64_t wavycon_stack_limit(void)
     return getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur > INT64_MAX ? INT64_MAX : (int64_t)limit.rlim_cur;
 }
 
-/* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. */
-void wavycon_outlive_file_size_limit(void)
-{
-    signal(SIGXFSZ, SIG_IGN);
-}
-
 /* The width of the terminal that standard output is; 0 if it is none, or not the one of a user who looks at it: that of
    another process (mpirun makes one and may write to a file), or a program in the background. */
 int wavycon_terminal_columns(void)
@@ -228,10 +222,16 @@ void openblas_set_num_threads(int number);
 int blas_thread_shutdown_(void);
 #endif
 
-/* Makes BLAS and LAPACK use one thread, if they are OpenBLAS, and ends the threads that OpenBLAS started when it was
-   loaded: without work they try to get some for a tenth of a second, each on its processor. */
-void wavycon_use_one_thread_for_matrices(void)
+/* Of kept_memory.c. */
+void wavycon_keep_memory(void);
+
+/* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. Keeps
+   memory. Makes BLAS and LAPACK use one thread, if they are OpenBLAS, and ends the threads that OpenBLAS started when
+   it was loaded: without work they try to get some for a tenth of a second, each on its processor. */
+void wavycon_prepare_process(void)
 {
+    signal(SIGXFSZ, SIG_IGN);
+    wavycon_keep_memory();
 #ifdef WAVYCON_OPENBLAS
     openblas_set_num_threads(1);
     blas_thread_shutdown_();

@@ -6,11 +6,11 @@ module wavycon_system
    implicit none (type, external)
    private
 
-   public :: available_memory, has_memory_for, keep_memory
+   public :: available_memory, has_memory_for
    public :: end_written, error_text, note_input, open_written, print_text, print_trouble, put_bytes, put_text, &
       refusal_to_write, remove_leftovers, say
    public :: file_size, full_path, path_kind, make_directories, remove_file
-   public :: note_kept, outlive_file_size_limit, stack_limit, terminal_columns
+   public :: note_kept, prepare_process, stack_limit, terminal_columns
 
    !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
@@ -39,8 +39,13 @@ module wavycon_system
       end function stack_limit
 
       !> Makes a write beyond the limit on file sizes (ulimit -f) fail as on a full disk; otherwise it ends the program.
-      subroutine outlive_file_size_limit() bind(c, name='wavycon_outlive_file_size_limit')
-      end subroutine outlive_file_size_limit
+      !> Keeps memory that is deallocated for later arrays, instead of giving it back to the system. Makes BLAS and
+      !> LAPACK use one thread, if they are OpenBLAS, which by default uses all processors, also for the small matrices
+      !> here, where more threads save no time.
+      !>
+      !> N.B. It acts on the whole process: programs may call it, procedures of a library must not.
+      subroutine prepare_process() bind(c, name='wavycon_prepare_process')
+      end subroutine prepare_process
 
       !> The width of the terminal that standard output is; 0 if it is none, or not the one of this program.
       integer(c_int) function terminal_columns() bind(c, name='wavycon_terminal_columns')
@@ -59,12 +64,6 @@ module wavycon_system
       integer(c_int64_t) function available_memory() bind(c, name='wavycon_available_memory')
          import :: c_int64_t
       end function available_memory
-
-      !> Keeps memory that is deallocated for later arrays, instead of giving it back to the system.
-      !>
-      !> N.B. It acts on the whole process: programs may call it, procedures of a library must not.
-      subroutine keep_memory() bind(c, name='wavycon_keep_memory')
-      end subroutine keep_memory
 
       type(c_ptr) function c_realpath(path, full) bind(c, name='realpath')
          import :: c_char, c_ptr

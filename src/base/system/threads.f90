@@ -1,24 +1,15 @@
-!> How many threads work on a grid, and the threads of BLAS and LAPACK.
+!> How many threads work on a grid.
 module wavycon_threads
    implicit none (type, external)
    private
 
-   public :: set_threads, threads_for, use_one_thread_for_matrices
+   public :: set_threads, threads_for
 
    !> Loops over fewer points take one thread. Where two threads had loops over 65536 points and more, a load on
    !> 512 x 512 points took 1.0 to 1.1 of the time with one thread, on 1024 x 1024 points 0.8.
    integer, parameter :: least_points = 524288
 
    integer :: threads = 1
-
-   interface
-      !> Makes BLAS and LAPACK use one thread, if they are OpenBLAS, which by default uses all processors, also for
-      !> the small matrices here, where more threads save no time.
-      !>
-      !> N.B. It acts on the whole process: programs may call it, procedures of a library must not.
-      subroutine use_one_thread_for_matrices() bind(c, name='wavycon_use_one_thread_for_matrices')
-      end subroutine use_one_thread_for_matrices
-   end interface
 
 contains
 

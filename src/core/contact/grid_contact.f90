@@ -186,15 +186,12 @@ contains
       type(contact_solution), intent(inout) :: solution
 
       integer :: inner(2)
-      integer(int64) :: bound(1)
       real(dp) :: opposite(1)
 
       associate (p => edge%pressure_or_gap, points => edge%slab%points)
-         bound = count(p <= 0.0_dp, kind=int64) + count(p >= surface%hardness, kind=int64)
-         call edge%slab%add(bound)
-         solution%active_constraints = bound(1)
-         opposite = -minval(p)
-         call edge%slab%largest(opposite)
+         solution%active_constraints = edge%slab%total_count(count(p <= 0.0_dp, kind=int64) &
+                                                             + count(p >= surface%hardness, kind=int64))
+         opposite = edge%slab%largest([-minval(p)])
          solution%value(min_pressure) = max(-opposite(1), 0.0_dp)
          if (surface%is_height_map() .and. solution%value(contact_area) <= largest_spot) &
             solution%value(concentrated_load) = load_concentration(edge)

@@ -102,11 +102,10 @@ contains
       type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
 
       real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
-      integer(int64) :: total(1)
       integer :: j, m
 
       m = edge%slab%points(1)
-      total = 0
+      openings = 0
       if (edge%slab%columns() > 0) then
          here = edge%column(edge%slab%first - 1)
          next = edge%column(edge%slab%first)
@@ -116,12 +115,11 @@ contains
          here = next
          next = edge%column(j + 1)
          associate (points => here(1:m), back => here(:m - 1), ahead => here(2:))
-            total = total + count(points > 0.0_dp .and. min(back, ahead, before(1:m), next(1:m)) >= points .and. &
-                                  max(back, ahead, before(1:m), next(1:m)) > opening_ratio*points)
+            openings = openings + count(points > 0.0_dp .and. min(back, ahead, before(1:m), next(1:m)) >= points .and. &
+                                        max(back, ahead, before(1:m), next(1:m)) > opening_ratio*points)
          end associate
       end do
-      call edge%slab%add(total)
-      openings = total(1)
+      openings = edge%slab%total_count(openings)
    end function possible_openings
 
    !> Hertz's peak pressure [p*] of a contact whose half width or radius is `unresolved_width` steps (C16). In 2-D it

@@ -131,8 +131,7 @@ contains
          if (.not. has_hardness .or. sums(2) > 0.0_dp) then
             change = sums(1)/sums(2)
          else
-            extremes = [-minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness)]
-            call state%slab%largest(extremes)
+            extremes = state%slab%largest([-minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness)])
             ! The approach may lie anywhere between the least gap at points that are open and the largest at points at
             ! the hardness.
             change = extremes(2)

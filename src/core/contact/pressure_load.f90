@@ -49,8 +49,7 @@ contains
 
       has_points_at = hardness < huge(hardness)
       if (.not. has_points_at) return
-      largest = maxval(pressure)
-      call slab%largest(largest)
+      largest = slab%largest([maxval(pressure)])
       has_points_at = largest(1) >= hardness
    end function has_points_at
 
@@ -69,8 +68,7 @@ contains
       integer :: s, step
 
       shift = 0.0_dp
-      extremes = [maxval(above), maxval(below)]
-      call slab%largest(extremes)
+      extremes = slab%largest([maxval(above), maxval(below)])
       if (all(extremes <= 0.0_dp)) return
       low = min(0.0_dp, -extremes(1))
       high = max(0.0_dp, extremes(2))

@@ -1,6 +1,7 @@
 !> Periodic fields as Fourier series in two angles: surfaces, pressures and displacements.
 module wavycon_fourier_series
    use wavycon_cosine_table, only: cosine_table
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_wave_stiffness, only: wave_stiffness
@@ -17,9 +18,9 @@ module wavycon_fourier_series
    type :: fourier_series
       real(dp), allocatable :: c(:, :)         !! of an even field, shape (0:m, 0:n)
       complex(dp), allocatable :: wave(:, :)   !! W of any other field, shape (0:m, -n:n)
-      !> m + 1 for a series that is distributed as grids are, where the rank has some of the first indices only, see
-      !> wavycon_grid_transform. 0: it is whole.
-      integer :: distributed_waves = 0
+      !> Of a series that is distributed as grids are, where the rank has some of the first indices only, see
+      !> wavycon_grid_transform: its wave numbers in X as columns, k is column k + 1. A whole series has the default.
+      type(grid_slab) :: rows
    contains
       procedure :: is_even
       procedure :: is_distributed
@@ -33,6 +34,7 @@ module wavycon_fourier_series
       procedure :: at
       procedure :: on_line
       procedure :: evaluate_on_grid
+      procedure :: gather
    end type fourier_series
 
 contains
@@ -46,7 +48,7 @@ contains
    pure logical function is_distributed(self)
       class(fourier_series), intent(in) :: self
 
-      is_distributed = self%distributed_waves > 0
+      is_distributed = self%rows%is_distributed
    end function is_distributed
 
    !> The first own wave number in X.
@@ -210,6 +212,35 @@ contains
       call dgemm('N', 'T', rows, columns, n, 1.0_dp, half_way, rows, cosine_table(intervals, n - 1), rows, &
                  0.0_dp, values, rows)
    end subroutine evaluate_on_grid
+
+   !> Gathers a distributed series, on the rank that writes the tables or on all; on other ranks it stays as it is.
+   subroutine gather(self, first_only)
+      class(fourier_series), intent(inout) :: self
+      logical, intent(in) :: first_only   !! whether only where tables are written
+
+      real(dp), allocatable :: own(:, :), whole(:, :)   ! real parts of the waves, and then the imaginary ones
+      integer :: last, numbers
+
+      if (.not. self%rows%any(self%is_distributed() .and. self%rows%first == 1)) return
+      last = self%last(2)
+      numbers = 2*last + 1
+      if (self%is_even()) then
+         own = transpose(self%c)
+      else
+         own = transpose(reshape([self%wave%re, self%wave%im], [size(self%wave, 1), 2*numbers]))
+      end if
+      call self%rows%gather_whole(own, whole, first_only)
+      if (.not. allocated(whole)) return
+      self%rows = grid_slab()
+      if (self%is_even()) then
+         deallocate (self%c)
+         allocate (self%c(0:size(whole, 2) - 1, 0:last), source=transpose(whole))
+      else
+         deallocate (self%wave)
+         allocate (self%wave(0:size(whole, 2) - 1, -last:last), &
+                   source=transpose(cmplx(whole(:numbers, :), whole(numbers + 1:, :), dp)))
+      end if
+   end subroutine gather
 
    !> sum_i c_i cos(i x) and its derivative.
    pure subroutine evaluate_line(c, x, value, slope)

@@ -45,9 +45,8 @@ module wavycon_grid_slab
       procedure :: coarser
       procedure :: column_totals
       procedure :: strip_totals
-      !> Adds numbers over the ranks that have different columns, element by element: reals do not depend on the number
-      !> of ranks if each is zero on all but one.
-      generic :: add => add_reals, add_integers
+      procedure :: total
+      procedure :: total_count
       procedure :: largest
       procedure :: find_largest
       !> Whether something is true on any rank at work, also if each has the whole grid.
@@ -60,7 +59,7 @@ module wavycon_grid_slab
       procedure :: gather
       procedure :: gather_whole
       procedure :: exchange_rows
-      procedure, private :: add_reals, add_integers, halo_dp, halo_sp
+      procedure, private :: halo_dp, halo_sp
    end type grid_slab
 
 contains
@@ -200,27 +199,38 @@ contains
       totals = sum(reshape(every, [sums, number]), dim=2)
    end function totals_of
 
-   subroutine add_reals(self, values)
+   !> The sums over the ranks that have different columns, element by element. They do not depend on the number of ranks
+   !> if each number is zero on all but one.
+   function total(self, values)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(inout), contiguous :: values(:)
+      real(dp), intent(in) :: values(:)
+      real(dp) :: total(size(values))
 
-      if (self%is_distributed) call add_over_ranks(values)
-   end subroutine add_reals
+      total = values
+      if (self%is_distributed) call add_over_ranks(total)
+   end function total
 
-   subroutine add_integers(self, values)
+   !> The number of points of the grid that have a property, from that of the own columns.
+   integer(int64) function total_count(self, own)
       class(grid_slab), intent(in) :: self
-      integer(int64), intent(inout), contiguous :: values(:)
+      integer(int64), intent(in) :: own
 
-      if (self%is_distributed) call add_over_ranks(values)
-   end subroutine add_integers
+      integer(int64) :: every(1)
 
-   !> The largest over the ranks that have different columns, element by element, in place.
-   subroutine largest(self, values)
+      every = own
+      if (self%is_distributed) call add_over_ranks(every)
+      total_count = every(1)
+   end function total_count
+
+   !> The largest over the ranks that have different columns, element by element.
+   function largest(self, values)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(inout), contiguous :: values(:)
+      real(dp), intent(in) :: values(:)
+      real(dp) :: largest(size(values))
 
-      if (self%is_distributed) call largest_over_ranks(values)
-   end subroutine largest
+      largest = values
+      if (self%is_distributed) call largest_over_ranks(largest)
+   end function largest
 
    !> The largest number of a field and the first of the points that have it, over the whole grid.
    subroutine find_largest(self, field, value, point)
@@ -240,8 +250,7 @@ contains
          end do
          columns(j) = column
       end do
-      most = maxval(columns)
-      call self%largest(most)
+      most = self%largest([maxval(columns)])
       value = most(1)
       ! Numbers of points are whole in a real number up to 2^53.
       place = -huge(place)
@@ -251,7 +260,7 @@ contains
             i = findloc(field(:, j) >= value, .true., dim=1)
             place = -(i - 1.0_dp + real(m, dp)*(self%first + j - 2))
          end if
-         call self%largest(place)
+         place = self%largest(place)
          point(2) = int(-place(1)/m)
          point(1) = nint(-place(1) - real(m, dp)*point(2))
          if (point(1) < 0) point = point + [m, -1]

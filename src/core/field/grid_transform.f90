@@ -3,7 +3,7 @@
 !> The points are those of wavycon_grid_points. The values of an even field on a quarter of its cell are a sum of
 !> cosines (DCT-II and III), those of any other field a sum of waves. Columns are transformed along x, then rows of the
 !> spectrum along y. On a distributed grid the field has the own columns, and the series the coefficients of own wave
-!> numbers in X: a series of the shape (first:last, :), whose component `distributed_waves` is the number of all wave
+!> numbers in X: a series of the shape (first:last, :), whose component `rows` has first + 1 to last + 1 of all wave
 !> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is distributed.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_f_pointer, c_loc
@@ -13,7 +13,6 @@ module wavycon_grid_transform
    use wavycon_kinds, only: dp
    use wavycon_line_plans, only: cosines_to_values, line_plan, plan_of_line, real_to_waves, values_to_cosines, &
       waves_backward, waves_forward, waves_to_real
-   use wavycon_own_waves, only: slab_of_waves, wave_slab
    use wavycon_wave_packing, only: give_cosines, give_waves, take_cosines, take_waves
    implicit none (type, external)
    private
@@ -63,11 +62,9 @@ contains
       class(grid_transform), intent(in) :: self
       type(fourier_series), intent(out) :: answer    !! distributed if the grid is
 
-      type(grid_slab) :: rows
-
-      if (self%slab%is_distributed) answer%distributed_waves = self%waves
-      rows = slab_of_waves(self%waves, self%slab%is_distributed)
-      associate (first => rows%first - 1, last => rows%last - 1, &
+      call answer%rows%start([1, self%waves], whole=.true.)
+      if (self%slab%is_distributed) call answer%rows%divide([1, self%waves])
+      associate (first => answer%rows%first - 1, last => answer%rows%last - 1, &
                  last_y => merge(self%points(2) - 1, self%points(2)/2, self%even))
          if (self%even) then
             allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
@@ -91,8 +88,7 @@ contains
       call columns_to_waves(self, field, spectrum)
       if (self%slab%is_distributed) then
          allocate (own_rows(self%numbers, answer%last(1) - answer%first() + 1, self%points(2)))
-         call self%slab%exchange_rows(slab_of_waves(self%waves, .true.), 8*self%numbers, spectrum, own_rows, &
-                                      to_rows=.true.)
+         call self%slab%exchange_rows(answer%rows, 8*self%numbers, spectrum, own_rows, to_rows=.true.)
          call move_alloc(own_rows, spectrum)
       end if
       call transform_rows(self%even, spectrum, forwards=.true.)
@@ -109,8 +105,9 @@ contains
       type(fourier_series), intent(in) :: from                !! even, if the points are those of a quarter
       real(dp), intent(out), contiguous :: field(:, :)        !! shape (M, slab%columns())
 
-      real(dp), allocatable :: own_columns(:, :, :), spectrum(:, :, :)
-      real(dp), allocatable :: own_values(:, :)
+      real(dp), allocatable :: own_columns(:, :, :), own_values(:, :)
+      real(dp), allocatable, target :: spectrum(:, :, :)
+      complex(c_double_complex), pointer :: waves(:, :)
       type(grid_slab) :: kept   ! columns after the exchange
       integer :: carried
 
@@ -122,7 +119,8 @@ contains
       if (self%even) then
          call give_cosines(self%points, from, spectrum(:, :carried, :))
       else
-         call give_waves(self%points, from, spectrum(:, :carried, :))
+         call c_f_pointer(c_loc(spectrum), waves, [size(spectrum, 2), size(spectrum, 3)])
+         call give_waves(self%points, from, waves(:carried, :))
       end if
       call transform_rows(self%even, spectrum(:, :carried, :), forwards=.false.)
       if (.not. from%is_distributed()) then
@@ -131,13 +129,13 @@ contains
       end if
       kept = self%slab
       if (.not. kept%is_distributed) call kept%divide(self%points)
-      allocate (own_columns(self%numbers, from%distributed_waves, kept%columns()))
-      call kept%exchange_rows(wave_slab(from), 8*self%numbers, own_columns, spectrum, to_rows=.false.)
+      allocate (own_columns(self%numbers, from%rows%points(2), kept%columns()))
+      call kept%exchange_rows(from%rows, 8*self%numbers, own_columns, spectrum, to_rows=.false.)
       if (self%slab%is_distributed) then
-         call waves_to_columns(self, from%distributed_waves, own_columns, field)
+         call waves_to_columns(self, from%rows%points(2), own_columns, field)
       else
          allocate (own_values(self%points(1), kept%columns()))
-         call waves_to_columns(self, from%distributed_waves, own_columns, own_values)
+         call waves_to_columns(self, from%rows%points(2), own_columns, own_values)
          call kept%gather(8*self%points(1), own_values, field, first_only=.false.)
       end if
    end subroutine sample

@@ -33,7 +33,7 @@ contains
       turn_x = turn(2*pi*modulo([(k*offset(1)/whole(1), k=0, series%last(1))], 1.0_dp))
       do l = -series%last(2), series%last(2)
          associate (turn_y => turn(2*pi*modulo(l*offset(2)/whole(2), 1.0_dp)))
-            call fold_waves(whole, l, 0.5_dp*turn_y*turn_x*series%row(l, series%last(1)), waves)
+            call fold_waves(whole, l, 0, 0.5_dp*turn_y*turn_x*series%row(l, series%last(1)), waves)
          end associate
       end do
       call transform%sample_waves(waves, values)

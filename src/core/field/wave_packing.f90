@@ -16,14 +16,12 @@ contains
       real(dp), intent(in) :: spectrum(:, :, :)         !! shape (1, wave numbers of the series in X, N)
       type(fourier_series), intent(inout) :: answer     !! its arrays are those of own wave numbers
 
-      integer :: k, l
+      integer :: l
 
       do l = 0, points(2) - 1
-         do k = lbound(answer%c, 1), ubound(answer%c, 1)
-            answer%c(k, l) = merge(0.5_dp, 1.0_dp, k == 0)*merge(0.5_dp, 1.0_dp, l == 0)* &
-                             (spectrum(1, k - lbound(answer%c, 1) + 1, l + 1)/(real(points(1), dp)*points(2)))
-         end do
+         answer%c(:, l) = merge(0.5_dp, 1.0_dp, l == 0)*(spectrum(1, :, l + 1)/(real(points(1), dp)*points(2)))
       end do
+      if (answer%first() == 0) answer%c(0, :) = 0.5_dp*answer%c(0, :)
    end subroutine take_cosines
 
    !> The waves of any other field. At the points those of 2l = N are equal for l and -l.
@@ -49,15 +47,12 @@ contains
       type(fourier_series), intent(in) :: from
       real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
 
-      integer :: k, l, r
+      integer :: l
 
       spectrum = 0.0_dp
-      do l = 0, min(points(2) - 1, ubound(from%c, 2))
-         do r = 1, size(spectrum, 2)
-            k = lbound(from%c, 1) + r - 1
-            spectrum(1, r, l + 1) = merge(1.0_dp, 0.5_dp, k == 0)*merge(1.0_dp, 0.5_dp, l == 0)* &
-                                    from%c(k, l)
-         end do
+      do l = 0, min(points(2) - 1, from%last(2))
+         spectrum(1, :, l + 1) = 0.5_dp*real(from%row(l, from%first() + size(spectrum, 2) - 1))
+         if (from%first() == 0) spectrum(1, :1, l + 1) = 2*spectrum(1, :1, l + 1)
       end do
    end subroutine give_cosines
 
@@ -65,35 +60,25 @@ contains
    pure subroutine give_waves(points, from, spectrum)
       integer, intent(in) :: points(2)                    !! M, N
       type(fourier_series), intent(in) :: from
-      real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
+      complex(dp), intent(inout) :: spectrum(:, :)        !! of the first wave numbers of the series in X
 
-      complex(dp) :: waves(from%first():from%first() + size(spectrum, 2) - 1)
-      integer :: k, l, last, opposite, place, r
+      integer :: l, last
 
       spectrum = 0.0_dp
       last = min(points(2)/2, from%last(2))
       do l = -last, last
-         waves = 0.5_dp*from%row(l, ubound(waves, 1))
-         place = modulo(l, points(2)) + 1
-         opposite = modulo(-l, points(2)) + 1
-         spectrum(1, :, place) = spectrum(1, :, place) + waves%re
-         spectrum(2, :, place) = spectrum(2, :, place) + waves%im
-         do k = lbound(waves, 1), ubound(waves, 1)
-            ! The transform takes the waves -k from the others, unless they are the same ones.
-            if (k > 0 .and. 2*k /= points(1)) cycle
-            r = k - lbound(waves, 1) + 1
-            spectrum(:, r, opposite) = spectrum(:, r, opposite) + [waves(k)%re, -waves(k)%im]
-         end do
+         call fold_waves(points, l, from%first(), 0.5_dp*from%row(l, from%first() + size(spectrum, 1) - 1), spectrum)
       end do
    end subroutine give_waves
 
    !> Adds the waves of one wave number in Y to a spectrum as of `grid_transform%sample_waves`. Waves that the points
    !> cannot tell from slower ones are added to those.
-   pure subroutine fold_waves(points, l, waves, spectrum)
-      integer, intent(in) :: points(2)                   !! M, N
+   pure subroutine fold_waves(points, l, first, waves, spectrum)
+      integer, intent(in) :: points(2)                      !! M, N
       integer, intent(in) :: l
-      complex(dp), intent(in) :: waves(0:)               !! half of W_kl, k = 0..m
-      complex(dp), intent(inout) :: spectrum(0:, 0:)     !! shape (0:M/2, 0:N - 1)
+      integer, intent(in) :: first                          !! wave number in X, > 0 if only waves up to M/2 are given
+      complex(dp), intent(in) :: waves(first:)              !! half of W_kl, k = first..m
+      complex(dp), intent(inout) :: spectrum(first:, 0:)    !! shape (first:M/2, 0:N - 1)
 
       integer :: half, k, place, opposite, r
 
@@ -102,8 +87,8 @@ contains
       opposite = modulo(-l, points(2))
       spectrum(:half, place) = spectrum(:half, place) + waves(:half)
       ! The transform takes the waves -k from the others, unless they are the same ones.
-      spectrum(0, opposite) = spectrum(0, opposite) + conjg(waves(0))
-      do k = (points(1) + 1)/2, ubound(waves, 1)
+      if (first == 0) spectrum(0, opposite) = spectrum(0, opposite) + conjg(waves(0))
+      do k = max(first, (points(1) + 1)/2), ubound(waves, 1)
          r = modulo(k, points(1))
          if (k > half .and. 2*r <= points(1)) spectrum(r, place) = spectrum(r, place) + waves(k)
          r = modulo(-k, points(1))

@@ -52,8 +52,7 @@ contains
       statistics%path = ''
       statistics%assumed_sides = ''
       call slab%start(points)
-      extremes = [-minval(height), maxval(height)]
-      call slab%largest(extremes)
+      extremes = slab%largest([-minval(height), maxval(height)])
       statistics%lowest = -extremes(1)
       statistics%highest = extremes(2)
       ! Powers of heights over the largest one do not overflow.
@@ -121,8 +120,8 @@ contains
             if (n > 1) bend = 0.5_dp*(bend + over_step(2)**2*(to_next - to_last))
             parts(3, j) = sum(bend(first:last)**2)
          end do
-         call slab%add(squares)
-         call slab%largest(across)
+         squares = slab%total(squares)
+         across = slab%largest(across)
          totals = slab%column_totals(parts)
          statistics%largest_step = unit*sqrt([maxval(squares(:m - 1))/n, across(1)/m])
          statistics%border_step = unit*sqrt([totals(4)/n, across(2)/m])

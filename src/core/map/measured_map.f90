@@ -55,10 +55,8 @@ contains
       class(measured_map), intent(in) :: self
 
       columns = self%slab
-      if (columns%is_distributed) return
-      associate (n => size(self%height, 2))
-         columns = grid_slab(points=shape(self%height), is_distributed=.false., width=n, first=1, last=n)
-      end associate
+      if (.not. columns%is_distributed) &
+         columns = grid_slab(points=shape(self%height), width=size(self%height, 2), last=size(self%height, 2))
    end function columns
 
    !> Distributes a whole map if it is large.

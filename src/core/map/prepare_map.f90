@@ -66,8 +66,7 @@ contains
 
       changes%map_preparation = preparation
       slab = map%columns()
-      largest = maxval(abs(map%height))
-      call slab%largest(largest)
+      largest = slab%largest([maxval(abs(map%height))])
       step = length/slab%points
       if (preparation%crop_missing) call crop(map, changes%cropped_from)
       slab = map%columns()
@@ -96,8 +95,7 @@ contains
       end if
       if (preparation%edges == 'window') call taper_borders(preparation%window_width, slab, map%height, changes%tapered)
       if (degree < 0 .and. changes%filled == 0 .and. preparation%edges /= 'window') return
-      extremes = [maxval(map%height), -minval(map%height)]
-      call slab%largest(extremes)
+      extremes = slab%largest([maxval(map%height), -minval(map%height)])
       if (sum(extremes) <= rounding*largest(1)) map%height = 0.0_dp
    end subroutine prepare_map
 
@@ -129,7 +127,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(grid_slab) :: slab
-      integer(int64) :: holes(1), points
+      integer(int64) :: holes, points
       integer :: first(2)
       character(:), allocatable :: remedy
       real(dp) :: unused
@@ -138,18 +136,18 @@ contains
       points = product(int(slab%points, int64))
       holes = 0
       if (allocated(map%missing)) holes = count(map%missing, kind=int64)
-      call slab%add(holes)
-      if (holes(1) == 0) return
-      if (holes(1) == points) then
+      holes = slab%total_count(holes)
+      if (holes == 0) return
+      if (holes == points) then
          call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing: some must be numbers')
       else if (preparation%fill_missing == 'none') then
          if (.not. allocated(map%missing)) allocate (map%missing(slab%points(1), slab%columns()), source=.false.)
          call slab%find_largest(merge(1.0_dp, 0.0_dp, map%missing), unused, first)
          remedy = "fill_missing = 'harmonic' fills them"
          if (all(first == 1)) remedy = remedy//', crop_missing = .true. leaves out a frame of them'
-         call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes(1))//' of '// &
+         call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes)//' of '// &
                           integer_text(points)//' heights are missing ('// &
-                          percent(real(holes(1), dp)/points)//'), the first is number '// &
+                          percent(real(holes, dp)/points)//'), the first is number '// &
                           integer_text(first(1))//' along x and '//integer_text(first(2))//' along y: '//remedy)
       end if
    end subroutine check_holes

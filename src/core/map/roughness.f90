@@ -3,9 +3,7 @@
 module wavycon_roughness
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_own_waves, only: wave_slab
    implicit none (type, external)
    private
 
@@ -46,7 +44,6 @@ contains
       real(dp), dimension(series%first():series%last(1)) :: powers, q_squared, x_squared
       real(dp) :: sums(4), unit
       integer :: k, l
-      type(grid_slab) :: rows
 
       ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
       unit = minval(length)
@@ -60,8 +57,7 @@ contains
          moments(3, :) = moments(3, :) + powers*q_squared**2
          moments(4, :) = moments(4, :) + powers*sqrt(q_squared)
       end do
-      rows = wave_slab(series)
-      sums = rows%column_totals(moments)
+      sums = series%rows%column_totals(moments)
       sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))
       if (series%last(2) > 0) sums(3) = 0.5_dp*sums(3)
       roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit)

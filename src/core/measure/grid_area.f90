@@ -102,11 +102,8 @@ contains
    real(dp) function counted_area_fraction(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 
-      integer(int64) :: total(1)
-
-      total = count(edge%pressure_or_gap > 0.0_dp, kind=int64)
-      call edge%slab%add(total)
-      fraction = total(1)/product(real(edge%slab%points, dp))
+      fraction = edge%slab%total_count(count(edge%pressure_or_gap > 0.0_dp, kind=int64)) &
+                 /product(real(edge%slab%points, dp))
    end function counted_area_fraction
 
    !> The counted area less c for each change from contact to gap (C26).
@@ -123,19 +120,17 @@ contains
       type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
 
       logical :: here(0:edge%slab%points(1) + 1), next(0:edge%slab%points(1) + 1)
-      integer(int64) :: total(1)
       integer :: j, m
 
       m = edge%slab%points(1)
-      total = 0
+      crossings = 0
       if (edge%slab%columns() > 0) next = edge%column(edge%slab%first) > 0.0_dp
       do j = edge%slab%first, edge%slab%last
          here = next
          next = edge%column(j + 1) > 0.0_dp
-         total = total + count(here(1:m) .neqv. here(2:)) + count(here(1:m) .neqv. next(1:m))
+         crossings = crossings + count(here(1:m) .neqv. here(2:)) + count(here(1:m) .neqv. next(1:m))
       end do
-      call edge%slab%add(total)
-      crossings = total(1)
+      crossings = edge%slab%total_count(crossings)
    end function edge_crossings
 
    !> |mean of exp(i X)| with the pressure as weight, or of exp(i Y) if that is less: 1 if all load is at one place,
@@ -155,7 +150,7 @@ contains
             sums = sums + p*[1.0_dp, cos(angle(1)), sin(angle(1)), cos(angle(2)), sin(angle(2))]
          end do
       end do
-      call edge%slab%add(sums)
+      sums = edge%slab%total(sums)
       least = 0.0_dp
       if (.not. sums(1) > 0.0_dp) return
       sums = sums/sums(1)

@@ -41,7 +41,7 @@ contains
          call find_peak(edge, best, peak, bend)
          answer = [peak, bend]
       end if
-      call edge%slab%add(answer)
+      answer = edge%slab%total(answer)
       peak = answer(1)
       bend = answer(2)
    end subroutine grid_peak_pressure

@@ -183,7 +183,7 @@ contains
             here(:, 9) = cmplx(0.0_dp, q_y/q, dp)*here(:, 7)
          end select
          do j = 1, number
-            call fold_waves(points, l, here(:, j), spectra(:, :, j))
+            call fold_waves(points, l, 0, here(:, j), spectra(:, :, j))
          end do
       end do
    end subroutine find_spectra

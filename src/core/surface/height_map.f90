@@ -40,8 +40,7 @@ contains
 
       slab = map%columns()
       length = sides/slab%points
-      largest = maxval(abs(map%height))
-      call slab%largest(largest)
+      largest = slab%largest([maxval(abs(map%height))])
       if (largest(1) > largest_number) &
          call fatal_error(error, exit_bad_input, escaped(source)//': heights are up to '//short_number(largest(1))// &
                           ' in size: they may be up to '//short_number(largest_number))
@@ -57,8 +56,7 @@ contains
       if (preparation%short_wavelength > 0.0_dp) &
          call leave_out_short_waves(slab%points, length, .not. repeats, preparation%short_wavelength, map%height, &
                                     changes%rms_of_short)
-      extremes = [maxval(map%height), -minval(map%height)]
-      call slab%largest(extremes)
+      extremes = slab%largest([maxval(map%height), -minval(map%height)])
       if (sum(extremes) <= 0.0_dp) then
          ! Equal heights less their rounded mean would not be zero.
          map%height = 0.0_dp
@@ -66,8 +64,7 @@ contains
          mean = slab%column_totals(reshape(sum(map%height, dim=1), [1, slab%columns()]))/product(real(slab%points, dp))
          map%height = scale*(map%height - mean(1))
       end if
-      largest = maxval(abs(map%height))
-      call slab%largest(largest)
+      largest = slab%largest([maxval(abs(map%height))])
       if (largest(1) > largest_number .or. (largest(1) < smallest_number .and. largest(1) > 0.0_dp)) then
          call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
                           'height_scale, are up to '//short_number(largest(1))//' [length]: lengths may be '// &

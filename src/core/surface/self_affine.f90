@@ -10,7 +10,6 @@ module wavycon_self_affine
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: check_room
    use wavycon_map_statistics, only: map_statistics, statistics_of
-   use wavycon_own_waves, only: wave_slab
    use wavycon_plain_text, only: short_number
    use wavycon_surface, only: surface_type
    use wavycon_surface_of_points, only: surface_of_points
@@ -61,8 +60,7 @@ contains
       if (allocated(error)) return
       allocate (height(points(1), slab%columns()))
       call make_heights(spectrum, height, points)
-      largest = maxval(abs(height))
-      call slab%largest(largest)
+      largest = slab%largest([maxval(abs(height))])
       if (largest(1) > largest_number .or. largest(1) < smallest_number) then
          call fatal_error(error, exit_bad_input, source//': heights are up to '//short_number(largest(1))// &
                           ' [length]: lengths may be from '//short_number(smallest_number)//' to '// &
@@ -140,7 +138,6 @@ contains
 
       type(c_ptr) :: generator
       type(fourier_series) :: waves
-      type(grid_slab) :: rows               ! the own wave numbers along x
       type(grid_transform) :: transform
       real(dp) :: moment(1)
       real(dp), allocatable :: moments(:, :)   ! of the waves of each of them
@@ -169,8 +166,7 @@ contains
          end if
       end do
       call gsl_rng_free(generator)
-      rows = wave_slab(waves)
-      moment = rows%column_totals(moments)
+      moment = waves%rows%column_totals(moments)
       call transform%sample(waves, height)
       ! Of the mean square of a wave each of its two wave vectors has half.
       if (spectrum%density > 0.0_dp) moment = product(spectrum%length(:spectrum%dimension))/(2*spectrum%density)

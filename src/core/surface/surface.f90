@@ -95,8 +95,8 @@ contains
       is_height_map = all(self%points > 0)
    end function is_height_map
 
-   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_own_waves. Then only
-   !> `sample_gap` can evaluate it; `gather_series` gathers the shape. All other components are those of the
+   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_grid_transform. Then only
+   !> `sample_gap` can evaluate it; `gather` gathers the shape. All other components are those of the
    !> whole surface.
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
@@ -123,8 +123,7 @@ contains
          call transform%start(self%points/self%parts(), even=self%mirrored)
          allocate (values(transform%points(1), transform%slab%columns()))
          call transform%sample(weighted(self%shape, self%length), values)
-         largest = maxval(values)
-         call transform%slab%largest(largest)
+         largest = transform%slab%largest([maxval(values)])
       else
          call find_peak(weighted(self%shape, self%length), largest(1), unused)
       end if

@@ -52,8 +52,7 @@ contains
       mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
       if (present(radii)) surface%form = form_of_radii(surface, radii)
       ! A flat map on a ball is the ball.
-      extremes = [maxval(height), -minval(height)]
-      call transform%slab%largest(extremes)
+      extremes = transform%slab%largest([maxval(height), -minval(height)])
       surface%has_steps = .not. transform%slab%any(any(height < extremes(1) .and. height > -extremes(2)))
       surface%has_steps = surface%has_steps .and. surface%has_free_edges .and. &
                           (sum(extremes) > 0.0_dp .or. surface%form%is_flat())
@@ -76,8 +75,7 @@ contains
          call set_units_without_closure(surface)
       else
          call transform%sample(weighted(surface%shape, surface%length, surface%kernel), values)
-         extremes = [maxval(values), -minval(values)]
-         call transform%slab%largest(extremes)
+         extremes = transform%slab%largest([maxval(values), -minval(values)])
          surface%stiffness = 1.0_dp/extremes(2)
          surface%full_contact_peak = extremes(1)*surface%stiffness
       end if

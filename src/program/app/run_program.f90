@@ -15,9 +15,8 @@ module wavycon_run_program
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: error_text, full_path, keep_memory, outlive_file_size_limit, print_trouble, &
-      remove_leftovers, say, stack_limit
-   use wavycon_threads, only: set_threads, use_one_thread_for_matrices
+   use wavycon_system, only: error_text, full_path, prepare_process, print_trouble, remove_leftovers, say, stack_limit
+   use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
@@ -70,9 +69,7 @@ contains
       if (stack_limit() < least_stack) call fatal_error(error, exit_file_trouble, &
          'the limit on the stack is too low: allow '//integer_text(int(least_stack/1024))//' kB (ulimit -s)')
       call stop_on(error)
-      call use_one_thread_for_matrices()
-      call keep_memory()
-      call outlive_file_size_limit()
+      call prepare_process()
       call read_command_line(command_line, error)
       if (allocated(comm) .and. nint(command_line%options%jobs%number) > 1 .and. .not. allocated(error)) &
          call fatal_error(error, exit_bad_input, '--jobs is an option of wavycon: mpirun starts the processes here')

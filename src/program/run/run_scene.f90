@@ -8,7 +8,6 @@ module wavycon_run_scene
    use wavycon_methods, only: start_solver
    use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
-   use wavycon_own_waves, only: gather_series
    use wavycon_plain_text, only: escaped, integer_text, newline, short_number
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
@@ -196,7 +195,7 @@ contains
       end associate
       deallocate (results%scene%surface)
       if (results%sharing%kind /= distributed_grids) &
-         call gather_series(results%solver%surface%shape, first_only=.not. results%sharing%is_shared)
+         call results%solver%surface%shape%gather(first_only=.not. results%sharing%is_shared)
    end subroutine start_results
 
    !> Whether the solutions keep their fields.
@@ -300,7 +299,7 @@ contains
       do load = 1, merge(size(results%loads), 0, fields)
          call results%loads(load)%collect_fields()
       end do
-      if (surface) call gather_series(results%solver%surface%shape, first_only=.true.)
+      if (surface) call results%solver%surface%shape%gather(first_only=.true.)
    end subroutine collect
 
 end module wavycon_run_scene
