@@ -18,7 +18,7 @@ module wavycon_solve_loads
    use wavycon_quantities, only: approach, contact_area, mean_gap
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_yield
+   use wavycon_scene, only: by_mean_gap, by_yield
    use wavycon_solution_record, only: record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
@@ -31,6 +31,9 @@ module wavycon_solve_loads
    !> Loads of a block where each starts from the last one and loads are distributed. The first of a block starts as the
    !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
    integer, parameter :: block_length = 8
+
+   !> The quantity of the record by which loads are given, in the order of the names of wavycon_scene; 0: there is none.
+   integer, parameter :: quantity_of(*) = [0, mean_gap, contact_area, 0, approach]
 
 contains
 
@@ -103,18 +106,13 @@ contains
       type(contact_solution), intent(out) :: solution
       type(stress_setting), intent(in), optional :: setting   !! needed by_yield, with yield stresses
 
-      select case (loads_by)
-      case (by_mean_gap)
-         call solve_for(solver, mean_gap, target, solution)
-      case (by_approach)
-         call solve_for(solver, approach, target, solution)
-      case (by_contact_area)
-         call solve_for(solver, contact_area, target, solution)
-      case (by_yield)
+      if (loads_by == by_yield) then
          call solve_for_yield(solver, setting, target, solution)
-      case default
+      else if (quantity_of(loads_by) > 0) then
+         call solve_for(solver, quantity_of(loads_by), target, solution)
+      else
          call solver%solve(target, solution)
-      end select
+      end if
    end subroutine solve_target
 
    !> Gives all ranks the measures of all loads. A rank keeps the solutions of its own loads as they are.
@@ -165,11 +163,8 @@ contains
          call share_stresses(results%sharing, results%von_mises)
          call share_stresses(results%sharing, results%shear)
       end if
-      number = 0
-      do load = 1, size(results%loads)
-         if (any([(results%stress_status(load, body), body=1, size(results%von_mises, 1))] /= &
-                 results%loads(load)%status)) number = number + 1
-      end do
+      number = count([(any([(results%stress_status(load, body), body=1, size(results%von_mises, 1))] /= &
+                           results%loads(load)%status), load=1, size(results%loads))])
       if (number > 0) call log%note('the error of the largest stress is more than half of it at '// &
          integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
          'grid_points')
