@@ -59,8 +59,8 @@ contains
          'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0))
    end subroutine list_interface_keys
 
-   !> Reports what is missing, contradicts, or does not exist on the surface; if there is nothing of this, makes what the
-   !> group asks for.
+   !> Reports what is missing, contradicts, or does not exist on the surface; if there is nothing of this, makes what
+   !> the group asks for.
    subroutine check_interface_group(values, material, method, surface, p_star, setting)
       type(interface_group), intent(inout) :: values
       type(material_group), intent(in) :: material
