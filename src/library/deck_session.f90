@@ -50,7 +50,6 @@ module wavycon_deck_session
       !> Scene and solver; its one load is the solution of which a table is asked for.
       type(results_type) :: results
       type(unit_scale) :: scale
-      logical :: keeps_fields = .false.                   !! whether solutions have fields, edges and stresses
       real(dp), allocatable, private :: mean_pressure(:)  !! of the deck's loads [pressure], if it gives them so
       type(solution_record), allocatable, private :: records(:)   !! of the deck's loads; status < 0: not solved yet
       type(run_log), private :: log                       !! quiet: it keeps the notes on the surface and on tables
@@ -97,9 +96,7 @@ contains
       allocate (scene)
       call parse_deck(deck_text_type(path, text), scene, error, settings, heights, in_memory=.true.)
       if (allocated(error)) return
-      ! A search by yield asks for stresses.
-      self%keeps_fields = keep_fields .or. scene%loads_by == by_yield
-      call start_results(scene, self%results, tables, self%keeps_fields)
+      call start_results(scene, self%results, tables, keep_fields)
       associate (scene => self%results%scene)
          call scene%output%map_format%set(text='text')
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
@@ -211,7 +208,7 @@ contains
       if (loads_by == by_yield) then
          if (.not. self%results%scene%stress%yield_stress%is_given) then
             call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
-         else if (.not. self%keeps_fields) then
+         else if (.not. self%results%keeps_fields) then
             call fatal_error(error, exit_bad_input, 'yield needs fields: the session was opened without them')
          end if
          if (allocated(error)) return
@@ -290,7 +287,7 @@ contains
          trouble = 'it needs a group &stress in the deck'
       else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then
          trouble = 'the deck has no group &interface that asks for it'
-      else if ((writer%group == 'stress' .or. writer%needs_fields) .and. .not. self%keeps_fields) then
+      else if ((writer%group == 'stress' .or. writer%needs_fields) .and. .not. self%results%keeps_fields) then
          trouble = 'the session was opened without fields'
       else if (self%scale%p_star <= 0.0_dp .and. writer%needs_surface) then
          trouble = 'the surface is flat'

@@ -200,7 +200,7 @@ contains
 
       call check_ready(session, error, solved)
       if (allocated(error)) return
-      if (.not. session%keeps_fields) then
+      if (.not. session%results%keeps_fields) then
          call fatal_error(error, exit_bad_input, 'there are no fields: the session was opened without them')
       else if (.not. allocated(solved%fields)) then
          call solved%solution%fields(session%results%solver%surface, solved%fields)

@@ -11,7 +11,7 @@ module wavycon_check_scene
    use wavycon_plain_text, only: escaped, integer_text, listed
    use wavycon_results, only: results_type
    use wavycon_run_log, only: duration, run_log
-   use wavycon_run_scene, only: keep_fields, start_results
+   use wavycon_run_scene, only: start_results
    use wavycon_scene, only: scene_type
    use wavycon_table, only: table_type
    use wavycon_work_sharing, only: distributed_grids, distributed_loads
@@ -42,7 +42,7 @@ contains
       end if
       if (reason /= '') call log%say('because: '//reason)
       if (all(results%traits%finest_grid > 0)) then
-         call log%say('memory: '//memory(results, keep_fields(results%scene, tables)))
+         call log%say('memory: '//memory(results))
          call log%say('time: some '// &
             duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
             ' if all loads need that grid, by its transforms as measured now')
@@ -53,9 +53,8 @@ contains
    end subroutine check_scene
 
    !> The memory that the finest grid takes, and what is available.
-   function memory(results, with_fields) result(words)
+   function memory(results) result(words)
       type(results_type), intent(in) :: results
-      logical, intent(in) :: with_fields   !! whether the solutions keep pressures and gaps
       character(:), allocatable :: words
 
       integer, parameter :: bytes_of_point = 2*storage_size(1.0_dp)/8
@@ -74,7 +73,7 @@ contains
             loads = (loads - 1)/sharing%ranks + 1
          end if
          bytes = bytes_of_grid(own)
-         if (with_fields) bytes = bytes + bytes_of_point*product(int(own, int64))*loads
+         if (results%keeps_fields) bytes = bytes + bytes_of_point*product(int(own, int64))*loads
          words = 'at most '//megabytes(bytes)
          if (sharing%is_shared) words = words//' on each rank'
       end associate

@@ -147,13 +147,7 @@ contains
          end if
          if (options%output%is_given) then
             sweeps = sweeps + 1
-            ! gfortran 12 loses the memory of texts in an array constructor.
-            allocate (sweep(sweeps)%values(1))
-            associate (setting => sweep(sweeps)%values(1))
-               setting%group = 'output'
-               setting%key = 'directory'
-               setting%value = quoted(options%output%text)
-            end associate
+            call read_sweep('--set', 'output.directory='//quoted(options%output%text), sweep(sweeps)%values, trouble)
          end if
       end associate
       call make_runs(deck(:decks), sweep(:sweeps), command_line%runs, error)

@@ -185,7 +185,7 @@ contains
 
          character(:), allocatable :: name, trouble
          integer :: k, most, place, used
-         logical :: is_bad, is_read, wants_value   ! is_read: whether words are read as values
+         logical :: is_bad, is_read   ! is_read: whether words are read as values
          real(dp), allocatable :: numbers(:)
          type(token_type) :: before, equals
          type(word_value) :: value
@@ -199,7 +199,6 @@ contains
          used = 0
          is_read = k > 0
          is_bad = .false.
-         wants_value = .true.
          equals = next_token(text%content(:last), token%last + 1)
          token = equals
          do
@@ -207,8 +206,8 @@ contains
             token = next_token(text%content(:last), before%last + 1)
             select case (token%kind)
             case (is_comma)
-               if (wants_value) call problems%add(token%first, 'no value before this comma')
-               wants_value = .true.
+               if (any(before%kind == [is_equals, is_comma])) &
+                  call problems%add(token%first, 'no value before this comma')
             case (is_equals)
                call problems%add(token%first, "'=' in place of a value")
             case (is_broken_word)
@@ -221,13 +220,11 @@ contains
                quote_is_open = .true.
                ! Keys may stand behind it.
                if (g > 0) lists(g)%group%has_unknown = .true.
-               wants_value = .false.
                is_bad = .true.
             case (is_word)
                if (before%kind == is_word .and. before%last == token%first - 1) &
                   call problems%add(token%first, 'expected a blank or a comma behind the quote')
                if (starts_entry(text%content(:last), token)) exit
-               wants_value = .false.
                if (.not. is_read) cycle
                call read_word(text%content(token%first:token%last), lists(g)%rows, k, numbers, used, value, trouble)
                if (.not. allocated(trouble)) cycle
@@ -239,11 +236,7 @@ contains
             end select
          end do
          if (k == 0) return
-         if (is_bad .or. used == 0) then
-            call lists(g)%take(k, place)
-         else
-            call lists(g)%take(k, place, numbers(:used), value%text)
-         end if
+         call lists(g)%take(k, place, numbers(:merge(0, used, is_bad)), value%text)
          if (before%last == equals%last) call problems%add(place, &
             name//' has no value: it must be '//allowed_values(lists(g)%rows(k)))
       end subroutine take_entry

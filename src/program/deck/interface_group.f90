@@ -15,7 +15,7 @@ module wavycon_interface_group
    implicit none (type, external)
    private
 
-   public :: check_interface_group, list_interface_keys, make_interface_setting
+   public :: check_interface_group, list_interface_keys
 
    integer, parameter :: most_loads = 1000
 
@@ -59,12 +59,18 @@ contains
          'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0))
    end subroutine list_interface_keys
 
-   !> Reports what is missing, contradicts, or does not exist on the surface.
-   subroutine check_interface_group(values, material, method, surface)
+   !> Reports what is missing, contradicts, or does not exist on the surface; if there is nothing of this, makes what
+   !> the group asks for.
+   subroutine check_interface_group(values, material, method, surface, p_star, setting)
       type(interface_group), intent(inout) :: values
       type(material_group), intent(in) :: material
       type(method_group), intent(in) :: method      !! after its check
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
+      real(dp), intent(in) :: p_star                !! p* [pressure]; 0 if the surface is flat or &material is bad
+      type(interface_setting), allocatable, intent(out) :: setting   !! not allocated without the group
+
+      real(dp) :: kappa(3)
+      real(dp), allocatable :: e(:), nu(:)
 
       if (values%place == 0) return
       if (values%friction%is_given) then
@@ -93,43 +99,16 @@ contains
             'shear_direction is for surfaces that do not change along y: leave it out')
          values%shear_direction%in_effect = .false.
       end if
-      if (.not. values%work_of_adhesion%is_given) return
-      if (.not. has_adhesion(surface)) then
-         call values%complain(values%work_of_adhesion, 'adhesion is computed for wave_1d, for the 2-D waves '// &
-         "that solver = 'fitted' takes and for a round ball: on other surfaces the superposition does not hold")
-      else if (any(method%solver%text == ['grid  ', 'beale ', 'series']) .and. .not. is_ball(surface)) then
-         call values%complain(values%work_of_adhesion, "adhesion needs solver = 'auto', 'fitted' or "// &
-                              "'closed_form', which tell how the edge of contact moves with the load")
+      if (values%work_of_adhesion%is_given) then
+         if (.not. has_adhesion(surface)) then
+            call values%complain(values%work_of_adhesion, 'adhesion is computed for wave_1d, for the 2-D waves '// &
+               "that solver = 'fitted' takes and for a round ball: on other surfaces the superposition does not hold")
+         else if (any(method%solver%text == ['grid  ', 'beale ', 'series']) .and. .not. is_ball(surface)) then
+            call values%complain(values%work_of_adhesion, "adhesion needs solver = 'auto', 'fitted' or "// &
+                                 "'closed_form', which tell how the edge of contact moves with the load")
+         end if
       end if
-   end subroutine check_interface_group
-
-   !> Whether the superposition (I15) holds, if only roughly: one shape of contact for all spots.
-   logical function has_adhesion(surface)
-      type(surface_type), intent(in) :: surface
-
-      type(fitted_frame) :: frame
-      if (is_ball(surface)) then
-         has_adhesion = maxval(ball_radii(surface)) <= minval(ball_radii(surface))
-      else if (surface%dimension == 1) then
-         has_adhesion = is_paper_wave(surface)
-      else
-         call find_frame(surface, frame)
-         has_adhesion = allocated(frame%lattice)
-      end if
-   end function has_adhesion
-
-   !> What the group asks for.
-   subroutine make_interface_setting(values, material, surface, p_star, setting)
-      type(interface_group), intent(in) :: values         !! of an &interface group without problems
-      type(material_group), intent(in) :: material
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: p_star                   !! p* [pressure]
-      type(interface_setting), allocatable, intent(out) :: setting   !! not allocated without the group
-
-      real(dp) :: kappa(3)
-      real(dp), allocatable :: e(:), nu(:)
-
-      if (values%place == 0) return
+      if (values%problems%number > 0 .or. values%any_bad .or. p_star <= 0.0_dp) return
       allocate (setting)
       if (values%resistivity1%is_given) setting%resistivity = values%resistivity1%number + values%resistivity2%number
       if (values%work_of_adhesion%is_given) setting%work = values%work_of_adhesion%number/(p_star*surface%amplitude)
@@ -148,6 +127,21 @@ contains
       if (material%nu1%is_given) setting%beta = dundurs_beta(e, nu)
       setting%kappa = [kappa(3), minval(kappa), maxval(kappa)]
       if (surface%dimension == 1) setting%kappa = kappa(merge(2, 1, values%shear_direction%text == 'y'))
-   end subroutine make_interface_setting
+   end subroutine check_interface_group
+
+   !> Whether the superposition (I15) holds, if only roughly: one shape of contact for all spots.
+   logical function has_adhesion(surface)
+      type(surface_type), intent(in) :: surface
+
+      type(fitted_frame) :: frame
+      if (is_ball(surface)) then
+         has_adhesion = maxval(ball_radii(surface)) <= minval(ball_radii(surface))
+      else if (surface%dimension == 1) then
+         has_adhesion = is_paper_wave(surface)
+      else
+         call find_frame(surface, frame)
+         has_adhesion = allocated(frame%lattice)
+      end if
+   end function has_adhesion
 
 end module wavycon_interface_group

@@ -2,8 +2,8 @@
 module wavycon_key_reference
    use wavycon_deck_groups, only: list_keys, number_of_groups
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: allowed_values, full_meaning, integer_value, key_type, no_bound, real_value, &
-      text_value, words_of
+   use wavycon_key_table, only: allowed_values, full_meaning, integer_value, key_type, name_length, no_bound, &
+      real_value, text_value, words_of
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: exact_number, integer_text, newline
    use wavycon_scene, only: scene_type
@@ -25,6 +25,7 @@ contains
 
       type(key_list) :: lists(number_of_groups)
       type(scene_type), target :: none
+      character(:), allocatable :: line   ! allowed values, unit, default
       integer :: i, k
 
       reference = ''
@@ -38,29 +39,18 @@ contains
          call add_wrapped(reference, 0, '&'//trim(lists(i)%name)//'   '//trim(lists(i)%meaning)// &
             trim(merge(' (required)', '           ', lists(i)%required)))
          do k = 1, size(lists(i)%rows)
-            call add_key(reference, lists(i)%rows(k))
+            associate (key => lists(i)%rows(k))
+               line = allowed_values(key)
+               if (key%unit /= '') line = line//' ['//trim(key%unit)//']'
+               if (key%default /= '') line = line//'; default '//trim(key%default)
+               if (key%needs /= '') line = line//'; needs '//trim(key%needs)
+               if (key%required .and. key%way == 0) line = line//'; required'
+               call add_wrapped(reference, name_length + 3, line, head='   '//key%name)
+               call add_wrapped(reference, name_length + 3, full_meaning(key))
+            end associate
          end do
       end do
    end function key_reference
-
-   !> Adds a key: allowed values, unit, default and meaning.
-   subroutine add_key(reference, key)
-      character(:), allocatable, intent(inout) :: reference
-      type(key_type), intent(in) :: key
-
-      integer, parameter :: name_width = 24
-      character(:), allocatable :: line
-      character(name_width) :: name
-
-      name = key%name
-      line = allowed_values(key)
-      if (key%unit /= '') line = line//' ['//trim(key%unit)//']'
-      if (key%default /= '') line = line//'; default '//trim(key%default)
-      if (key%needs /= '') line = line//'; needs '//trim(key%needs)
-      if (key%required .and. key%way == 0) line = line//'; required'
-      call add_wrapped(reference, name_width + 3, line, head='   '//name)
-      call add_wrapped(reference, name_width + 3, full_meaning(key))
-   end subroutine add_key
 
    !> Adds a text as lines that begin with blanks and break between words.
    subroutine add_wrapped(reference, indent, text, head)

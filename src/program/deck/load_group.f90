@@ -181,21 +181,14 @@ contains
       loads_by = list_is(k)
       place = keys%keys(k)%value%place
       loads = keys%keys(k)%value%numbers
-      if (key == 'sweep_from' .and. values%sweep_steps%is_given) &
-         loads = sweep(values%sweep_from%number, values%sweep_to%number, nint(values%sweep_steps%number))
+      if (key /= 'sweep_from' .or. .not. values%sweep_steps%is_given) return
+      associate (from => values%sweep_from%number, to => values%sweep_to%number, &
+                 last => nint(values%sweep_steps%number) - 1)
+         loads = [((from*(last - k) + to*k)/max(1, last), k=0, last)]
+         ! Both ends are exact.
+         loads(last + 1) = to
+         loads(1) = from
+      end associate
    end subroutine given_loads
-
-   !> Equally spaced loads; both ends are exact.
-   pure function sweep(from, to, steps) result(loads)
-      real(dp), intent(in) :: from, to
-      integer, intent(in) :: steps   !! >= 1
-      real(dp) :: loads(steps)
-
-      integer :: i
-
-      loads = [((from*(steps - 1 - i) + to*i)/max(1, steps - 1), i=0, steps - 1)]
-      loads(steps) = to
-      loads(1) = from
-   end function sweep
 
 end module wavycon_load_group

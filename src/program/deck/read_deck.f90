@@ -9,7 +9,7 @@ module wavycon_read_deck
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
-   use wavycon_interface_group, only: check_interface_group, make_interface_setting
+   use wavycon_interface_group, only: check_interface_group
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: allowed_values, choice_value, text_value
    use wavycon_kinds, only: dp
@@ -98,7 +98,8 @@ contains
       call check_stress_group(scene%stress, scene%material, scene%load, scene%surface, scene%p_star, &
                               scene%stress_setting)
       call check_method_group(scene%method, scene%surface)
-      call check_interface_group(scene%interface, scene%material, scene%method, scene%surface)
+      call check_interface_group(scene%interface, scene%material, scene%method, scene%surface, scene%p_star, &
+                                 scene%interface_setting)
       call check_output_group(scene%output, scene%scene_values%case%text, scene%method, scene%surface)
       do i = 1, size(lists)
          call problems%join(lists(i)%group%problems)
@@ -200,7 +201,6 @@ contains
                         scene%scene_values%length_unit%is_given
       if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
       if (scene%load%place == 0) allocate (scene%target(0), scene%mean_pressure(0))
-      call make_interface_setting(scene%interface, scene%material, scene%surface, scene%p_star, scene%interface_setting)
       associate (labels => scene%scene_values, surface => scene%surface_values)
          scene%case = labels%case%text
          scene%pressure_unit = labels%pressure_unit%text

@@ -41,7 +41,7 @@ contains
       type(scene_group), intent(inout) :: values
       logical, intent(in) :: is_file   !! whether the deck is a file: the default is otherwise 'deck'
 
-      character(:), allocatable :: name, usual
+      character(:), allocatable :: name, usual, words
       integer :: i
 
       usual = 'deck'
@@ -55,17 +55,17 @@ contains
          if (iachar(usual(i:i)) >= 128 .and. iachar(usual(i:i)) < 192) cycle
          name = name//merge(usual(i:i), '_', index(name_letters, usual(i:i)) > 0)
       end do
-      usual = name
-      if (scan(usual, '-.') == 1) usual(1:1) = '_'
+      if (scan(name, '-.') == 1) name(1:1) = '_'
+      words = "the deck's file name is too long for the name of the case, at most "//integer_text(longest_name)// &
+              ' bytes: give case in &scene'
+      if (values%case%is_given) name = values%case%text
+      if (values%case%is_given) words = 'case must be a plain file name of '//plain_in_words
       if (values%case%is_bad) return
-      if (.not. values%case%is_given .and. .not. is_plain_name(usual)) then
-         call values%complain(values%case, "the deck's file name is too long for the name of the case, at most "// &
-            integer_text(longest_name)//' bytes: give case in &scene')
-         return
+      if (name == '' .or. len(name) > longest_name .or. verify(name, name_letters) > 0 .or. scan(name, '-.') == 1) then
+         call values%complain(values%case, words)
+      else
+         call values%case%set_default(text=name)
       end if
-      call values%case%set_default(text=usual)
-      if (.not. is_plain_name(values%case%text)) call values%complain(values%case, &
-         'case must be a plain file name of '//plain_in_words)
 
    contains
 
@@ -79,13 +79,5 @@ contains
       end subroutine check_unit
 
    end subroutine check_scene_group
-
-   !> Whether a text can be the stem of file names: as plain_in_words.
-   pure logical function is_plain_name(name)
-      character(*), intent(in) :: name
-
-      is_plain_name = len(name) > 0 .and. len(name) <= longest_name .and. verify(name, name_letters) == 0 .and. &
-                      scan(name, '-.') /= 1
-   end function is_plain_name
 
 end module wavycon_scene_group

@@ -70,9 +70,8 @@ contains
       real(dp), intent(in) :: p_star                        !! p* [pressure]; 0 if the surface is flat
       type(stress_setting), allocatable, intent(out) :: setting   !! not allocated if the deck has no group &stress
 
-      integer :: lateral
-      logical :: are_alike, has_range
-      real(dp) :: nu(2)
+      integer :: bodies, i
+      logical :: has_range
 
       if (load%yield%is_given .and. .not. (values%yield_stress%is_given .or. values%has_unknown)) &
          call load%complain(load%yield, 'yield needs yield_stress in the group &stress')
@@ -100,19 +99,15 @@ contains
             "the surface does not change along y: section must be 'none' or 'x'")
       end if
       allocate (setting)
-      nu = values%nu%pair
-      lateral = lateral_of(values)
-      allocate (setting%body, source=[elastic_body(nu(1), lateral), elastic_body(nu(2), lateral)])
       setting%by_shear = values%yield_criterion%text == 'tresca'
-      if (values%yield_stress%is_given .and. p_star > 0.0_dp) setting%yield_stress = values%yield_stress%pair/p_star
-      are_alike = maxval(nu) <= minval(nu)
-      if (allocated(setting%yield_stress)) are_alike = are_alike .and. &
-         maxval(setting%yield_stress) <= minval(setting%yield_stress)
-      ! Without e2 the second body is rigid.
-      if (are_alike .or. (material%e1%is_given .and. .not. material%e2%is_given)) then
-         setting%body = setting%body(:1)
-         if (allocated(setting%yield_stress)) setting%yield_stress = setting%yield_stress(:1)
-      end if
+      bodies = 2
+      associate (nu => values%nu%pair, yield => values%yield_stress%pair)
+         if (maxval(nu) <= minval(nu) .and. maxval(yield) <= minval(yield)) bodies = 1
+         ! Without e2 the second body is rigid.
+         if (material%e1%is_given .and. .not. material%e2%is_given) bodies = 1
+         allocate (setting%body, source=[(elastic_body(nu(i), lateral_of(values)), i=1, bodies)])
+         if (values%yield_stress%is_given .and. p_star > 0.0_dp) setting%yield_stress = yield(:bodies)/p_star
+      end associate
    end subroutine check_stress_group
 
    !> The lateral stresses of the mean pressure: a name of wavycon_elastic_body.

@@ -142,14 +142,15 @@ contains
       class(key_list), intent(inout) :: self
       integer, intent(in) :: k                                !! number of the key
       integer, intent(in) :: place                            !! of the key, byte of the deck's text
-      real(dp), intent(in), optional :: numbers(:)            !! as of key_value, repeats expanded
+      real(dp), intent(in), optional :: numbers(:)            !! as of key_value, repeats expanded; empty: as absent
       character(*), intent(in), optional :: text
 
       associate (key => self%keys(k)%value)
          key%place = place
          key%is_given = .true.
-         key%is_bad = .not. present(numbers)
-         if (present(numbers)) call key%set(numbers, text)
+         key%is_bad = .true.
+         if (present(numbers)) key%is_bad = size(numbers) == 0
+         if (.not. key%is_bad) call key%set(numbers, text)
       end associate
    end subroutine take
 

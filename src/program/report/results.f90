@@ -31,6 +31,7 @@ module wavycon_results
       class(contact_solver), allocatable :: solver
       type(solver_traits) :: traits                          !! of the solver
       character(:), allocatable :: method                    !! the solver and its discretisation in words
+      logical :: keeps_fields = .false.                      !! whether solutions have fields, edges and stresses
       type(contact_solution), allocatable :: loads(:)        !! in the deck's order; loads of other ranks: the measures
       !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
       type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)

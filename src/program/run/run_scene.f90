@@ -22,7 +22,7 @@ module wavycon_run_scene
    implicit none (type, external)
    private
 
-   public :: run_deck, run_scene, start_results, keep_fields
+   public :: run_deck, run_scene, start_results
 
 contains
 
@@ -173,9 +173,9 @@ contains
       type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
       type(results_type), intent(out) :: results                  !! without loads
       type(table_type), allocatable, intent(out) :: tables(:)     !! that are to be written
-      logical, intent(in), optional :: with_fields   !! whether solutions keep their fields; absent: as the tables need
+      !> Whether solutions keep their fields whatever the tables need, as they do in a search by yield.
+      logical, intent(in), optional :: with_fields
 
-      logical :: keep
       character(:), allocatable :: description
       integer :: i
 
@@ -185,9 +185,10 @@ contains
          ! p* and Delta of a flat surface are zero.
          tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
                        [(tables(i)%is_requested(scene), i=1, size(tables))])
-         keep = keep_fields(scene, tables)
-         if (present(with_fields)) keep = with_fields
-         call start_solver(scene%surface, scene%method, keep, results%solver, description)
+         results%keeps_fields = any(tables%needs_fields) .or. asks_for_largest(scene)
+         if (present(with_fields)) results%keeps_fields = with_fields
+         results%keeps_fields = results%keeps_fields .or. scene%loads_by == by_yield
+         call start_solver(scene%surface, scene%method, results%keeps_fields, results%solver, description)
          results%method = scene%method%solver%text//', '//description
          results%traits = results%solver%traits()
          results%sharing = choose_sharing(results%traits, size(scene%target), any(tables%needs_fields), &
@@ -197,14 +198,6 @@ contains
       if (results%sharing%kind /= distributed_grids) &
          call results%solver%surface%shape%gather(first_only=.not. results%sharing%is_shared)
    end subroutine start_results
-
-   !> Whether the solutions keep their fields.
-   logical function keep_fields(scene, tables)
-      type(scene_type), intent(in) :: scene
-      type(table_type), intent(in) :: tables(:)
-
-      keep_fields = any(tables%needs_fields) .or. asks_for_largest(scene) .or. scene%loads_by == by_yield
-   end function keep_fields
 
    !> Reads the solutions in the checkpoint, if there is one. Errors: exit_bad_input, exit_file_trouble.
    subroutine take_checkpoint(results, known, log, error)

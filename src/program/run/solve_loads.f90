@@ -3,7 +3,7 @@
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_adhesive_curve, only: add_load, adhesive_point, follow_curve, point_names
+   use wavycon_adhesive_curve, only: add_load, follow_curve, point_names
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
@@ -18,7 +18,7 @@ module wavycon_solve_loads
    use wavycon_quantities, only: approach, contact_area, mean_gap
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_yield
+   use wavycon_scene, only: by_mean_gap, by_yield
    use wavycon_solution_record, only: record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
@@ -31,6 +31,9 @@ module wavycon_solve_loads
    !> Loads of a block where each starts from the last one and loads are distributed. The first of a block starts as the
    !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
    integer, parameter :: block_length = 8
+
+   !> The quantity of the record by which loads are given, in the order of the names of wavycon_scene; 0: there is none.
+   integer, parameter :: quantity_of(*) = [0, mean_gap, contact_area, 0, approach]
 
 contains
 
@@ -64,6 +67,7 @@ contains
       type(run_log), intent(inout), target :: log        !! shows the progress
 
       integer :: i, load
+      integer(int64), allocatable :: words(:)   ! the measures of all loads
       logical :: are_distributed
       type(log_progress), target :: progress
 
@@ -92,7 +96,13 @@ contains
       end associate
       if (.not. are_distributed) return
       call results%sharing%work_alone(.false.)
-      call share_solutions(results)
+      ! A rank keeps the solutions of its own loads as they are.
+      allocate (words, source=[(transfer(results%loads(load)%solution_record, [0_int64]), load=1, size(results%loads))])
+      call results%sharing%share_loads(words)
+      do load = 1, size(results%loads)
+         if (.not. results%sharing%is_own_load(load)) results%loads(load)%solution_record = &
+            transfer(words((load - 1)*record_words + 1:load*record_words), results%loads(load)%solution_record)
+      end do
    end subroutine solve_loads
 
    !> Solves one load, or finds the load of a given mean gap, approach, area or stress.
@@ -103,34 +113,14 @@ contains
       type(contact_solution), intent(out) :: solution
       type(stress_setting), intent(in), optional :: setting   !! needed by_yield, with yield stresses
 
-      select case (loads_by)
-      case (by_mean_gap)
-         call solve_for(solver, mean_gap, target, solution)
-      case (by_approach)
-         call solve_for(solver, approach, target, solution)
-      case (by_contact_area)
-         call solve_for(solver, contact_area, target, solution)
-      case (by_yield)
+      if (loads_by == by_yield) then
          call solve_for_yield(solver, setting, target, solution)
-      case default
+      else if (quantity_of(loads_by) > 0) then
+         call solve_for(solver, quantity_of(loads_by), target, solution)
+      else
          call solver%solve(target, solution)
-      end select
+      end if
    end subroutine solve_target
-
-   !> Gives all ranks the measures of all loads. A rank keeps the solutions of its own loads as they are.
-   subroutine share_solutions(results)
-      type(results_type), intent(inout) :: results   !! with solutions of the own loads
-
-      integer :: load
-      integer(int64), allocatable :: words(:)
-
-      allocate (words, source=[(transfer(results%loads(load)%solution_record, [0_int64]), load=1, size(results%loads))])
-      call results%sharing%share_loads(words)
-      do load = 1, size(results%loads)
-         if (.not. results%sharing%is_own_load(load)) results%loads(load)%solution_record = &
-            transfer(words((load - 1)*record_words + 1:load*record_words), results%loads(load)%solution_record)
-      end do
-   end subroutine share_solutions
 
    !> Finds the largest von Mises stress and the largest shear stress of each load and body, of the own loads, and
    !> takes those of the others.
@@ -165,11 +155,8 @@ contains
          call share_stresses(results%sharing, results%von_mises)
          call share_stresses(results%sharing, results%shear)
       end if
-      number = 0
-      do load = 1, size(results%loads)
-         if (any([(results%stress_status(load, body), body=1, size(results%von_mises, 1))] /= &
-                 results%loads(load)%status)) number = number + 1
-      end do
+      number = count([(any([(results%stress_status(load, body), body=1, size(results%von_mises, 1))] /= &
+                           results%loads(load)%status), load=1, size(results%loads))])
       if (number > 0) call log%note('the error of the largest stress is more than half of it at '// &
          integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
          'grid_points')
@@ -240,7 +227,9 @@ contains
       type(results_type), intent(inout) :: results
       type(run_log), intent(inout) :: log
 
+      character(:), allocatable :: words   ! the load, with free edges as a force, and the area
       integer :: i
+      real(dp) :: mean_pressure
 
       allocate (results%adhesion)
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
@@ -256,27 +245,19 @@ contains
             integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
             ' points of the curve have no solution')
          do i = 1, size(curve%critical)
-            call log%say('adhesion: '//trim(point_names(curve%critical(i)%kind))//words_of_point(curve%critical(i)))
+            associate (point => curve%critical(i), surface => results%solver%surface)
+               mean_pressure = results%scene%p_star*point%load
+               if (surface%has_free_edges) then
+                  words = ', force = '//short_number(mean_pressure*surface%nominal_area())//', area = '// &
+                          short_number(surface%nominal_area()*point%area)
+               else
+                  words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
+                          ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
+               end if
+               call log%say('adhesion: '//trim(point_names(point%kind))//words)
+            end associate
          end do
       end associate
-   contains
-
-      !> The load, with free edges as a force, and the area.
-      function words_of_point(point) result(words)
-         type(adhesive_point), intent(in) :: point
-         character(:), allocatable :: words
-
-         associate (surface => results%solver%surface, mean_pressure => results%scene%p_star*point%load)
-            if (surface%has_free_edges) then
-               words = ', force = '//short_number(mean_pressure*surface%nominal_area())//', area = '// &
-                       short_number(surface%nominal_area()*point%area)
-            else
-               words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
-                       ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
-            end if
-         end associate
-      end function words_of_point
-
    end subroutine find_adhesion
 
 end module wavycon_solve_loads

@@ -11,6 +11,9 @@ import numpy as np
 from .deck import Surface, deck_text, heights
 from .library import reals, tell
 
+# Of the files that are written, by the ends of their names.
+BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
+
 
 def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
     """A surface from a file of any format that SurfaceTopography opens, with the sides and the unit of the file.
@@ -71,9 +74,9 @@ def open_file(file, channel, unit=None):
     return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
 
 
-def first_bytes(file):
+def first_bytes(file, number=32):
     with open(file, "rb") as opened:
-        return opened.read(32)
+        return opened.read(number)
 
 
 def formats(error):
@@ -103,11 +106,9 @@ def written(path, begin=b"", *inputs):
         with open(path, "wb") as file:
             yield file
         return
-    if os.path.exists(path):
-        with open(path, "rb") as file:
-            start = file.read(len(begin))
-        if start not in (begin, b"") or any(os.path.samefile(path, one) for one in inputs):
-            raise FileExistsError(f"{path}: this is another file than would be written; it is not replaced")
+    if os.path.exists(path) and (first_bytes(path, len(begin)) not in (begin, b"") or
+                                 any(os.path.samefile(path, one) for one in inputs)):
+        raise FileExistsError(f"{path}: this is another file than would be written; it is not replaced")
     folder, name = os.path.split(os.path.realpath(path))
     part = os.path.join(folder, f".{name}.{os.getpid()}.part")
     try:
@@ -149,22 +150,19 @@ def convert(arguments=None) -> None:
     try:
         x, z, sides, unit = open_file(given.file, channel, given.unit)
         kind, rows = Path(given.map).suffix, np.atleast_2d(z)
-        if kind == ".txt" and len(rows) == 1:
-            step = (sides["length_x"] or 1)/z.size
-            with written(given.map, b"", given.file) as file:
-                write_profile(file, np.arange(z.size)*step if x is None else x, z)
-        elif x is not None:
+        if x is not None and kind != ".txt":
             raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")
-        elif kind == ".npy":
-            with written(given.map, b"\x93NUMPY", given.file) as file:
-                np.save(file, z)
-        elif kind == ".gsf" and sides["length_x"] is None:
-            raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
-        elif kind == ".gsf":
-            with written(given.map, b"Gwyddion", given.file) as file:
-                write_gsf(file, rows, sides, unit)
-        else:
+        if kind not in BEGINNINGS or (kind == ".txt" and len(rows) > 1):
             raise ValueError(f"{given.map}: the name must end in .gsf or .npy, of a profile also in .txt")
+        if kind == ".gsf" and sides["length_x"] is None:
+            raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
+        with written(given.map, BEGINNINGS[kind], given.file) as file:
+            if kind == ".txt":
+                write_profile(file, np.arange(z.size)*((sides["length_x"] or 1)/z.size) if x is None else x, z)
+            elif kind == ".npy":
+                np.save(file, z)
+            else:
+                write_gsf(file, rows, sides, unit)
     except (ImportError, OSError, ValueError) as error:
         sys.exit(f"wavycon-convert: {error}")
     print(deck_text({"scene": {"length_unit": unit}, "surface": {

@@ -20,6 +20,11 @@ WORDS = {"deck": "resolved_deck", **{name: name for name in ("method", "why_chos
 FIELDS = ("x", "y", "pressure", "gap", "displacement")
 
 
+def field(name, meaning) -> property:
+    """A property of a result, an array: a field, or the places of its points along an axis."""
+    return property(lambda result: result._fields[name], doc=meaning)
+
+
 class Result:
     """One solved load. The columns of the summary table are its attributes, such as mean_pressure, mean_gap,
     contact_area_fraction, contact_area_fraction_error, status; outputs/README.md describes them."""
@@ -68,31 +73,14 @@ class Result:
         places = [side*(np.arange(number) + first)/number for side, number, first in zip(sides, points, offset)]
         return dict(zip(FIELDS, [*places, *fields]))
 
-    @property
-    def x(self) -> np.ndarray:
-        """Places of the columns of fields [length], shape (x,)."""
-        return self._fields["x"]
-
-    @property
-    def y(self) -> np.ndarray:
-        """Places of the rows of fields [length], shape (y,); one for a profile."""
-        return self._fields["y"]
-
-    @property
-    def pressure(self) -> np.ndarray:
-        """Contact pressure [pressure], shape (y, x), 0 where there is no contact, at the points of the program's map:
-        those of a grid that was given, of a height map its own, otherwise as output={"map_points": ...} says."""
-        return self._fields["pressure"]
-
-    @property
-    def gap(self) -> np.ndarray:
-        """Gap between the deformed surfaces [length], shape (y, x); 0 in contact."""
-        return self._fields["gap"]
-
-    @property
-    def displacement(self) -> np.ndarray:
-        """Elastic displacement, the sum of both bodies, less its mean [length], shape (y, x)."""
-        return self._fields["displacement"]
+    x = field("x", "Places of the columns of fields [length], shape (x,).")
+    y = field("y", "Places of the rows of fields [length], shape (y,); one for a profile.")
+    pressure = field("pressure", """Contact pressure [pressure], shape (y, x), 0 where there is no contact, at the points
+        of the program's map: those of a grid that was given, of a height map its own, otherwise as
+        output={"map_points": ...} says.""")
+    gap = field("gap", "Gap between the deformed surfaces [length], shape (y, x); 0 in contact.")
+    displacement = field("displacement", "Elastic displacement, the sum of both bodies, less its mean [length], "
+                         "shape (y, x).")
 
     def fields_at(self, x, y) -> dict[str, np.ndarray]:
         """Pressure [pressure], gap and displacement [length] at points x, y [length], arrays of one shape."""

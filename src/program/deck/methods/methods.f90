@@ -138,21 +138,15 @@ contains
 
       character(name_length), allocatable :: solvers(:)
       integer :: i
+      type(solver_traits), allocatable :: traits(:)
 
       allocate (solvers, source=words_of(names))
       solvers = pack(solvers, [(refusal(trim(solvers(i)), surface) == '', i=1, size(solvers))])
-      if (present(trait)) solvers = pack(solvers, [(has_trait(traits_of(solvers(i))), i=1, size(solvers))])
+      traits = [(traits_of(solvers(i)), i=1, size(solvers))]
+      if (present(trait)) solvers = pack(solvers, merge(traits%has_details, traits%has_coefficients, &
+                                                        trait == 'details'))
       words = ''
       if (size(solvers) > 0) words = listed(in_quotes(solvers), ' or ')
-
-   contains
-
-      pure logical function has_trait(traits)
-         type(solver_traits), intent(in) :: traits
-
-         has_trait = merge(traits%has_details, traits%has_coefficients, trait == 'details')
-      end function has_trait
-
    end function solvers_for
 
    !> The traits of a solver before it is started.
@@ -194,6 +188,7 @@ contains
       character(*), parameter :: closed_form(2) = [character(36) :: "closed form (Westergaard's solution)", &
                                                    "closed form (Hertz's contact)"]
       character(:), allocatable :: fitted, words
+      integer :: constraints, unknowns
       type(solver_traits) :: traits
 
       call allocate_solver(values%solver%text, solver)
@@ -205,7 +200,10 @@ contains
          call solver%start(surface, qp_options( &
             nint(values%harmonics%number), nint(values%constraint_points%number), symmetry_of(values), &
             values%edge_level%number, values%solver%text == 'beale'))
-         words = series_in_words(values, surface)
+         call find_size(values, surface, unknowns, constraints)
+         words = integer_text(nint(values%harmonics%number))//' harmonics ('//integer_text(unknowns)// &
+                 ' unknowns), '//integer_text(constraints*merge(2, 1, surface%has_hardness()))// &
+                 ' constraint points, edge_level[p*] = '//short_number(values%edge_level%number)
       type is (closed_form_contact)
          call solver%start(surface)
          words = trim(closed_form(surface%dimension))
@@ -302,20 +300,6 @@ contains
       if (values%symmetry%text == 'diagonal') symmetry = symmetry_diagonal
       if (values%symmetry%text == 'none') symmetry = symmetry_none
    end function symmetry_of
-
-   !> The discretisation of the series in words.
-   function series_in_words(values, surface) result(words)
-      type(method_group), intent(in) :: values   !! of &method
-      type(surface_type), intent(in) :: surface
-      character(:), allocatable :: words
-
-      integer :: constraints, unknowns
-
-      call find_size(values, surface, unknowns, constraints)
-      words = integer_text(nint(values%harmonics%number))//' harmonics ('//integer_text(unknowns)//' unknowns), '// &
-              integer_text(constraints*merge(2, 1, surface%has_hardness()))//' constraint points, edge_level[p*] = '// &
-              short_number(values%edge_level%number)
-   end function series_in_words
 
    !> The grid to solve, on the whole cell, along x and y. Zeros if the accuracy decides.
    pure function points_of_grid(values, surface) result(points)

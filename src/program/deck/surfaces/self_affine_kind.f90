@@ -20,12 +20,24 @@ module wavycon_self_affine_kind
 
 contains
 
-   !> Sets the defaults that depend on other keys.
-   subroutine set_defaults(values)
+   !> The least power of two with four points to the shortest wave.
+   elemental integer function default_points(waves) result(points)
+      real(dp), intent(in) :: waves   !! of the shortest wavelength along a side
+
+      points = least_points
+      do while (points < 4*waves .and. points < most_default_points)
+         points = 2*points
+      end do
+   end function default_points
+
+   !> Sets the defaults that depend on other keys. Reports cut-offs out of order, too few points, and cut-offs between
+   !> which the cell has no wave.
+   subroutine check_self_affine(values)
       type(surface_group), intent(inout) :: values
 
-      real(dp) :: length(2)
       integer :: points(2)
+      real(dp) :: length(2)
+      type(self_affine_spectrum) :: spectrum
 
       points = 0
       if (values%points%is_given .and. .not. values%points%is_bad) points = nint(values%points%pair)
@@ -39,25 +51,6 @@ contains
       call values%short_wavelength%set_default(values%rolloff_wavelength%numbers/64)
       if (points(1) == 0) points = default_points(length/values%short_wavelength%number)
       if (.not. values%points%is_bad) call values%points%set(real(points, dp))
-   end subroutine set_defaults
-
-   !> The least power of two with four points to the shortest wave.
-   elemental integer function default_points(waves) result(points)
-      real(dp), intent(in) :: waves   !! of the shortest wavelength along a side
-
-      points = least_points
-      do while (points < 4*waves .and. points < most_default_points)
-         points = 2*points
-      end do
-   end function default_points
-
-   !> Reports cut-offs out of order, too few points, and cut-offs between which the cell has no wave.
-   subroutine check_self_affine(values)
-      type(surface_group), intent(inout) :: values
-
-      type(self_affine_spectrum) :: spectrum
-
-      call set_defaults(values)
       if (all(values%edges%text /= ['periodic', 'free    '])) call values%complain(values%edges, &
          "a random surface is made periodic: edges must be 'periodic' or 'free'")
       if (values%any_bad) return
