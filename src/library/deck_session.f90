@@ -182,15 +182,14 @@ contains
       call check_ready(self, error)
       if (allocated(error)) return
       associate (scene => self%results%scene)
-         if (load >= 1 .and. load <= size(scene%target)) then
-            call self%solve_one(scene%loads_by, load, scene%target, self%mean_pressure, answer, error)
-            if (allocated(error)) return
-            self%records(load) = answer%solution%solution_record
-         else
+         if (load < 1 .or. load > size(scene%target)) then
             call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
                              integer_text(size(scene%target)))
+         else
+            call self%solve_one(scene%loads_by, load, scene%target, self%mean_pressure, answer, error)
          end if
       end associate
+      if (.not. allocated(error)) self%records(load) = answer%solution%solution_record
    end subroutine solve_load
 
    !> Errors: exit_bad_input if the session cannot find loads by yield.

@@ -12,10 +12,9 @@ module wavycon_collected_table
    use wavycon_plain_text, only: escaped, newline
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
-   use wavycon_summary_tables, only: summary_columns
    use wavycon_system, only: error_text, full_path, make_directories, path_directory, path_kind, refusal_to_write
    use wavycon_table, only: table_type
-   use wavycon_tables, only: all_tables
+   use wavycon_tables, only: all_tables, summary_columns
    use wavycon_version, only: revision, version
    implicit none (type, external)
    private
@@ -161,7 +160,7 @@ contains
       integer, allocatable :: columns(:), width(:)
       type(collected_deck), allocatable :: solved(:)   ! decks with a summary
       type(output_file) :: file
-      integer :: d, first, k, last
+      integer :: d, k
 
       allocate (solved(count(decks%is_written)))
       solved = decks(pack([(d, d=1, size(decks))], decks%is_written))
@@ -209,12 +208,12 @@ contains
          do k = 1, size(columns)
             line = line//cell(2 + k, solved(d)%keys(columns(k))%word)
          end do
-         first = 1
-         do while (first <= len(solved(d)%rows))
-            last = first + index(solved(d)%rows(first:), newline) - 1
-            call file%put(line//solved(d)%rows(first:last - 1))
-            first = last + 1
-         end do
+         ! The rows of a summary are as long as its line of names.
+         associate (rows => solved(d)%rows, length => len(solved(d)%names))
+            do k = 1, len(rows), length + 1
+               call file%put(line//rows(k:k + length - 1))
+            end do
+         end associate
       end do
       call file%finish(error)
 
@@ -261,10 +260,7 @@ contains
 
       allocate (columns(0))
       if (size(decks) == 0) return
-      differs = [(.false., k=1, size(decks(1)%keys))]
-      do d = 2, size(decks)
-         differs = differs .or. [(decks(d)%keys(k)%word /= decks(1)%keys(k)%word, k=1, size(differs))]
-      end do
+      differs = [(any([(decks(d)%keys(k)%word /= decks(1)%keys(k)%word, d=2, size(decks))]), k=1, size(decks(1)%keys))]
       do d = 1, size(decks)
          do k = 1, size(differs)
             associate (key => decks(d)%keys(k))

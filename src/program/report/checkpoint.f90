@@ -52,22 +52,18 @@ module wavycon_checkpoint
 contains
 
    !> The path of the checkpoint, <directory>/<case>.checkpoint or <directory>/<case>.checkpoint.<rank>.
-   function checkpoint_name(results) result(name)
+   function checkpoint_name(results, rank) result(name)
       type(results_type), intent(in) :: results
+      integer, intent(in), optional :: rank   !! alone: of a run whose work is not shared; absent: this one
       character(:), allocatable :: name
 
-      name = name_of_rank(results, merge(results%sharing%rank, alone, results%sharing%is_shared))
-   end function checkpoint_name
+      integer :: of_rank
 
-   !> The path of the checkpoint of any rank.
-   function name_of_rank(results, rank) result(name)
-      type(results_type), intent(in) :: results
-      integer, intent(in) :: rank   !! alone: of a run whose work is not shared
-      character(:), allocatable :: name
-
+      of_rank = merge(results%sharing%rank, alone, results%sharing%is_shared)
+      if (present(rank)) of_rank = rank
       name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
-      if (rank /= alone) name = name//'.'//integer_text(rank)
-   end function name_of_rank
+      if (of_rank /= alone) name = name//'.'//integer_text(of_rank)
+   end function checkpoint_name
 
    !> Removes the checkpoints of an earlier run that had another number of ranks.
    subroutine remove_others(results)
@@ -76,10 +72,10 @@ contains
       integer :: rank
 
       if (.not. results%sharing%is_first) return
-      if (results%sharing%is_shared) call remove_file(name_of_rank(results, alone))
+      if (results%sharing%is_shared) call remove_file(checkpoint_name(results, alone))
       rank = merge(results%sharing%ranks, 0, results%sharing%is_shared)
-      do while (path_kind(name_of_rank(results, rank)) == path_file)
-         call remove_file(name_of_rank(results, rank))
+      do while (path_kind(checkpoint_name(results, rank)) == path_file)
+         call remove_file(checkpoint_name(results, rank))
          rank = rank + 1
       end do
    end subroutine remove_others
@@ -209,7 +205,7 @@ contains
       now = description(results)
       rank = alone
       do while (.not. allocated(error))
-         name = name_of_rank(results, rank)
+         name = checkpoint_name(results, rank)
          if (path_kind(name) /= path_absent) then
             if (.not. allocated(first_name)) first_name = name
             call read_checkpoint(name, now, results, known, error)
@@ -234,9 +230,9 @@ contains
 
       character(len(mark)) :: start
       character(200) :: message
+      character(:), allocatable :: trouble
       integer(int64), allocatable :: words(:)
-      integer :: load, status, unit
-      logical :: understood   ! whether the record is the description, or a solution of a load of this deck
+      integer :: load, record, status, unit
 
       open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
             iostat=status, iomsg=message)
@@ -244,28 +240,29 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(name)//': cannot be read: '//system_words(message))
          return
       end if
+      trouble = ''
       read (unit, iostat=status) start
-      if (status /= 0 .or. start /= mark) then
-         call fatal_error(error, exit_bad_input, escaped(name)// &
-                          ': this is no checkpoint of this version of wavycon'//way_out)
-      else
+      if (status /= 0 .or. start /= mark) trouble = 'this is no checkpoint of this version of wavycon'
+      record = 0
+      do while (trouble == '')
          call get(unit, words)
-         understood = allocated(words)
-         if (understood) understood = size(words) > 0
-         if (understood) call compare(name, trim(transfer(words, repeat(' ', bytes_of_word*size(words)))), now, error)
-         do while (understood .and. .not. allocated(error))
-            call get(unit, words)
-            if (.not. allocated(words)) exit
-            understood = size(words) > 0
-            if (.not. understood) exit
+         record = record + 1
+         if (.not. allocated(words)) then
+            if (record > 1) exit
+            allocate (words(0))
+         end if
+         if (size(words) == 0) then
+            trouble = 'the checkpoint is damaged'
+         else if (record == 1) then
+            trouble = difference(trim(transfer(words, repeat(' ', bytes_of_word*size(words)))), now)
+         else
             load = int(words(1))
             if (.not. known(load) .and. results%sharing%is_own_load(load)) call results%loads(load)%unpack( &
                words(2:), results%sharing%kind /= distributed_grids, known(load))
-         end do
-         if (.not. understood) &
-            call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint is damaged'//way_out)
-      end if
+         end if
+      end do
       close (unit)
+      if (trouble /= '') call fatal_error(error, exit_bad_input, escaped(name)//': '//trouble//way_out)
    end subroutine read_checkpoint
 
    !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
@@ -278,15 +275,14 @@ contains
              newline//results%scene%fingerprint
    end function description
 
-   !> Compares the descriptions of two runs. Errors: exit_bad_input if they differ.
-   subroutine compare(name, before, now, error)
-      character(*), intent(in) :: name                    !! of the checkpoint
-      character(*), intent(in) :: before, now             !! descriptions of the interrupted run and of this one
-      type(error_type), allocatable, intent(out) :: error
-
+   !> How the descriptions of two runs differ; empty if they do not.
+   function difference(before, now) result(words)
+      character(*), intent(in) :: before, now   !! of the interrupted run and of this one
       character(:), allocatable :: words
+
       integer :: i, k
 
+      words = ''
       if (before == now) return
       ! The first byte that differs, and the number of its line.
       do k = 1, min(len(before), len(now))
@@ -294,13 +290,13 @@ contains
       end do
       select case (count([(now(i:i) == newline, i=1, k - 1)]))
       case (0)
-         words = 'is of '//line_at(before)//', this is '//line_at(now)
+         words = 'the checkpoint is of '//line_at(before)//', this is '//line_at(now)
       case (1)
-         words = 'is of another surface: the deck or its height map has changed'
+         words = 'the checkpoint is of another surface: the deck or its height map has changed'
       case default
-         words = "is of another deck: '"//excerpt(line_at(now))//"' was '"//excerpt(line_at(before))//"'"
+         words = "the checkpoint is of another deck: '"//excerpt(line_at(now))//"' was '"// &
+                 excerpt(line_at(before))//"'"
       end select
-      call fatal_error(error, exit_bad_input, escaped(name)//': the checkpoint '//words//way_out)
 
    contains
 
@@ -314,7 +310,7 @@ contains
          line = trim(adjustl(line(:index(line//'   ! ', '   ! ') - 1)))
       end function line_at
 
-   end subroutine compare
+   end function difference
 
    !> Checksum: a polynomial whose coefficients are the half words, modulo a prime. A change of one word changes it.
    pure integer(int64) function checksum(words) result(total)

@@ -86,11 +86,8 @@ contains
          real(dp), intent(in) :: value
          character(:), allocatable :: text
 
-         if (digits == 'all') then
-            text = exact_number(value)
-         else
-            text = short_number(value)
-         end if
+         text = short_number(value)
+         if (digits == 'all') text = exact_number(value)
       end function text_of
 
    end function head_lines

@@ -173,14 +173,9 @@ contains
       real(dp) :: mean_pressure, numbers(12)
 
       call file%begin_block(trim(titles(block)))
-      select case (block)
-      case (1)
-         allocate (points, source=results%adhesion%points)
-      case (2)
-         allocate (points, source=results%adhesion%critical)
-      case default
-         allocate (points, source=results%adhesion%at_loads)
-      end select
+      allocate (points, source=results%adhesion%at_loads)
+      if (block == 1) points = results%adhesion%points
+      if (block == 2) points = results%adhesion%critical
       associate (surface => results%solver%surface)
          do i = 1, size(points)
             associate (point => points(i))

@@ -51,17 +51,16 @@ contains
       integer(int64), allocatable :: own(:)
 
       points = map_points(results)
-      is_written_by_all = .not. is_text(results%scene%output%map_format%text, points)
-      if (.not. is_written_by_all) return
+      is_written_by_all = .false.
+      if (is_text(results%scene%output%map_format%text, points)) return
       if (.not. allocated(results%loads)) then
          is_written_by_all = all(points == results%traits%given_grid .or. points == 2*results%traits%given_grid)
-         return
+      else
+         own = [(results%loads(load)%distributed_points(), load=1, size(results%loads))]
+         if (minval(own) <= 0 .or. maxval(own) > minval(own)) return
+         call results%loads(1)%fields(results%solver%surface, fields)
+         is_written_by_all = all(points == fields%own_points)
       end if
-      own = [(results%loads(load)%distributed_points(), load=1, size(results%loads))]
-      is_written_by_all = minval(own) > 0 .and. maxval(own) == minval(own)
-      if (.not. is_written_by_all) return
-      call results%loads(1)%fields(results%solver%surface, fields)
-      is_written_by_all = all(points == fields%own_points)
    end function is_written_by_all
 
    !> Errors: exit_file_trouble.

@@ -42,9 +42,8 @@ contains
       character(*), intent(in) :: units(:)   !! as many
       integer, intent(in) :: kinds(:)        !! as many
 
-      allocate (self%names(size(names)), self%units(size(names)))
-      self%names = names
-      self%units = units
+      self%names = [character(longest_column) :: names]
+      self%units = [character(longest_column) :: units]
       self%kinds = kinds
       allocate (self%values(size(names), first_room), self%words(0))
    end subroutine start
@@ -79,15 +78,10 @@ contains
       type(memory_table), intent(inout) :: self
       character(*), intent(in) :: word   !! at most longest_word bytes
 
-      character(longest_word), allocatable :: longer(:)
-
       number = findloc(self%words == word, .true., dim=1)
       if (number > 0) return
-      number = size(self%words) + 1
-      allocate (longer(number))
-      longer(:number - 1) = self%words
-      longer(number) = word
-      call move_alloc(longer, self%words)
+      self%words = [character(longest_word) :: self%words, word]
+      number = size(self%words)
    end function number_of_word
 
    !> The number of a column; 0 if there is none of this name.

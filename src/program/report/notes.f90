@@ -17,7 +17,6 @@ module wavycon_notes
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
    use wavycon_solution_record, only: by_beale, by_dual, solution_record, solver_names
-   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
@@ -60,13 +59,33 @@ contains
       end associate
    end subroutine show_scene
 
-   !> Notes what is suspicious of a scene before its loads are solved.
+   !> Notes what is suspicious of a scene before its loads are solved: a height map, a surface that is too steep for the
+   !> theory, if the deck has units, and one that is all but flat, most likely by a mistake of units.
    subroutine note_scene(scene, log)
       type(scene_type), intent(in) :: scene
       type(run_log), intent(inout) :: log
 
+      !> The theory of small slopes is off by the order of their square, here a tenth.
+      real(dp), parameter :: steepest = 0.3_dp
+      !> Heights in m beside sides in um make slopes of 1e-4 (polished silicon) to 10 a million times smaller.
+      real(dp), parameter :: flattest = 1e-5_dp
+      character(:), allocatable :: borders, cause, verdict
+      logical :: is_flat
+
       if (allocated(scene%map)) call note_map(scene, scene%map, log)
-      call note_slopes(scene, log)
+      is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
+      if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
+      verdict = '; the theory needs small ones.'
+      if (is_flat) verdict = '; those of real surfaces are larger.'
+      borders = ''
+      cause = 'Are amplitudes and wavelengths in one unit?'
+      if (allocated(scene%map)) then
+         if (scene%surface_values%kind%text == 'file') &
+            cause = 'Do height_scale, and the sides of the cell, suit the units of the heights?'
+         if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
+      end if
+      call log%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
+                   verdict//' '//cause)
    end subroutine note_scene
 
    !> Says what is suspicious of a height map.
@@ -101,34 +120,6 @@ contains
                    ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
                    'they make contact areas smaller')
    end subroutine note_map
-
-   !> Warns of a surface that is too steep for the theory, if the deck has units, and of one that is all but flat: most
-   !> likely by a mistake of units.
-   subroutine note_slopes(scene, log)
-      type(scene_type), intent(in) :: scene
-      type(run_log), intent(inout) :: log
-
-      !> The theory of small slopes is off by the order of their square, here a tenth.
-      real(dp), parameter :: steepest = 0.3_dp
-      !> Heights in m beside sides in um make slopes of 1e-4 (polished silicon) to 10 a million times smaller.
-      real(dp), parameter :: flattest = 1e-5_dp
-      character(:), allocatable :: borders, cause, verdict
-      logical :: is_flat
-
-      is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
-      if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
-      verdict = '; the theory needs small ones.'
-      if (is_flat) verdict = '; those of real surfaces are larger.'
-      borders = ''
-      cause = 'Are amplitudes and wavelengths in one unit?'
-      if (allocated(scene%map)) then
-         if (scene%surface_values%kind%text == 'file') &
-            cause = 'Do height_scale, and the sides of the cell, suit the units of the heights?'
-         if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
-      end if
-      call log%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
-                   verdict//' '//cause)
-   end subroutine note_slopes
 
    !> A line for each load: mean gap, area and peak pressure, each followed by its error estimate; mean and peak
    !> pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges force, approach, area
@@ -267,8 +258,7 @@ contains
          call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
       end associate
       call log%say(outcome(results))
-      status = exit_fine
-      if (.not. all([(results%is_solved(load), load=1, size(results%loads))])) status = exit_not_converged
+      status = merge(exit_fine, exit_not_converged, all([(results%is_solved(load), load=1, size(results%loads))]))
    end subroutine sum_up
 
    !> How many loads of a run were solved as requested, in a line.
@@ -291,11 +281,12 @@ contains
       type(solution_record), intent(in) :: loads(:)   !! the solutions
       type(run_log), intent(inout) :: log
 
-      integer :: without_area
+      character(:), allocatable :: of_loads
       logical :: is_series(size(loads))
 
       associate (scene => results%scene, surface => results%solver%surface)
-         call note_unresolved(surface, loads, log)
+         of_loads = ' of '//integer_text(size(loads))//' loads'
+         call note_unresolved()
          is_series = loads%solver == by_beale .or. loads%solver == by_dual
          if (any(is_series)) call log%note( &
             "the errors of the paper's truncated series are not estimated: with its harmonics and points they are "// &
@@ -311,7 +302,7 @@ contains
                "' estimates no errors; a light load of first yield may be wrong by a factor of 2. solver = 'auto' "// &
                'estimates them')
          else
-            call note_unreached(loads_by, loads, log)
+            call note_unreached()
          end if
          if (scene%surface_values%kind%text == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
             call note_some(count(loads%value(concentrated_load) >= least_concentration), &
@@ -328,8 +319,8 @@ contains
             if (surface%dimension == 1) call log%note('the approach of a profile with free edges is not '// &
                'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
          end if
-         without_area = count(loads%status == converged .and. loads%value(contact_area) <= 0.0_dp)
-         call note_some(without_area, 'no pressure reaches edge_level = '// &
+         call note_some(count(loads%status == converged .and. loads%value(contact_area) <= 0.0_dp), &
+            'no pressure reaches edge_level = '// &
             short_number(scene%method%edge_level%number)//' p*, so that the contact area shows as 0')
       end associate
 
@@ -340,68 +331,58 @@ contains
          integer, intent(in) :: number       !! of these loads
          character(*), intent(in) :: words
 
-         if (number > 0) call log%note('at '//integer_text(number)//' of '//integer_text(size(loads))//' loads '//words)
+         if (number > 0) call log%note('at '//integer_text(number)//of_loads//' '//words)
       end subroutine note_some
 
-   end subroutine note_loads
+      !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
+      subroutine note_unreached()
+         character(:), allocatable :: limit
+         integer :: last
+         logical :: is_unreached(size(loads))
 
-   !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
-   subroutine note_unreached(loads_by, loads, log)
-      integer, intent(in) :: loads_by
-      type(solution_record), intent(in) :: loads(:)
-      type(run_log), intent(inout) :: log
-
-      character(:), allocatable :: limit
-      integer :: last
-      logical :: is_unreached(size(loads))
-
-      is_unreached = loads%status == not_found .and. .not. loads%pbar_over_pstar > 0.0_dp
-      last = findloc(is_unreached, .true., dim=1, back=.true.)
-      if (last == 0) return
-      associate (solution => loads(last))
-         limit = ' mean gaps are above the largest that the grid shows, '// &
-                 short_number(solution%value(mean_gap))
-         if (loads_by == by_contact_area) limit = &
-            ' contact areas are below the least that the grid shows, '//short_number(solution%value(contact_area))
-      end associate
-      call log%note(integer_text(count(is_unreached))//' of '//integer_text(size(is_unreached))// &
-         limit//' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
-         "accuracy; solver = 'fitted' has no such limit")
-   end subroutine note_unreached
-
-   !> Says which values have no error estimate and which are no larger than theirs, and what helps.
-   subroutine note_unresolved(surface, loads, log)
-      type(surface_type), intent(in) :: surface       !! that was solved
-      type(solution_record), intent(in) :: loads(:)
-      type(run_log), intent(inout) :: log
-
-      character(:), allocatable :: of_loads
-      character(32) :: values(3)
-      integer :: coarse(3), i, unknown
-
-      values = [character(32) :: 'the mean gap', 'the contact area', 'the peak pressure']
-      if (surface%has_free_edges) values(1) = 'the approach'
-      of_loads = ' of '//integer_text(size(loads))//' loads'
-      coarse = 0
-      unknown = 0
-      do i = 1, size(loads)
-         associate (solution => loads(i))
-            if (solution%status /= unresolved) cycle
-            if (any(is_known(solution%error(main_quantities)))) then
-               coarse = coarse + merge(0, 1, solution%are_resolved(surface))
-            else
-               unknown = unknown + 1
-            end if
+         is_unreached = loads%status == not_found .and. .not. loads%pbar_over_pstar > 0.0_dp
+         last = findloc(is_unreached, .true., dim=1, back=.true.)
+         if (last == 0) return
+         associate (solution => loads(last))
+            limit = ' mean gaps are above the largest that the grid shows, '// &
+                    short_number(solution%value(mean_gap))
+            if (loads_by == by_contact_area) limit = &
+               ' contact areas are below the least that the grid shows, '//short_number(solution%value(contact_area))
          end associate
-      end do
-      if (unknown > 0) call log%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: a grid '// &
-         'has error estimates from 64 points a side on. Give more grid_points, or an accuracy')
-      if (all(coarse == 0)) return
-      do i = 1, size(values)
-         values(i) = trim(values(i))//' at '//integer_text(coarse(i))
-      end do
-      call log%note('the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
-                   ': the error is as large as the value, or unknown. Give an accuracy, or more grid_points')
-   end subroutine note_unresolved
+         call log%note(integer_text(count(is_unreached))//' of '//integer_text(size(loads))//limit// &
+            ' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
+            "accuracy; solver = 'fitted' has no such limit")
+      end subroutine note_unreached
+
+      !> Says which values have no error estimate and which are no larger than theirs, and what helps.
+      subroutine note_unresolved()
+         character(32) :: values(3)
+         integer :: coarse(3), i, unknown
+
+         values = [character(32) :: 'the mean gap', 'the contact area', 'the peak pressure']
+         if (results%solver%surface%has_free_edges) values(1) = 'the approach'
+         coarse = 0
+         unknown = 0
+         do i = 1, size(loads)
+            associate (solution => loads(i))
+               if (solution%status /= unresolved) cycle
+               if (any(is_known(solution%error(main_quantities)))) then
+                  coarse = coarse + merge(0, 1, solution%are_resolved(results%solver%surface))
+               else
+                  unknown = unknown + 1
+               end if
+            end associate
+         end do
+         if (unknown > 0) call log%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: a grid '// &
+            'has error estimates from 64 points a side on. Give more grid_points, or an accuracy')
+         if (all(coarse == 0)) return
+         do i = 1, size(values)
+            values(i) = trim(values(i))//' at '//integer_text(coarse(i))
+         end do
+         call log%note('the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
+                      ': the error is as large as the value, or unknown. Give an accuracy, or more grid_points')
+      end subroutine note_unresolved
+
+   end subroutine note_loads
 
 end module wavycon_notes

@@ -147,10 +147,7 @@ contains
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: comment
 
-      if (self%blocks > 0) then
-         call self%put('')
-         call self%put('')
-      end if
+      if (self%blocks > 0) call self%put(newline)
       self%blocks = self%blocks + 1
       call self%put('# '//comment)
       call put_names(self)

@@ -20,7 +20,8 @@ module wavycon_run_log
       character(:), allocatable, public :: notes   !! those made since the start, each once: lines
       integer :: columns = 0          !! of the terminal; 0: there is none
       integer :: shown = 0            !! of them by the progress line
-      integer(int64) :: started = 0, last_progress = 0, rate = 1
+      integer(int64) :: started = 0, rate = 1
+      real(dp) :: last_progress = 0.0_dp   !! since the start [s]
    contains
       procedure :: start
       procedure :: say
@@ -53,7 +54,6 @@ contains
       self%notes = ''
       self%columns = terminal_columns()
       call system_clock(self%started, self%rate)
-      self%last_progress = self%started
    end subroutine start
 
    !> Writes a line.
@@ -139,12 +139,8 @@ contains
    logical function is_due(self)
       class(run_log), intent(in) :: self
 
-      integer(int64) :: now
-
-      is_due = .false.
-      if (self%quiet .or. self%columns == 0) return
-      call system_clock(now)
-      is_due = now - self%last_progress >= progress_interval*self%rate
+      is_due = .not. self%quiet .and. self%columns > 0
+      if (is_due) is_due = self%elapsed() - self%last_progress >= progress_interval
    end function is_due
 
    !> Writes a progress line over the last one if it is due, cut to the width of the terminal.
@@ -155,7 +151,7 @@ contains
       integer :: width
 
       if (.not. self%is_due()) return
-      call system_clock(self%last_progress)
+      self%last_progress = self%elapsed()
       width = min(len(words), self%columns - 1)
       call print_text(achar(13)//words(:width)//repeat(' ', max(0, self%shown - width))//c_null_char)
       self%shown = width

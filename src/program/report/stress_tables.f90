@@ -11,7 +11,6 @@ module wavycon_stress_tables
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_kinds, only: dp
-   use wavycon_largest_stress, only: largest_stress
    use wavycon_line_tables, only: start_surface_line, surface_line
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
@@ -67,9 +66,13 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      integer :: body
-      real(dp) :: ratio(2)
+      integer :: body, parts(2)
+      real(dp) :: ratio(2), to_unit(5)   ! the latter of value, error and place
 
+      associate (surface => results%solver%surface)
+         parts = surface%parts()
+         to_unit = [results%scene%p_star, results%scene%p_star, surface%length, surface%length(1)]
+      end associate
       do body = 1, size(results%scene%stress_setting%body)
          associate (setting => results%scene%stress_setting, yielding => results%von_mises(body, load), &
                     shear => results%shear(body, load), status => results%stress_status(load, body))
@@ -79,24 +82,12 @@ contains
             call file%put_row([real(dp) :: load, body, setting%body(body)%nu, &
                                results%in_p_star([results%loads(load)%pbar_over_pstar, yielding%value, &
                                                   yielding%error, shear%value, shear%error]), ratio, &
-                               results%mean_pressure(load), in_units(yielding), in_units(shear), &
+                               results%mean_pressure(load), &
+                               to_unit*[yielding%value, yielding%error, yielding%place_in_cell(parts)], &
+                               to_unit*[shear%value, shear%error, shear%place_in_cell(parts)], &
                                status_code(status)], [status_name(status)])
          end associate
       end do
-
-   contains
-
-      !> Value, error and place in the deck's units.
-      pure function in_units(largest) result(numbers)
-         type(largest_stress), intent(in) :: largest
-         real(dp) :: numbers(5)
-
-         associate (surface => results%solver%surface)
-            numbers = [results%scene%p_star*[largest%value, largest%error], &
-                       [surface%length, surface%length(1)]*largest%place_in_cell(surface%parts())]
-         end associate
-      end function in_units
-
    end subroutine put_largest_stresses
 
    subroutine put_line(results, load, file)

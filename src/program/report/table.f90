@@ -93,10 +93,7 @@ contains
 
       keys = self%asked_by
       if (keys(1) == '') keys(1) = self%key
-      is_requested = .true.
-      do i = 1, max(1, count(keys /= ''))
-         is_requested = is_requested .and. any(scene%asked_for == trim(self%group)//'.'//keys(i))
-      end do
+      is_requested = all([(any(scene%asked_for == trim(self%group)//'.'//keys(i)), i=1, max(1, count(keys /= '')))])
    end function is_requested
 
    !> Why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it can.

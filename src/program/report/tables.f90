@@ -1,18 +1,29 @@
-!> The list of all tables. A new file of tables adds its line to `all_tables`.
+!> The list of all tables, and those of the numbers of each load. A new file of tables adds its line to `all_tables`.
+!>
+!> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a line for each load.
+!> <case>.details.dat: numbers that the summary does not have, with error estimates, from solvers that compute them, a
+!> row for each load. What a load without details (no load, full contact, no solution) does not have is NaN, its degree
+!> 0.
+!> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block for
+!> each load; in 1-D j = 0.
 module wavycon_tables
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_interface_tables, only: interface_tables
+   use wavycon_kinds, only: dp
    use wavycon_line_tables, only: line_tables
    use wavycon_map_tables, only: map_tables
+   use wavycon_output_file, only: output_file
+   use wavycon_quantities, only: listed_columns
+   use wavycon_results, only: results_type
    use wavycon_spot_tables, only: spot_tables
    use wavycon_stress_tables, only: stress_tables
-   use wavycon_summary_tables, only: summary_tables
    use wavycon_surface_tables, only: surface_tables
    use wavycon_table, only: table_type
    use wavycon_theory_tables, only: theory_tables
    implicit none (type, external)
    private
 
-   public :: all_tables
+   public :: all_tables, summary_columns
 
 contains
 
@@ -23,5 +34,55 @@ contains
       tables = [summary_tables(), line_tables(), map_tables(), spot_tables(), theory_tables(), surface_tables(), &
                 stress_tables(), interface_tables()]
    end subroutine all_tables
+
+   !> The tables of the numbers of each load.
+   function summary_tables() result(tables)
+      type(table_type) :: tables(3)
+
+      tables(1) = table_type('summary', needs_surface=.false., columns=summary_columns())
+      ! The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open pool;
+      ! the paper's cell has two of each.
+      tables(2) = table_type('details', 'details', needs_fields=.true., &
+         columns='load[#] pbar_over_pstar[-] '//listed_columns('details')//'status_code[#] status[word]', &
+         meaning='Gaps at trough and saddle, strain energy, perimeter and the numbers of the '// &
+         'summary, each with its error estimate.')
+      tables(3) = table_type('coefficients', 'coefficients', put_load=put_coefficients, &
+         columns='load[#] i[#] j[#] pressure_over_pstar[-]', &
+         meaning='The Fourier coefficients of the pressure.')
+   end function summary_tables
+
+   !> The columns of the summary. `results%number` says what they have.
+   pure function summary_columns() result(columns)
+      character(:), allocatable :: columns
+
+      columns = 'load[#] pbar_over_pstar[-] mean_gap_over_amplitude[-] approach_over_amplitude[-] '// &
+         'contact_area_fraction[-] peak_pressure_over_pstar[-] min_pressure_over_pstar[-] '// &
+         'mean_gap_over_amplitude_error[-] contact_area_fraction_error[-] peak_pressure_over_pstar_error[-] '// &
+         'area_at_hardness_fraction[-] load_at_hardness_fraction[-] area_at_hardness_fraction_error[-] '// &
+         'load_at_hardness_fraction_error[-] contact_area_counted_fraction[-] contact_area_corrected_fraction[-] '// &
+         'linear_area_fraction[-] mean_pressure[pressure] force[force] mean_gap[length] approach[length] '// &
+         'approach_error[length] contact_area[area] contact_area_error[area] peak_pressure[pressure] '// &
+         'peak_pressure_error[pressure] '//listed_columns('summary')//'active_constraints[#] iterations[#] '// &
+         'residual[-] solver[word] status_code[#] status[word]'
+   end function summary_columns
+
+   subroutine put_coefficients(results, load, file)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      type(output_file), intent(inout) :: file
+
+      type(fourier_series) :: pressure
+      integer :: i, j
+
+      call results%begin_block(file, load)
+      call results%loads(load)%coefficients(results%solver%surface, pressure)
+      if (.not. allocated(pressure%c)) return
+      do i = 0, ubound(pressure%c, 1)
+         do j = 0, ubound(pressure%c, 2)
+            if (i + j == 0) cycle
+            call file%put_row([real(dp) :: load, i, j, pressure%c(i, j)])
+         end do
+      end do
+   end subroutine put_coefficients
 
 end module wavycon_tables

@@ -108,39 +108,36 @@ contains
       type(output_file), intent(inout) :: file
 
       type(surface_line) :: line
-      real(dp) :: crack_radius, from_trough, of_line(4), of_plane(3), phi, theta
-      real(dp), allocatable :: dundurs(:), values(:, :)
+      real(dp) :: crack_radius, from_trough, phi, theta
+      real(dp), allocatable :: dundurs(:), values(:, :)   ! the latter's columns 1 to 4 are of lines, 5 to 7 of planes
       integer :: k, number, terms
 
       ! As many terms of the series as the solver's has, otherwise as in the paper.
       terms = 10
       if (results%scene%method%harmonics%in_effect) terms = nint(results%scene%method%harmonics%number)
-      of_line = not_a_number()
-      of_plane = not_a_number()
       call results%begin_block(file, load)
       associate (surface => results%solver%surface, load_p => results%loads(load)%pbar_over_pstar)
          crack_radius = penny_crack_radius_over_wavelength(load_p)
          if (surface%dimension == 1) dundurs = dundurs_coefficients(load_p, terms)
          do number = 1, surface%dimension
             call start_surface_line(line, results, number)
-            allocate (values(size(of_line) + size(of_plane), 0:ubound(line%distance, 1)))
+            allocate (values(7, 0:ubound(line%distance, 1)), source=not_a_number())
             do k = 0, ubound(values, 2)
                call paper_angles(surface, line%angle(1, k), line%angle(2, k), phi, theta)
                if (surface%dimension == 1) then
-                  of_line = [westergaard_pressure_over_pstar(phi/2, load_p), &
-                             westergaard_displacement_over_amplitude(phi/2, load_p), &
-                             westergaard_gap_over_amplitude(phi/2, load_p), &
-                             dundurs_pressure_over_pstar(phi, load_p, dundurs)]
+                  values(:4, k) = [westergaard_pressure_over_pstar(phi/2, load_p), &
+                                   westergaard_displacement_over_amplitude(phi/2, load_p), &
+                                   westergaard_gap_over_amplitude(phi/2, load_p), &
+                                   dundurs_pressure_over_pstar(phi, load_p, dundurs)]
                else
                   ! Pressure (A4) and opening (A6) of the crack are zero outside of it.
                   from_trough = nearest_crest(phi - pi, theta)
-                  of_plane(1) = hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p)
-                  of_plane(2:) = 0.0_dp
-                  if (from_trough < crack_radius) of_plane(2:) = &
+                  values(5, k) = hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p)
+                  values(6:, k) = 0.0_dp
+                  if (from_trough < crack_radius) values(6:, k) = &
                      [penny_crack_pressure_over_pstar(from_trough, load_p), &
                       penny_crack_opening_over_amplitude(from_trough/crack_radius, crack_radius, load_p)]
                end if
-               values(:, k) = [of_line, of_plane]
             end do
             call put_surface_line(line, results, load, values, file)
             deallocate (values)
