@@ -339,8 +339,7 @@ contains
 
       call lock()
       call check_arguments([present(path), present(directory), present(exit_status)], trouble)
-      if (.not. allocated(trouble)) &
-         call run_deck(text_at(path), text_at(directory), quiet /= 0, exit_status, trouble)
+      if (.not. allocated(trouble)) call run_deck(text_at(path), text_at(directory), quiet /= 0, exit_status, trouble)
       c_run_deck = close_call(error, trouble)
    end function c_run_deck
 

@@ -217,11 +217,8 @@ contains
       call begin_solve(self%is_solving)
       call solve_target(self%results%solver, loads_by, target(load), answer%solution, self%results%scene%stress_setting)
       call end_solve(self%is_solving)
-      if (allocated(mean_pressure)) then
-         answer%mean_pressure = mean_pressure(load)
-      else
-         answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar
-      end if
+      answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar
+      if (allocated(mean_pressure)) answer%mean_pressure = mean_pressure(load)
       call self%make_table('summary', answer, summary, error)
       answer%summary = summary
    end subroutine solve_one

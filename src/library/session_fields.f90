@@ -80,14 +80,15 @@ contains
       if (allocated(error)) return
       if (session%scale%p_star > 0.0_dp) then
          call solved%fields%on_grid(points, first, p, u, g)
-         if (present(pressure)) pressure = session%scale%p_star*p
-         if (present(gap)) gap = session%scale%amplitude*g
-         if (present(displacement)) displacement = session%scale%amplitude*u
+         p = session%scale%p_star*p
       else
-         if (present(pressure)) pressure = solved%mean_pressure
-         if (present(gap)) gap = 0.0_dp
-         if (present(displacement)) displacement = 0.0_dp
+         allocate (g(points(1), points(2)), source=0.0_dp)
+         u = g
+         p = g + solved%mean_pressure
       end if
+      if (present(pressure)) pressure = p
+      if (present(gap)) gap = session%scale%amplitude*g
+      if (present(displacement)) displacement = session%scale%amplitude*u
    end subroutine fields_on_grid
 
    !> The grid that the load was solved on, as arguments of fields_on_grid, which shows the solution's own numbers

@@ -174,7 +174,7 @@ class Pages(ProgramTest):
 
     def test_columns(self):
         page = read("outputs/README.md")
-        tables = {name for path in (ROOT/"src/program/report").glob("*_tables.f90")
+        tables = {name for path in (ROOT/"src/program/report").glob("*tables.f90")
                   for name in re.findall(r"table_type\('(\w+)'", path.read_text(encoding="utf-8"))}
         # The heights have no columns but x, y and one more.
         self.assertEqual(tables - {"height"}, set(SECTIONS))

@@ -13,8 +13,7 @@ module wavycon_system
    public :: note_kept, prepare_process, stack_limit, terminal_columns
 
    !> Values of `path_kind`.
-   integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, &
-                                 path_unknown = 4
+   integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, path_unknown = 4
 
    interface
       integer(c_int) function c_path_kind(path, size) bind(c, name='wavycon_path_kind')
@@ -199,9 +198,8 @@ contains
 
       ! An empty path fails too: there is no such directory.
       do i = min(2, len(path) + 1), len(path) + 1
-         if (i <= len(path)) then
-            if (path(i:i) /= '/') cycle
-         end if
+         ! At the end of each part of the path.
+         if (index(path(i:)//'/', '/') > 1) cycle
          number = int(c_make_directory(path(:i - 1)//c_null_char))
          if (number == 0) cycle
          failure = path(:i - 1)//': '//error_text(number)

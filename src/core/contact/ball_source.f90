@@ -43,7 +43,6 @@ module wavycon_ball_source
       type(hertz_ball) :: contact
    contains
       procedure :: at
-      procedure :: on_grid
    end type ball_fields
 
    !> Stresses of a ball on another rectangle about the same point.
@@ -108,9 +107,7 @@ contains
          do k = 1, size(rule%weight)
             x = contact%half_axis(1)*real(rule%point(k))
             y = contact%half_axis(2)*aimag(rule%point(k))
-            mean = mean + rule%weight(k)*( &
-                   integral_to_corner(half(1) + x, half(2) + y) + integral_to_corner(half(1) - x, half(2) + y) &
-                   + integral_to_corner(half(1) + x, half(2) - y) + integral_to_corner(half(1) - x, half(2) - y))
+            mean = mean + rule%weight(k)*sum(integral_to_corner(half(1) + [x, x, -x, -x], half(2) + [y, -y, y, -y]))
          end do
       end associate
       mean = mean*contact%peak_pressure*product(contact%half_axis)/(pi*surface%nominal_area()*surface%amplitude)
@@ -121,7 +118,7 @@ contains
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      allocate (answer, source=ball_fields(surface=surface, contact=self%contact))
+      allocate (answer, source=ball_fields(parts=surface%parts(), surface=surface, contact=self%contact))
    end subroutine fields
 
    !> The displacement outside is (C31).
@@ -156,24 +153,6 @@ contains
          displacement = gap + (contact%approach - undeformed)/surface%amplitude
       end associate
    end subroutine at
-
-   !> At the points of the map.
-   subroutine on_grid(self, points, offset, pressure, displacement, gap)
-      class(ball_fields), intent(inout) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)
-      real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
-
-      integer :: k, l
-
-      allocate (pressure(points(1), points(2)), displacement(points(1), points(2)), gap(points(1), points(2)))
-      do l = 1, points(2)
-         do k = 1, points(1)
-            call self%at(pi*(k - 1 + offset(1))/points(1), pi*(l - 1 + offset(2))/points(2), pressure(k, l), &
-                         displacement(k, l), gap(k, l))
-         end do
-      end do
-   end subroutine on_grid
 
    !> The ellipse and its mirror images.
    subroutine contact_contours(self, surface, curves, loads)
@@ -211,10 +190,8 @@ contains
       own = surface_of_ball(4*self%contact%half_axis, ball_radii(surface))
       allocate (stress)
       stress%unit = own%full_contact_pressure(1.0_dp)/surface%full_contact_pressure(1.0_dp)
-      associate (areas => surface%nominal_area()/own%nominal_area())
-         call solver%start(own, grid_options(accuracy=self%accuracy), keep_fields=.true.)
-         call solver%solve(self%record%pbar_over_pstar*areas/stress%unit, solution)
-      end associate
+      call solver%start(own, grid_options(accuracy=self%accuracy), keep_fields=.true.)
+      call solver%solve(self%record%pbar_over_pstar*surface%nominal_area()/(own%nominal_area()*stress%unit), solution)
       call solution%stresses(own, stress%own)
       stress%scale = [surface%length, surface%length(1)]/[own%length, own%length(1)]
       stress%exist = stress%own%exist

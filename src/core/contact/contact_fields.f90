@@ -22,6 +22,7 @@ module wavycon_contact_fields
       !> The own columns of that grid, of the part of the cell that was solved.
       type(grid_slab) :: own_slab = grid_slab()
       type(equivalent_points) :: symmetry   !! of the fields, for on_grid
+      integer :: parts(2) = 1               !! of the surface: how often the points of on_grid fit into the cell
    contains
       procedure(fields_at_point), deferred :: at
       procedure :: on_grid
@@ -45,8 +46,7 @@ module wavycon_contact_fields
 contains
 
    !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y. On a mirrored height map the points are those
-   !> of the map, X = pi (k + offset_x)/N_x; the default, point by point, is for other surfaces. It evaluates equivalent
-   !> points once.
+   !> of the map, X = pi (k + offset_x)/N_x. The default evaluates equivalent points once.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(contact_fields), intent(inout) :: self
       integer, intent(in) :: points(2)       !! N_x, N_y >= 1; N_y = 1 in 1-D
@@ -63,7 +63,8 @@ contains
       do l = 1, points(2)
          do k = 1, points(1)
             first = self%symmetry%first_of([k, l] - 1)
-            associate (i => first%point(1) + 1, j => first%point(2) + 1, angles => 2*pi*(first%point + offset)/points)
+            associate (i => first%point(1) + 1, j => first%point(2) + 1, &
+                       angles => 2*pi*(first%point + offset)/(self%parts*points))
                if (i == k .and. j == l) &
                   call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
                pressure(k, l) = pressure(i, j)

@@ -33,15 +33,15 @@ module wavycon_find_load
 
 contains
 
-   !> Solves for the load at which a quantity has a given value (C18): searches at each coarser level of the solver, each
-   !> from the load of the one before, and then at full accuracy. The solution has the status not_accurate if the search
-   !> did not find such a load, and not_found if the value is not reached even at the lightest loads: it is then that of
-   !> P -> 0, and P is 0.
+   !> Solves for the load at which a quantity has a given value (C18): searches at each coarser level of the solver,
+   !> each from the load of the one before, and then at full accuracy. The solution has the status not_accurate if the
+   !> search did not find such a load, and not_found if the value is not reached even at the lightest loads: it is then
+   !> that of P -> 0, and P is 0.
    subroutine solve_for(solver, quantity, target, solution)
       class(contact_solver), intent(inout) :: solver    !! started
       integer, intent(in) :: quantity                   !! contact_area, mean_gap or approach
-      !> Of the area fraction or G 0 .. 1, of the approach [Delta] >= 0: no load at an area or approach of 0 and at G = 1,
-      !> P = 1 at an area of 1 and at G = 0.
+      !> Of the area fraction or G 0 .. 1, of the approach [Delta] >= 0: no load at an area or approach of 0 and at G =
+      !> 1, P = 1 at an area of 1 and at G = 0.
       real(dp), intent(in) :: target
       type(contact_solution), intent(out) :: solution   !! of the load found
 

@@ -6,8 +6,7 @@ module wavycon_fitted_frame
    use wavycon_kinds, only: dp
    use wavycon_paper_wave, only: no_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_surface, only: surface_type
-   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, &
-      wave_lattice
+   use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, wave_lattice
    implicit none (type, external)
    private
 

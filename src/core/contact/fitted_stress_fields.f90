@@ -2,44 +2,26 @@
 module wavycon_fitted_stress_fields
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
-   use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_frame, only: fitted_frame
-   use wavycon_fitted_stress, only: fitted_stress, start_fitted_stress
+   use wavycon_fitted_stress, only: fitted_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: depths_of_spot, depths_of_cell, edge_ratios
-   use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: fitted_stress_fields, start_fitted_stress_fields
+   public :: fitted_stress_fields
 
    type, extends(stress_fields) :: fitted_stress_fields
-      private
-      type(fitted_frame) :: frame
-      type(fitted_stress) :: fitted
+      type(fitted_frame) :: frame     !! of the surface
+      type(fitted_stress) :: fitted   !! started
    contains
       procedure :: at
       procedure :: start_places
    end type fitted_stress_fields
 
 contains
-
-   subroutine start_fitted_stress_fields(fields, surface, frame, answer, accuracy, pbar_over_pstar)
-      type(fitted_stress_fields), intent(out) :: fields
-      type(surface_type), intent(in) :: surface
-      type(fitted_frame), intent(in) :: frame       !! of the surface
-      type(fitted_answer), intent(in) :: answer     !! with a solution
-      real(dp), intent(in) :: accuracy              !! that the solution was asked for
-      real(dp), intent(in) :: pbar_over_pstar       !! P
-
-      fields%pbar_over_pstar = pbar_over_pstar
-      fields%side_ratio = surface%length(2)/surface%length(1)
-      fields%frame = frame
-      fields%symmetry = frame%symmetry()
-      call start_fitted_stress(fields%fitted, frame%lattice, answer, accuracy)
-   end subroutine start_fitted_stress_fields
 
    subroutine at(self, x, y, depth, parts, error)
       class(fitted_stress_fields), intent(inout) :: self

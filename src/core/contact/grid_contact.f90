@@ -99,11 +99,8 @@ contains
       traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
       if (.not. self%is_started) return
       traits%needs_whole_grids = self%surface%has_free_edges
-      if (allocated(self%smaller)) then
-         plan = plan_grids(self%smaller, self%options%points)
-      else
-         plan = plan_grids(self%surface, self%options%points)
-      end if
+      plan = plan_grids(self%surface, self%options%points)
+      if (allocated(self%smaller)) plan = plan_grids(self%smaller, self%options%points)
       traits%finest_grid = plan%grids(:, size(plan%grids, 2))
       if (all(self%options%points > 0)) traits%given_grid = traits%finest_grid
    end function traits

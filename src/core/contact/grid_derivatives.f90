@@ -75,11 +75,8 @@ contains
          counted(i) = nearby%value(contact_area_counted)
          grids = reshape([nearby%history%values, nearby%history%before], [3, 3])
          y(:, 2, i) = log_ratio(grids(2, :), 1.0_dp - bound*grids(2, :))
-         if (surface%has_free_edges) then
-            y(:, 1, i) = log_ratio(grids(1, :), 1.0_dp)
-         else
-            y(:, 1, i) = log_ratio(1.0_dp - grids(1, :), grids(1, :))
-         end if
+         y(:, 1, i) = log_ratio(1.0_dp - grids(1, :), grids(1, :))
+         if (surface%has_free_edges) y(:, 1, i) = log_ratio(grids(1, :), 1.0_dp)
       end subroutine solve_near
 
    end subroutine differentiate_on_grid

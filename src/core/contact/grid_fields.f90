@@ -135,11 +135,8 @@ contains
       do l = -1, n + 2
          do k = -1, m + 2
             associate (value => fields%edge%at(k, l))
-               if (value > 0.0_dp) then
-                  fields%psi(k, l) = value**2
-               else
-                  fields%psi(k, l) = -abs(value)**(2.0_dp/3)
-               end if
+               fields%psi(k, l) = value**2
+               if (value <= 0.0_dp) fields%psi(k, l) = -abs(value)**(2.0_dp/3)
             end associate
          end do
       end do

@@ -149,8 +149,8 @@ contains
          allocate (values(parts*points(1), parts*points(2)), source=0.0_dp)
          values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
       end associate
-      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would be
-      ! P - 1.
+      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
+      ! be P - 1.
       error = self%record%error(peak_pressure)
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%record%pbar_over_pstar)
       call transform%start(shape(values), self%edge%even .and. parts == 1, whole=.true.)

@@ -24,8 +24,8 @@ module wavycon_fitted_answer
    integer, parameter, public :: most_previous = 2
 
    !> The quantities that it has are mean gap, area fraction, peak pressure, energy, here half the integral of p u per
-   !> cell, [Delta s^2], perimeter and degree. Lengths in the cell's shorter side s, pressures in pi E* Delta/s, gaps and
-   !> displacements in Delta.
+   !> cell, [Delta s^2], perimeter and degree. Lengths in the cell's shorter side s, pressures in pi E* Delta/s, gaps
+   !> and displacements in Delta.
    type, extends(quantities) :: fitted_answer
       integer :: status = fitted_failed
       real(dp) :: pbar_over_pstar = 0.0_dp            !! P

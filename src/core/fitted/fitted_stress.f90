@@ -23,7 +23,6 @@ module wavycon_fitted_stress
          !! of the answer's expansion and those of lower degrees, shape (0:.)
    contains
       procedure :: at
-      procedure, private :: error_at
    end type fitted_stress
 
 contains
@@ -53,7 +52,8 @@ contains
       stress%edge_error = area_error/answer%value(perimeter)
    end subroutine start_fitted_stress
 
-   !> The stresses at a place, less those of the mean pressure.
+   !> The stresses at a place, less those of the mean pressure. The error is estimated by README.md (F64): from the
+   !> stresses of lower degrees, the errors of peak pressure and area, and, next to the edge, the error of its place.
    !>
    !> N.B. On the surface inside a pool the pressure is what the equations leave, not 0.
    subroutine at(self, place, depth, parts, error)
@@ -65,23 +65,13 @@ contains
       real(dp), intent(out), optional :: error
          !! estimate of the largest error of a component for 0 <= nu <= 1/2 [pi E* Delta/s]
 
-      call self%of_degree(0)%at(place, depth, parts)
-      if (present(error)) error = self%error_at(place, depth, parts)
-   end subroutine at
-
-   !> The estimate, README.md (F64): from the stresses of lower degrees, the errors of peak pressure and area, and, next
-   !> to the edge, the error of its place.
-   real(dp) function error_at(self, place, depth, parts) result(error)
-      class(fitted_stress), intent(inout) :: self
-      complex(dp), intent(in) :: place
-      real(dp), intent(in) :: depth
-      real(dp), intent(in) :: parts(6, 2)          !! at the place
-
       !> Stresses for nu = 0 and nu = 1/2 from the parts.
       real(dp), parameter :: at_limits(2, 2) = reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2])
       real(dp) :: distance, lower(6, 2), values(12, 0:ubound(self%of_degree, 1))
       integer :: i
 
+      call self%of_degree(0)%at(place, depth, parts)
+      if (.not. present(error)) return
       values(:, 0) = reshape(matmul(parts, at_limits), [12])
       do i = 1, ubound(values, 2)
          call self%of_degree(i)%at(place, depth, lower)
@@ -95,6 +85,6 @@ contains
             + peak/sqrt(self%answer%solution%shape%b(0)) &
             *self%edge_error/(sqrt(distance + self%edge_error) + sqrt(distance))
       end associate
-   end function error_at
+   end subroutine at
 
 end module wavycon_fitted_stress

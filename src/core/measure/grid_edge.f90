@@ -85,11 +85,8 @@ contains
 
       if (present(of_cells)) edge%of_cells = of_cells
       if (edge%of_cells) edge%rule = rule_of_cells
-      if (present(slab)) then
-         edge%slab = slab
-      else
-         edge%slab = grid_slab(points=shape(field), width=size(field, 2), last=size(field, 2))
-      end if
+      edge%slab = grid_slab(points=shape(field), width=size(field, 2), last=size(field, 2))
+      if (present(slab)) edge%slab = slab
       call move_alloc(field, edge%pressure_or_gap)
       edge%even = even
       edge%period = merge(2, 1, even)*edge%slab%points

@@ -31,7 +31,8 @@ module wavycon_quantities
    !> Gap at a trough [Delta]; gap and pressure at the saddle between nearest crests, where spots merge first; length of
    !> the edge of one contact spot or, once the spots have merged, of one closed pool [length]; degree of the
    !> polynomials. Collocation has them, if it keeps its fields.
-   integer, parameter, public :: trough_gap = 11, saddle_gap = 12, saddle_pressure = 13, perimeter = 14, polynomial_degree = 15
+   integer, parameter, public :: trough_gap = 11, saddle_gap = 12, saddle_pressure = 13, perimeter = 14, &
+      polynomial_degree = 15
    !> load_concentration of wavycon_grid_area, of a light contact on a height map, and with free edges the part of the
    !> load that lies within `border` sides of the border; otherwise 0.
    integer, parameter, public :: concentrated_load = 16, border_load = 17
@@ -48,8 +49,8 @@ module wavycon_quantities
    !> and the unit.
    integer, parameter, public :: of_length = 1, of_pressure = 2, of_area = 3, of_energy = 4, of_load = 5, &
       in_length = 6, of_count = 7, number_of_kinds = 7
-   character(*), parameter :: behind_name(number_of_kinds) = [character(21) :: '_over_amplitude', '_over_pstar', '_fraction', &
-      '_over_pstar_amplitude', '_fraction', '', '']
+   character(*), parameter :: behind_name(number_of_kinds) = [character(21) :: '_over_amplitude', '_over_pstar', &
+      '_fraction', '_over_pstar_amplitude', '_fraction', '', '']
    character(*), parameter :: units(number_of_kinds) = [character(12) :: 'length', 'pressure', 'area', 'force*length', &
       '-', 'length', '#']
 
@@ -133,8 +134,8 @@ contains
       errors = merge(estimates, unknown, estimates < [1.0_dp, 1.0_dp, 1.0_dp + largest])
    end function known_errors
 
-   !> What the errors of the main quantities are of: mean gap, with free edges in 2-D the approach, contact area and peak
-   !> pressure.
+   !> What the errors of the main quantities are of: mean gap, with free edges in 2-D the approach, contact area and
+   !> peak pressure.
    pure function main_values(self, surface) result(values)
       class(quantities), intent(in) :: self
       type(surface_type), intent(in) :: surface   !! that was solved

@@ -83,11 +83,8 @@ contains
       minus_i_sin_w = cmplx(c*sinh_z, -s*cosh_z, dp)
 
       ! P - sin^2(X/2), from the smaller numbers.
-      if (load < 0.5_dp) then
-         inside = load - s**2
-      else
-         inside = c**2 - (1 - load)
-      end if
+      inside = c**2 - (1 - load)
+      if (load < 0.5_dp) inside = load - s**2
       ! On the surface the imaginary part is a zero with the sign of -s, by which sqrt takes the right side of its cut.
       root = sqrt(cmplx(decay*inside + (c - s)*(c + s)*sinh_z**2, -2*s*c*cosh_z*sinh_z, dp))
       total = root + minus_i_sin_w

@@ -4,8 +4,7 @@ module wavycon_deck_groups
       is_group, is_slash, is_word, next_token, quotes, starts_entry, token_type
    use wavycon_interface_group, only: list_interface_keys
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: allowed_values, choice_value, key_index, key_type, name_length, &
-      text_value, words_of
+   use wavycon_key_table, only: allowed_values, choice_value, key_index, key_type, name_length, text_value, words_of
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: list_load_keys
@@ -253,8 +252,7 @@ contains
 
          k = 0
          if (g == 0) return
-         if (place <= text%own .and. &
-             any([(replaces(own_settings(s), lists(g), name), s=1, size(own_settings))])) return
+         if (place <= text%own .and. any([(replaces(own_settings(s), lists(g), name), s=1, size(own_settings))])) return
          k = key_index(lists(g)%rows, name)
          if (k == 0) then
             lists(g)%group%has_unknown = .true.

@@ -80,8 +80,7 @@ contains
       do i = 1, size(tables)
          if (.not. values%tables(i)%is_true) cycle
          refusal = tables(i)%refusal(traits_of(method%solver%text), surface)
-         if (refusal /= '') call values%complain(values%tables(i), &
-            trim(tables(i)%key)//' cannot be written: '//refusal)
+         if (refusal /= '') call values%complain(values%tables(i), trim(tables(i)%key)//' cannot be written: '//refusal)
       end do
    end subroutine check_output_group
 

@@ -319,8 +319,7 @@ contains
          equals = index(word//'=', '=')
          associate (value => self%keys(key_index(self%rows, word(:equals - 1)))%value)
             stands_beside = value%is_given
-            if (equals < len(word)) &
-               stands_beside = value%is_bad .or. value%text == word(equals + 2:len(word) - 1)
+            if (equals < len(word)) stands_beside = value%is_bad .or. value%text == word(equals + 2:len(word) - 1)
          end associate
       end function stands_beside
 

@@ -168,15 +168,11 @@ contains
                   call fields%on_grid(map%points, map%offset, p_of_stick, u, gap)
                end associate
                do l = 1, map%points(2)
-                  if (results%slip(i, load)%stick%has_numbers()) then
-                     ! The state is 0 where the gap is open, 1 slip, 2 stick.
-                     values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
-                                                 p_star*p(:, l), merge(1.0_dp, 0.0_dp, p(:, l) > 0.0_dp) + &
-                                                 merge(1.0_dp, 0.0_dp, p_of_stick(:, l) > 0.0_dp)], &
-                                                [map%points(1), 3]))
-                  else
-                     values = spread([not_a_number(), not_a_number(), not_a_number()], 2, map%points(1))
-                  end if
+                  ! The state is 0 where the gap is open, 1 slip, 2 stick.
+                  values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
+                                              p_star*p(:, l), merge(1.0_dp, 0.0_dp, p(:, l) > 0.0_dp) + &
+                                              merge(1.0_dp, 0.0_dp, p_of_stick(:, l) > 0.0_dp)], [map%points(1), 3]))
+                  if (.not. results%slip(i, load)%stick%has_numbers()) values = not_a_number()
                   call map%put_row([load, i], l, values)
                end do
             end do

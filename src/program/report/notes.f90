@@ -344,8 +344,7 @@ contains
          last = findloc(is_unreached, .true., dim=1, back=.true.)
          if (last == 0) return
          associate (solution => loads(last))
-            limit = ' mean gaps are above the largest that the grid shows, '// &
-                    short_number(solution%value(mean_gap))
+            limit = ' mean gaps are above the largest that the grid shows, '//short_number(solution%value(mean_gap))
             if (loads_by == by_contact_area) limit = &
                ' contact areas are below the least that the grid shows, '//short_number(solution%value(contact_area))
          end associate

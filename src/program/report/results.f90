@@ -226,11 +226,8 @@ contains
       class(results_type), intent(in) :: self
       integer, intent(in) :: load
 
-      if (allocated(self%scene%mean_pressure)) then
-         mean_pressure = self%scene%mean_pressure(load)
-      else
-         mean_pressure = self%scene%p_star*self%loads(load)%pbar_over_pstar
-      end if
+      mean_pressure = self%scene%p_star*self%loads(load)%pbar_over_pstar
+      if (allocated(self%scene%mean_pressure)) mean_pressure = self%scene%mean_pressure(load)
    end function mean_pressure
 
    !> The entry of a table for a number that does not exist.

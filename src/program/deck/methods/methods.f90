@@ -349,8 +349,7 @@ contains
          words = 'a grid of '//integer_text(points(1))
          if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
          words = words//' points'
-         if (values%residual%number > 0.0_dp) words = words//' to a residual of '// &
-                                                    short_number(values%residual%number)
+         if (values%residual%number > 0.0_dp) words = words//' to a residual of '//short_number(values%residual%number)
       else
          words = 'grids refined until mean gap, area and peak pressure are within '// &
                  short_number(values%accuracy%number)

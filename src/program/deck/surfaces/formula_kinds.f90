@@ -15,8 +15,7 @@ module wavycon_formula_kinds
    public :: check_sum, formula_surface, radii_of
 
    !> The waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21).
-   character(*), parameter, public :: paper_waves = &
-      'wave_1d, wave_2d with one wavelength, crossed_1d with equal waves'
+   character(*), parameter, public :: paper_waves = 'wave_1d, wave_2d with one wavelength, crossed_1d with equal waves'
 
 contains
 
