@@ -21,7 +21,7 @@ module wavycon_contact_fields
       real(dp) :: own_offset(2) = 0.0_dp
       !> The own columns of that grid, of the part of the cell that was solved.
       type(grid_slab) :: own_slab = grid_slab()
-      type(equivalent_points) :: symmetry   !! of the fields, for on_grid
+      type(equivalent_points) :: symmetry = equivalent_points()   !! of the fields, for on_grid
       integer :: parts(2) = 1               !! of the surface: how often the points of on_grid fit into the cell
    contains
       procedure(fields_at_point), deferred :: at

@@ -20,7 +20,7 @@ module wavycon_stress_fields
       logical :: exist = .true.               !! whether there is a solution; if not all stresses are NaN
       integer :: dimension = 2                !! 1: nothing depends on Y
       real(dp) :: side_ratio = 1.0_dp         !! L_y/L_x
-      type(equivalent_points) :: symmetry     !! of the stresses, for on_plane
+      type(equivalent_points) :: symmetry = equivalent_points()   !! of the stresses, for on_plane
       integer :: parts(2) = 1                 !! of the surface: how often the points of on_plane fit into the cell
    contains
       procedure :: at
