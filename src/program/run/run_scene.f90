@@ -5,7 +5,7 @@ module wavycon_run_scene
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_file_bytes, only: read_file
    use wavycon_kinds, only: dp
-   use wavycon_methods, only: start_solver
+   use wavycon_methods, only: start_solver, traits_of
    use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, newline, short_number
@@ -185,6 +185,9 @@ contains
          ! p* and Delta of a flat surface are zero.
          tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
                        [(tables(i)%is_requested(scene), i=1, size(tables))])
+         ! A table that several keys ask for together is left out where it cannot be written.
+         results%traits = traits_of(scene%method%solver%text)
+         tables = pack(tables, [(tables(i)%refusal(results%traits, scene%surface) == '', i=1, size(tables))])
          results%keeps_fields = any(tables%needs_fields) .or. asks_for_largest(scene)
          if (present(with_fields)) results%keeps_fields = with_fields
          results%keeps_fields = results%keeps_fields .or. scene%loads_by == by_yield
