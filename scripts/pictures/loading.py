@@ -4,7 +4,7 @@ import os
 
 from axes import Axis, axis, decades
 from picture import AREA, AREA_0, DELTA, GAP, MEAN_GAP, MOST_CURVES, OPEN, OPEN_ENTRY, P, P_BAR, P_MAX, P_STAR, X, Y, \
-    Picture, Quantity, bars, entry, load_names, mean_pressure_axis, runs_of, shaded, shown
+    CannotBeDrawn, Picture, Quantity, bars, entry, load_names, mean_pressure_axis, mean_pressures, runs_of, shaded, shown
 from table import Table
 
 REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "outputs", "reference", "wave_2d.dat")
@@ -113,7 +113,7 @@ def summary(tables, beside, choice, folder):
     return picture
 
 
-def with_errors(table, load, found, run, column, error_column, head):
+def with_errors(table, load, found, run, column, error_column, head=""):
     """The points of a run on the axes: load, value, error, status. head: unit of the errors, '' if they have that of
     the value."""
     unit = table.numbers.get(head, 0.0) if head else 1.0
@@ -142,6 +142,8 @@ def curve_of_bars(picture, look, points):
 def load_axis(table):
     """The loads of a table over p*, and their axis."""
     loads = table.column("pbar_over_pstar")
+    if not loads:
+        raise CannotBeDrawn("it has no loads over p*, as those of a surface with free edges")
     return loads, Axis(*axis(loads, up_to=1.0), f"mean pressure {P_BAR}/{P_STAR}")
 
 
@@ -192,9 +194,8 @@ def details(tables, beside, choice, folder):
 def spots(tables, beside, choice, folder):
     """Numbers of spots and pools, their areas, and percolation, against the mean pressure."""
     table, columns = tables[0], tables[0].blocks[0].columns
-    full = table.numbers.get("p*", 1.0)
-    load, x = mean_pressure_axis(tables, lambda table: [full*number for number in table.column("pbar_over_pstar")])
-    places = load.of([full*number for number in columns["pbar_over_pstar"]])
+    load, x = mean_pressure_axis(tables, lambda table: list(filter(math.isfinite, mean_pressures(table))))
+    places = load.of(mean_pressures(table))
     picture = Picture(folder, (900, 310), tables)
     up = 67.5, picture.height - 95
     numbers, areas = {"spots": 31, "closed_pools": 32}, {"spots": 31, "largest_spot": 33, "closed_pools": 32}

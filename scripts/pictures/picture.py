@@ -86,6 +86,19 @@ def of_loads(table):
             if math.isfinite(block.pbar_over_pstar)]
 
 
+def mean_pressures(table):
+    """The mean pressure of each row of a table with a row for each load that has it over p* alone. With free edges,
+    where there is no p*, it is that of the summary of the same run."""
+    columns = table.blocks[0].columns
+    if "p*" in table.numbers:
+        return [table.numbers["p*"]*number for number in columns["pbar_over_pstar"]]
+    if not table.summary:
+        raise CannotBeDrawn("its loads are in the summary of the run, which is not beside it")
+    known = table.summary.blocks[0].columns
+    of_load = dict(zip(known["load"], known["mean_pressure"]))
+    return [of_load.get(load, math.nan) for load in columns["load"]]
+
+
 def mean_pressure_axis(tables, column="mean_pressure"):
     """The mean pressure and its axis."""
     load = Quantity(tables, column, "p*", P_STAR, may_be_wide=True)

@@ -215,17 +215,17 @@ def largest(tables, beside, choice, folder):
                      may_be_wide=x.wide)
     estimated = alone and tables[0].method not in ("beale", "series")
     panels_of, is_open = [], False
-    for name, found, error_name, head, label in (
-            ("largest_von_mises", stress, "largest_von_mises_over_pstar_error", "p*", SYMBOLS["von_mises"]),
-            ("largest_shear", stress, "largest_shear_over_pstar_error", "p*", SYMBOLS["largest_shear"]),
-            ("von_mises_depth", depth, "shear_depth", "", (DEPTH, "depth")),
+    for name, found, error_name, label in (
+            ("largest_von_mises", stress, "largest_von_mises_error", SYMBOLS["von_mises"]),
+            ("largest_shear", stress, "largest_shear_error", SYMBOLS["largest_shear"]),
+            ("von_mises_depth", depth, "shear_depth", (DEPTH, "depth")),
             ("stress_over_yield_stress", Quantity(tables, "stress_over_yield_stress"), "stress_over_yield_stress_error",
-             "", ("largest stress over yield stress",))):
+             ("largest stress over yield stress",))):
         numbers, is_depth = found.all(name), name == "von_mises_depth"
-        runs = [(with_errors(table, load, found, run, name, error_name, head), look) for run, table, look in shown_runs]
-        if head:
+        runs = [(with_errors(table, load, found, run, name, error_name), look) for run, table, look in shown_runs]
+        if found is stress:
             numbers += [end for run, table in enumerate(tables) for _, value, error, _ in with_errors(
-                table, load, found, run, name, error_name, head) for end in bars(value, error)]
+                table, load, found, run, name, error_name) for end in bars(value, error)]
         elif is_depth:
             numbers += found.all("shear_depth")
         elif numbers:

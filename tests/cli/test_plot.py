@@ -67,7 +67,8 @@ DECKS = {
             "work_of_adhesion = 0.05, resistivity1 = 1, resistivity2 = 1 /\n&method solver = 'auto', accuracy = 1e-2 /\n"
             "&output map_points = 16 /",
     "free": "&scene pressure_unit = 'MPa', length_unit = 'mm' /\n&surface kind = 'ball', radius = 1, length_x = 0.2, points = 32 /\n"
-            "&material e_star = 2 /\n&load force = 1e-4, 1e-3 /\n&output map = t, contours = t, lines = t /",
+            "&material e_star = 2 /\n&load force = 1e-4, 1e-3 /\n&stress nu = 0.3 /\n"
+            "&output map = t, contours = t, lines = t, spots = t /",
     "pull": "&surface kind = 'ball', radius = 1 /\n&load force = 1e-4 /\n&interface work_of_adhesion = 1e-5 /",
     "map": "&surface kind = 'file', file = 'heights.txt' /\n&load pbar_over_pstar = 0.1, 0.5 /",
 }
@@ -270,7 +271,7 @@ class Plot(ProgramTest):
     def test_errors_too_large_for_a_bar(self):
         self.assertNotIn("error unknown", self.drawn("auto.summary.dat"))
         for name, column, error in (("auto.summary", "contact_area_fraction_error", "1.0"),
-                                    ("stress.stress_largest", "largest_shear_over_pstar_error", "NaN")):
+                                    ("stress.stress_largest", "largest_shear_error", "NaN")):
             lines = (self.folder/f"{name}.dat").read_text().splitlines()
             words = lines[-1].split()
             words[Table(self.folder/f"{name}.dat").names.index(column)] = error
@@ -357,6 +358,12 @@ class Plot(ProgramTest):
             shown = self.drawn(f"free.{table}.dat")
             self.assertNotIn("nan", shown.lower(), table)
             self.assertIn("kPa", shown, table)
+        # Tables with the loads over p* alone take them from the summary; errors are those in units.
+        self.assertIn("mean pressure", self.drawn("free.spots.dat"))
+        self.assertIn("[kPa]", self.drawn("free.spots.dat"))
+        self.assertNotIn("error unknown", self.drawn("free.stress_largest.dat"))
+        self.run_deck("hertz", DECKS["free"].replace("spots = t", "theory = t") + "\n")
+        self.assertIn("no loads over p*", self.plot("hertz.theory.dat", status=3)[1])
 
     def test_stresses_of_two_bodies(self):
         shown = self.drawn("bodies.stress_largest.dat")
