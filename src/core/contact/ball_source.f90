@@ -95,8 +95,9 @@ contains
       type(surface_type), intent(in) :: surface
       type(hertz_ball), intent(in) :: contact
 
-      !> Points of the rule along radius and quarter of the angle. Contact that fills half the rectangle has 13 digits.
-      integer, parameter :: radii = 12, angles = 24
+      !> Points of the rule along the radius and along a quarter of the angle. Compared with 200 x 800, on a square, the
+      !> error is below 2e-14 up to an axis of 0.99 of the side, and 6e-11 for one as long as the side.
+      integer, parameter :: radii = 32, angles = 128
       type(disc_rule) :: rule
       real(dp) :: x, y
       integer :: k
@@ -131,7 +132,8 @@ contains
       real(dp) :: b, c, inside, lambda, place(2), squares(2), u, undeformed
 
       associate (surface => self%surface, contact => self%contact)
-         ! Places beyond the map are replaced by their mirror images, as its heights are.
+         ! Places beyond the map are replaced by their mirror images, as its heights are. The undeformed gap is not
+         ! taken from the surface's shape, 1 - h/Delta: next to the crest h would lose its digits.
          place = (0.5_dp*pi - abs(pi - modulo([x, y], 2*pi)))*surface%length/(2*pi)
          squares = contact%half_axis**2
          undeformed = 0.5_dp*sum(place**2/ball_radii(surface))
