@@ -143,7 +143,7 @@ def load_axis(table):
     """The loads of a table over p*, and their axis."""
     loads = table.column("pbar_over_pstar")
     if not loads:
-        raise CannotBeDrawn("it has no loads over p*, as those of a surface with free edges")
+        raise CannotBeDrawn("it has no loads over p*: a surface with free edges has no p*")
     return loads, Axis(*axis(loads, up_to=1.0), f"mean pressure {P_BAR}/{P_STAR}")
 
 
