@@ -28,7 +28,8 @@ module wavycon_fitted_answer
    !> and displacements in Delta.
    type, extends(quantities) :: fitted_answer
       integer :: status = fitted_failed
-      real(dp) :: pbar_over_pstar = 0.0_dp            !! P
+      real(dp) :: pbar_over_pstar = 0.0_dp            !! P, given or, with adhesion, found
+      real(dp) :: load_error = 0.0_dp                 !! of a load that is found
       real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], a pool's [p*]
       real(dp) :: misfit_decay(2) = 1.0_dp            !! r_n and r_(n-1) of README.md (F43)
       real(dp) :: merging_ratio = 0.0_dp              !! of the shape: 0 for a point, 1 where neighbours touch

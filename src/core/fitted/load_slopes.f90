@@ -39,10 +39,10 @@ contains
       logical :: found_too
       integer :: k
 
-      call slopes_of(lattice, answer%pbar_over_pstar, answer%solution, slopes, intensity_range, found)
+      call slopes_of(lattice, answer%solution, slopes, intensity_range, found)
       at(:, 0) = slopes
       do k = 1, size(answer%previous)
-         call slopes_of(lattice, answer%pbar_over_pstar, answer%previous(k), at(:, k), range, found_too)
+         call slopes_of(lattice, answer%previous(k), at(:, k), range, found_too)
          found = found .and. found_too
       end do
       if (.not. found) return
@@ -51,9 +51,8 @@ contains
    end subroutine find_load_slopes
 
    !> The derivatives of one expansion, and the least and the largest k^2 along its edge: (I4) to (I7).
-   subroutine slopes_of(lattice, load, now, slopes, intensity_range, found)
+   subroutine slopes_of(lattice, now, slopes, intensity_range, found)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load            !! P
       type(expansion), intent(in) :: now
       real(dp), intent(out) :: slopes(number_of_slopes), intensity_range(2)
       logical, intent(out) :: found
@@ -69,7 +68,7 @@ contains
       call equations%images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
       call start_equations(equations, now, merging_ratio(lattice, now))
       allocate (change(equations%unknowns), change_of_change(equations%unknowns))
-      call changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, found)
+      call changes_with_load(equations, lattice, now, change, change_of_change, load_change, found)
       if (.not. found) return
       n = least_edge_points + edge_points_per_degree*now%basis%degree
       allocate (intensity(n), values(n, now%basis%terms), velocity(n), w(n))
