@@ -1,291 +1,460 @@
-!> The contact with adhesion in the limit of Johnson, Kendall & Roberts, by Ciavarella's superposition: a contact
-!> without adhesion at a mean pressure P1, less the field of a rigid punch of the contact's shape under a tension T.
+!> The contact with adhesion in the limit of Johnson, Kendall & Roberts: its curve of load, approach and area, which is
+!> followed by the area of contact, so that it has no turning points on the way. Pull-off, jumps and the contacts of
+!> given loads are zeros along it. Equations (I..) are those of README.md in this directory.
 !>
-!> The curve is followed by P1, through its turning points. Equations (I..) are those of README.md in this directory.
+!> The 1-D wave and the round ball have closed forms. Waves on a lattice have exact solutions by expansions with a
+!> singular edge, one branch of separate spots and one of separate pools.
 module wavycon_adhesive_curve
-   use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_constants, only: pi
-   use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: converged, not_accurate, not_found
+   use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_fitted_solver, only: solve_adhesive
    use wavycon_free_edges, only: ball_radii, is_ball
-   use wavycon_gsl, only: gsl_sort_index
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: approach, area_slope, contact_area, gap_curvature, gap_slope, is_known, &
-      least_intensity, mean_gap, most_intensity, quantities, scaled
+   use wavycon_load_slopes, only: find_area_slopes
+   use wavycon_quantities, only: approach, elastic_energy, mean_gap, unknown
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: adhesive_point, adhesive_curve, follow_curve, add_load
+   public :: adhesive_curve, adhesive_point, add_load, follow_curve
 
-   !> Points of the curve; of a wave without its ends.
-   integer, parameter :: curve_points = 95
-   !> Of the parameter t, 0 < t < 1, from one point to the next.
-   real(dp), parameter :: t_step = 1.0_dp/(curve_points + 1)
+   !> What a point is. Under a given load a contact is stable where P rises with its area, at a given approach where the
+   !> approach does.
+   integer, parameter, public :: unstable_point = 0, stable_point = 1, approach_stable = 2, pull_off_point = 3, &
+      jump_to_spots = 4, jump_to_pools = 5, jump_to_full = 6, approach_pull_off = 7, approach_jump = 8, &
+      end_of_branch = 9, separated = 10, closed = 11, not_solved = 12
+   character(22), parameter, public :: point_names(0:12) = [character(22) :: 'unstable', 'stable', &
+      'stable_by_approach', 'pull_off', 'jump_to_spots', 'jump_to_pools', 'jump_to_full_contact', &
+      'pull_off_by_approach', 'jump_by_approach', 'end_of_branch', 'separated', 'full_contact', 'not_solved']
 
-   !> What a point is.
-   integer, parameter, public :: unstable_point = 0, stable_point = 1, pull_off_point = 2, jump_point = 3, &
-      separated = 4, closed = 5, not_reliable = 6
-   character(20), parameter, public :: point_names(0:6) = [character(20) :: 'unstable', 'stable', 'pull_off', &
-      'jump_to_full_contact', 'separated', 'full_contact', 'not_reliable']
-   !> Extremes of a wave this number of points from one whose energy release rate exceeds this part of w are artefacts:
-   !> there spots are about to merge, and the superposition fails.
-   integer, parameter :: near = 3
-   real(dp), parameter :: most_release = 1.5_dp
+   !> The numbers of a point that have zeros along the curve: P [p*], the approach [Delta], and their derivatives with
+   !> respect to the area fraction.
+   integer, parameter, public :: at_load = 1, at_approach = 2
+   integer, parameter :: load_slope = 3, approach_slope = 4
 
    type :: adhesive_point
-      logical :: exists = .false.             !! otherwise there is no solution at P1 with its derivatives
-      integer :: kind = unstable_point        !! stable: where P rises with P1
+      logical :: exists = .false.
+      integer :: kind = unstable_point
       integer :: number = 0                   !! of the load asked for, from 1
-      real(dp) :: p1 = 0.0_dp                 !! P1 [p*]
-      real(dp) :: load = 0.0_dp, load_error = 0.0_dp           !! P = P1 - T (I16), < 0 is a tension [p*]
-      real(dp) :: approach = 0.0_dp, approach_error = 0.0_dp   !! (I17) [Delta]
-      real(dp) :: area = 0.0_dp, area_error = 0.0_dp           !! the contact area fraction
-      !> Least and largest energy release rate along the edge over w: 1 where the superposition is exact.
-      real(dp) :: release_range(2) = 1.0_dp
-      real(dp) :: t = 0.0_dp                  !! the parameter of a wave's curve
+      logical :: pools = .false.              !! of the branch of separate pools
+      real(dp) :: area = 0.0_dp               !! the contact area fraction, by which the curve is followed
+      real(dp) :: area_error = 0.0_dp
+      real(dp) :: value(4) = unknown          !! P, approach and their slopes
+      real(dp) :: error(2) = unknown          !! of P and approach
+      real(dp) :: energy = unknown            !! elastic [p* Delta]: the mean of p u/2
+      real(dp) :: energy_error = unknown
+      integer :: status = converged           !! a name of wavycon_contact_status
+      type(fitted_answer), allocatable :: answer   !! of a lattice, from which other points start
    end type adhesive_point
 
    type :: adhesive_curve
-      type(adhesive_point), allocatable :: points(:)     !! by rising P1
-      type(adhesive_point), allocatable :: critical(:)   !! extremes of P: pull-off and jumps into full contact
-      type(adhesive_point), allocatable :: at_loads(:)   !! the stable and the unstable points of loads asked for
-      !> Of a wave, points that exist and extremes that are reliable, by rising P1: P is monotonic between them.
+      type(adhesive_point), allocatable :: points(:)     !! of spots by rising area, then of pools by falling area
+      type(adhesive_point), allocatable :: critical(:)   !! pull-off, jumps, and where a branch ends
+      type(adhesive_point), allocatable :: at_loads(:)   !! the contacts of the loads asked for
+      !> Points and extremes in their order along the branches: P and approach are monotonic between two of a branch.
       type(adhesive_point), allocatable, private :: knots(:)
-      real(dp), private :: least = 0.0_dp     !! P1 at the ends of a wave's curve, from 0 and from 1
+      type(surface_type), private :: surface
+      type(fitted_frame), private :: frame
       real(dp), private :: pull = 0.0_dp      !! F_c of a ball (I20) over p* A_0
       real(dp), private :: work = 0.0_dp      !! w' > 0 [p* Delta]
+      real(dp), private :: accuracy = 0.0_dp  !! largest error of P [p*] and approach [Delta]
    end type adhesive_curve
+
+   !> Points of a curve in closed form.
+   integer, parameter :: closed_form_points = 95
+   !> Largest step of a spot's or pool's radius over that of a circle as large as its cell, and over itself.
+   real(dp), parameter :: radius_step = 0.025_dp, radius_growth = 0.2_dp
+   !> A branch ends where the part of the way to the neighbours, extrapolated, would exceed this, or a step is too small.
+   real(dp), parameter :: largest_ratio = 0.97_dp, least_step = 0.1_dp
 
 contains
 
-   !> Follows the curve of a wave to P1 = 1, that of a ball to the largest load or, if that is light, beyond zero load.
-   subroutine follow_curve(solver, work, largest_load, curve)
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: work           !! w' > 0 [p* Delta]
-      real(dp), intent(in) :: largest_load   !! P of the loads that will be asked for [p*]
+   !> Follows the curve of a wave to full contact, that of a ball to the largest load or, if that is light, beyond zero
+   !> load.
+   subroutine follow_curve(surface, accuracy, work, largest_load, curve)
+      type(surface_type), intent(in) :: surface   !! a wave of one dimension, a round ball or one with a frame
+      real(dp), intent(in) :: accuracy            !! > 0, of P [p*] and approach [Delta]
+      real(dp), intent(in) :: work                !! w' > 0 [p* Delta]
+      real(dp), intent(in) :: largest_load        !! P of the loads that will be asked for [p*]
       type(adhesive_curve), intent(out) :: curve
 
-      type(adhesive_point) :: point
-      integer :: i
-      integer(c_size_t), allocatable :: places(:)
-
+      allocate (curve%points(0), curve%critical(0), curve%at_loads(0), curve%knots(0))
+      curve%surface = surface
       curve%work = work
-      allocate (curve%points(curve_points), curve%critical(0), curve%at_loads(0), curve%knots(0))
-      if (is_ball(solver%surface)) then
-         call follow_ball(curve, solver%surface, largest_load)
-         return
+      curve%accuracy = accuracy
+      if (is_ball(surface) .or. surface%dimension == 1) then
+         call follow_closed_form(curve, largest_load)
+      else
+         call find_frame(surface, curve%frame)
+         call follow_branch(curve, .false.)
+         call follow_branch(curve, .true.)
       end if
-      ! Pull-off lies at P1 = (3/(4 pi)) w' or above (I18).
-      curve%least = min(2e-3_dp*curve%work, 1e-4_dp)
-      do i = 1, curve_points
-         call solve_point(curve, solver, i*t_step, curve%points(i))
-      end do
-      do i = 2, curve_points
-         associate (before => curve%points(i - 1), here => curve%points(i), &
-                    after => curve%points(min(i + 1, curve_points)))
-            if (.not. (before%exists .and. here%exists .and. after%exists)) cycle
-            if (after%load > before%load) curve%points(i)%kind = stable_point
-            if (i == curve_points .or. (here%load - before%load)*(after%load - here%load) > 0.0_dp) cycle
-            point = here
-            point%kind = not_reliable
-            if (all(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) <= most_release)) &
-               call find_extreme(curve, solver, before, after, point)
-            curve%critical = [curve%critical, point]
-         end associate
-      end do
-      curve%knots = [pack(curve%points, curve%points%exists), pack(curve%critical, curve%critical%kind /= not_reliable)]
-      allocate (places(size(curve%knots)))
-      call gsl_sort_index(places, curve%knots%p1, 1_c_size_t, size(places, kind=c_size_t))
-      curve%knots = curve%knots(places + 1)
+      call name_jumps(curve)
    end subroutine follow_curve
 
-   !> By equal steps of ln P1.
-   subroutine follow_ball(curve, surface, largest_load)
+   !> By equal steps of ln P1, P1 the load of the same contact without adhesion; of a wave of ln(P1/(1 - P1)).
+   subroutine follow_closed_form(curve, largest_load)
       type(adhesive_curve), intent(inout) :: curve
-      type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: largest_load
 
+      !> P1 of the first point over that of pull-off, or over w' of a wave (I18).
       real(dp), parameter :: least_over_pull = 1e-3_dp
-      real(dp) :: ratio   ! the largest P1 over the least
+      real(dp) :: area, least, most, p1
       integer :: i
-
-      curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(ball_radii(surface))/surface%nominal_area()
-      ratio = (1.0_dp + sqrt(1.0_dp + max(largest_load/curve%pull, 4.0_dp)))**2/least_over_pull
-      do i = 1, curve_points
-         curve%points(i) = point_of_ball(curve%pull, surface, &
-            least_over_pull*curve%pull*ratio**(real(i - 1, dp)/(curve_points - 1)))
-      end do
-      curve%critical = [point_of_ball(curve%pull, surface, curve%pull)]
-      curve%critical%kind = pull_off_point
-   end subroutine follow_ball
-
-   !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off
-   !> and jump none of them is stable: the bodies are separated, or in full contact.
-   subroutine add_load(curve, solver, load, number)
-      type(adhesive_curve), intent(inout) :: curve
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: load    !! P [p*]
-      integer, intent(in) :: number   !! of the load
-
+      type(hertz_ball) :: contact
       type(adhesive_point) :: point
-      integer :: i, known
-      logical :: has_stable   ! whether P rises through the load, if only where that is not reliable
-      real(dp) :: root
 
-      known = size(curve%at_loads)
-      has_stable = .false.
-      do i = 1, size(curve%knots) - 1
-         associate (here => curve%knots(i), after => curve%knots(i + 1))
-            if ((here%load < load) .eqv. (after%load < load)) cycle
-            has_stable = has_stable .or. after%load > here%load
-            point = adhesive_point()
-            if (max(here%release_range(2), after%release_range(2)) <= most_release) &
-               call find_crossing(curve, solver, load, here, after, point)
-            point%kind = merge(stable_point, unstable_point, after%load > here%load)
-            if (.not. point%exists) then
-               point = here
-               point%kind = not_reliable
+      if (is_ball(curve%surface)) then
+         associate (surface => curve%surface)
+            curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(ball_radii(surface))/surface%nominal_area()
+         end associate
+         least = least_over_pull*curve%pull
+         most = curve%pull*(1.0_dp + sqrt(1.0_dp + max(largest_load/curve%pull, 4.0_dp)))**2
+      else
+         least = min(2*least_over_pull*curve%work, 1e-4_dp)
+         most = 1.0_dp/least - 1.0_dp
+      end if
+      do i = 1, closed_form_points
+         associate (t => real(i - 1, dp)/(closed_form_points - 1))
+            p1 = least*(most/least)**t
+            if (curve%surface%dimension == 1) then
+               p1 = p1/(1.0_dp + p1)
+               area = 2/pi*asin(sqrt(p1))
+            else
+               contact = hertz_of_ball(curve%surface, load=p1)
+               area = contact%contact_area()/curve%surface%nominal_area()
             end if
          end associate
-         curve%at_loads = [curve%at_loads, point]
+         call find_point(curve, .false., area, point)
+         call add_point(curve, point)
       end do
-      associate (pull => curve%pull, surface => solver%surface, critical => curve%critical)
-         if (is_ball(surface) .and. load >= -pull) then
-            ! sqrt(P1) = sqrt(F_c) +- sqrt(F_c + P), by (I20).
-            has_stable = .true.
-            root = sqrt(pull) + sqrt(pull + load)
-            if (load < 0.0_dp .and. load > -pull) &
-               curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, (load/root)**2)]
-            curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, root**2)]
-         end if
-         if (.not. has_stable) then
-            point = adhesive_point(exists=.true., kind=closed, p1=load, load=load, approach=1.0_dp, area=1.0_dp)
-            if (any(critical%kind == pull_off_point)) then
-               if (load <= minval(critical%load, critical%kind == pull_off_point)) &
-                  point = adhesive_point(exists=.true., kind=separated, p1=load, load=load)
+   end subroutine follow_closed_form
+
+   !> By steps of the radius, from one that is smaller than that of pull-off from spots (I22) or of the jump from pools
+   !> (I23) until spots or pools are about to touch.
+   subroutine follow_branch(curve, pools)
+      type(adhesive_curve), intent(inout) :: curve
+      logical, intent(in) :: pools
+
+      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp
+      real(dp) :: cell, full_step, open_cell, radius, ratio, step
+      type(adhesive_point) :: point
+      type(fitted_answer) :: start
+
+      associate (lattice => curve%frame%lattice, work => curve%work/curve%frame%pressure_unit)
+         open_cell = lattice%area/merge(lattice%troughs, 1, pools)
+         cell = sqrt(open_cell/pi)
+         associate (curvature => sqrt(product(lattice%curvatures(pools))))
+            if (pools) then
+               radius = (0.75_dp*sqrt(0.5_dp*work)/curvature)**0.4_dp
+            else
+               radius = (9*pi**2*work/(8*curvature**2))**(1.0_dp/3)
             end if
-            curve%at_loads = [curve%at_loads, point]
-         end if
+         end associate
+         radius = min(first_over_critical*radius, largest_first*cell)
       end associate
+      ratio = 0.0_dp
+      step = radius
+      full_step = radius
+      do
+         associate (part => pi*radius**2/open_cell)
+            call find_point(curve, pools, merge(1.0_dp - part, part, pools), point, start)
+         end associate
+         if (point%exists) then
+            call add_point(curve, point)
+            ! The ratio grows faster than the radius.
+            full_step = min(radius_step*cell, radius_growth*radius)
+            associate (growth => max(point%answer%merging_ratio - ratio, epsilon(ratio)))
+               step = min(full_step, step*(largest_ratio - point%answer%merging_ratio)/growth)
+            end associate
+            start = point%answer
+            ratio = start%merging_ratio
+         else
+            radius = radius - step
+            step = 0.5_dp*step
+         end if
+         if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
+         radius = radius + step
+      end do
+      if (ratio <= 0.0_dp) return
+      point = curve%points(size(curve%points))
+      point%kind = end_of_branch
+      curve%critical = [curve%critical, point]
+   end subroutine follow_branch
+
+   !> Adds a point at the end of its branch, and the extremes of load and approach between it and the one before.
+   subroutine add_point(curve, point)
+      type(adhesive_curve), intent(inout) :: curve
+      type(adhesive_point), intent(in) :: point
+
+      !> Of a minimum and of a maximum, for load and approach.
+      integer, parameter :: kinds(2, 2) = reshape([pull_off_point, jump_to_full, approach_pull_off, approach_jump], [2, 2])
+      integer :: n, which
+      type(adhesive_point) :: before, extreme(2)
+
+      n = size(curve%points)
+      if (n > 0) before = curve%points(n)
+      if (before%exists .and. (before%pools .eqv. point%pools)) then
+         do which = 1, 2
+            associate (slope => [before%value(2 + which), point%value(2 + which)])
+               if (slope(1)*slope(2) >= 0.0_dp) cycle
+               call find_zero(curve, 2 + which, 0.0_dp, before, point, extreme(which))
+               ! A maximum has the rise at the smaller area.
+               extreme(which)%kind = kinds(merge(2, 1, (slope(1) > 0.0_dp) .neqv. point%pools), which)
+            end associate
+         end do
+         if (all(extreme%exists)) then
+            if (extreme(1)%area > extreme(2)%area .neqv. point%pools) extreme = extreme([2, 1])
+         end if
+         curve%critical = [curve%critical, pack(extreme, extreme%exists)]
+         curve%knots = [curve%knots, pack(extreme, extreme%exists)]
+      end if
+      curve%points = [curve%points, point]
+      curve%knots = [curve%knots, point]
+   end subroutine add_point
+
+   !> Names the extremes of the load by the stable contact that the bodies jump to under this load: at a maximum the one
+   !> with the next larger area, at a minimum with the next smaller one.
+   subroutine name_jumps(curve)
+      type(adhesive_curve), intent(inout) :: curve
+
+      integer :: i, k
+
+      do i = 1, size(curve%critical)
+         associate (point => curve%critical(i))
+            if (all(point%kind /= [pull_off_point, jump_to_full])) cycle
+            do k = 1, size(curve%knots) - 1
+               associate (here => curve%knots(k), after => curve%knots(k + 1))
+                  if (.not. is_between(here, after, at_load, point%value(at_load)) .or. &
+                      .not. (after%value(at_load) > here%value(at_load) .neqv. after%area < here%area)) cycle
+                  ! The knots next to an extreme meet its load at the extreme itself.
+                  if (min(abs(here%area - point%area), abs(after%area - point%area)) <= 0.0_dp) cycle
+                  if (here%area > point%area .neqv. point%kind == pull_off_point) &
+                     point%kind = merge(jump_to_pools, jump_to_spots, here%pools)
+               end associate
+               if (all(point%kind /= [pull_off_point, jump_to_full])) exit
+            end do
+         end associate
+      end do
+   end subroutine name_jumps
+
+   !> Whether two knots are of one branch and a value lies between theirs.
+   pure logical function is_between(here, after, which, target)
+      type(adhesive_point), intent(in) :: here, after
+      integer, intent(in) :: which
+      real(dp), intent(in) :: target
+
+      is_between = (here%pools .eqv. after%pools) .and. &
+                   ((here%value(which) < target) .neqv. (after%value(which) < target))
+   end function is_between
+
+   !> Adds the contacts of a load, an approach or an area: spots by rising area, then pools by falling area. If none of
+   !> them is stable, the bodies are separated or in full contact.
+   subroutine add_load(curve, which, target, number)
+      type(adhesive_curve), intent(inout) :: curve
+      integer, intent(in) :: which     !! at_load, at_approach, or 0 for the contact area fraction
+      real(dp), intent(in) :: target   !! P [p*], approach [Delta] or area fraction
+      integer, intent(in) :: number    !! of the load
+
+      integer :: i, known
+      logical :: has_stable
+      type(adhesive_point) :: point
+
+      known = size(curve%at_loads)
+      do i = 1, size(curve%knots) - 1
+         associate (here => curve%knots(i), after => curve%knots(i + 1))
+            if (which > 0) then
+               if (.not. is_between(here, after, which, target)) cycle
+               call find_zero(curve, which, target, here, after, point)
+            else
+               if ((here%pools .neqv. after%pools) .or. ((here%area < target) .eqv. (after%area < target))) cycle
+               call find_point(curve, here%pools, target, point, here%answer)
+            end if
+         end associate
+         if (point%exists) curve%at_loads = [curve%at_loads, point]
+      end do
+      has_stable = any(curve%at_loads(known + 1:)%kind == stable_point .or. &
+                       (which /= at_load .and. curve%at_loads(known + 1:)%kind == approach_stable))
+      if (.not. has_stable) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
 
-   !> The point of a round ball at P1 = T^2/(4 F_c), to rounding: (I20), and (I17) with Hertz's contact (I19).
-   type(adhesive_point) function point_of_ball(pull, surface, p1) result(point)
-      real(dp), intent(in) :: pull                !! F_c [p* A_0]
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: p1
+   !> What the bodies are where no partial contact is stable.
+   pure type(adhesive_point) function beyond_extremes(curve, which, target) result(point)
+      type(adhesive_curve), intent(in) :: curve
+      integer, intent(in) :: which
+      real(dp), intent(in) :: target
 
+      real(dp), allocatable :: stable(:)   ! the values of stable contacts
+
+      point%kind = not_solved
+      point%status = not_found
+      if (which == 0) return
+      stable = pack(curve%knots%value(which), curve%knots%value(2 + which) >= 0.0_dp)
+      if (size(stable) > 0) then
+         if (target < minval(stable)) point = adhesive_point(exists=.true., kind=separated)
+      end if
+      if (point%kind == not_solved .and. .not. is_ball(curve%surface)) then
+         if (target > maxval([stable, merge(1.0_dp, -huge(1.0_dp), which == at_approach)])) &
+            point = adhesive_point(exists=.true., kind=closed, area=1.0_dp)
+      end if
+      if (.not. point%exists) return
+      point%value(which) = target
+      point%error = 0.0_dp
+      if (which == at_load .and. point%kind == closed) point%value(at_approach) = 1.0_dp
+      if (which == at_approach .and. point%kind == separated) point%value(at_load) = 0.0_dp
+   end function beyond_extremes
+
+   !> The point of a branch at a contact area fraction.
+   subroutine find_point(curve, pools, area, point, start)
+      type(adhesive_curve), intent(in) :: curve
+      logical, intent(in) :: pools
+      real(dp), intent(in) :: area                          !! 0 < area < 1
+      type(adhesive_point), intent(out) :: point
+      type(fitted_answer), intent(in), optional :: start    !! of another area of the branch
+
+      point%pools = pools
+      point%area = area
+      if (is_ball(curve%surface)) then
+         call find_point_of_ball(curve, point)
+      else if (curve%surface%dimension == 1) then
+         call find_point_of_line_wave(curve, point)
+      else
+         call find_point_of_lattice(curve, point, start)
+      end if
+      if (.not. point%exists) return
+      if (point%value(approach_slope) > 0.0_dp) point%kind = approach_stable
+      if (point%value(load_slope) > 0.0_dp) point%kind = stable_point
+      if (.not. maxval(point%error) <= curve%accuracy) point%status = not_accurate
+   end subroutine find_point
+
+   !> By (I19), (I20), (I24): the load P1 of Hertz's contact of the same area less the tension T = 2 sqrt(F_c P1).
+   subroutine find_point_of_ball(curve, point)
+      type(adhesive_curve), intent(in) :: curve
+      type(adhesive_point), intent(inout) :: point
+
+      real(dp) :: delta, p1, tension
       type(hertz_ball) :: contact
 
-      ! Over p* and Delta the modulus does not matter.
-      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
-                              force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
-      point = adhesive_point(exists=.true., kind=merge(stable_point, unstable_point, p1 >= pull), p1=p1, &
-                             load=p1 - 2*sqrt(pull*p1), area=contact%contact_area()/surface%nominal_area(), &
-                             approach=contact%approach/surface%amplitude)
-      if (p1 > 0.0_dp) point%approach = point%approach*(1.0_dp - 4*sqrt(pull/p1)/3)
-   end function point_of_ball
+      associate (surface => curve%surface)
+         contact = hertz_contact(ball_radii(surface), 1.0_dp, area=point%area*surface%nominal_area())
+         p1 = contact%force/(surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+         delta = contact%approach/surface%amplitude
+      end associate
+      tension = 2*sqrt(curve%pull*p1)
+      point%exists = .true.
+      ! P1 goes with the power 3/2 of the area, T with 3/4, Hertz's approach with 1.
+      point%value = [p1 - tension, delta*(1.0_dp - 2*tension/(3*p1)), (1.5_dp*p1 - 0.75_dp*tension)/point%area, &
+                     delta*(1.0_dp - tension/(6*p1))/point%area]
+      point%error = 0.0_dp
+      point%energy = delta*(0.4_dp*p1 - 2*tension*(p1 - 0.5_dp*tension)/(3*p1))
+      point%energy_error = 0.0_dp
+   end subroutine find_point_of_ball
 
-   !> The point of a parameter t of a wave's curve, 0 < t < 1, which goes in equal steps of ln(P1/(1 - P1)): (I15) to
-   !> (I17).
-   subroutine solve_point(curve, solver, t, point)
+   !> By (I21), (I24): Johnson (1995). P1 = sin^2 psi is the load of the same strip without adhesion, psi = pi area/2.
+   subroutine find_point_of_line_wave(curve, point)
       type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: t
-      type(adhesive_point), intent(out) :: point
+      type(adhesive_point), intent(inout) :: point
 
-      type(contact_solution) :: solution
-      type(quantities) :: slopes
-      real(dp) :: p1, tension, tension_error
+      real(dp) :: p1, slope, tension
 
-      p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
-      call solver%solve(p1, solution)
-      if (solution%is_good()) call solution%derivatives(solver%surface, slopes)
-      point%t = t
-      point%p1 = p1
-      point%exists = is_known(slopes%value(area_slope)) .and. is_known(slopes%value(gap_curvature)) &
-         .and. min(slopes%value(area_slope), slopes%value(gap_curvature)) > 0.0_dp
-      if (.not. point%exists) return
-      tension = sqrt(2*curve%work*slopes%value(area_slope)/slopes%value(gap_curvature))
-      tension_error = scaled(slopes%error(area_slope), 0.5_dp*tension/slopes%value(area_slope)) &
-                      + scaled(slopes%error(gap_curvature), 0.5_dp*tension/slopes%value(gap_curvature))
-      point%load = p1 - tension
-      point%load_error = tension_error
-      point%approach = solution%value(approach) + slopes%value(gap_slope)*tension
-      point%approach_error = solution%error(mean_gap) + scaled(slopes%error(gap_slope), tension) &
-                             + scaled(tension_error, -slopes%value(gap_slope))
-      point%area = solution%value(contact_area)
-      point%area_error = solution%error(contact_area)
-      point%release_range = slopes%value([least_intensity, most_intensity])
-   end subroutine solve_point
+      associate (s => sin(0.5_dp*pi*point%area), c => cos(0.5_dp*pi*point%area))
+         p1 = s**2
+         tension = sqrt(2*curve%work*s/(pi*c))
+         slope = 2*s*c - tension/(2*s*c)
+         point%exists = .true.
+         point%value(:2) = [p1 - tension, p1 - (p1 - tension)*log(p1)]
+         point%value(3:) = 0.5_dp*pi*[slope, 2*s*c - slope*log(p1) - 2*(p1 - tension)*c/s]
+         point%energy = 0.25_dp*p1**2 + log(p1)*(tension*(p1 - 0.5_dp*tension) - 0.5_dp*p1**2)
+      end associate
+      point%error = 0.0_dp
+      point%energy_error = 0.0_dp
+   end subroutine find_point_of_line_wave
 
-   !> An extreme of P between two points, by parabolas through three points that come closer. It is not reliable
-   !> unless it lies between them and its P beyond theirs.
-   subroutine find_extreme(curve, solver, first, last, point)
+   !> By expansions with a singular edge: src/core/fitted/README.md, section 17.
+   subroutine find_point_of_lattice(curve, point, start)
       type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(inout) :: solver
-      type(adhesive_point), intent(in) :: first, last
-      type(adhesive_point), intent(inout) :: point   !! between them, its P beyond theirs; then the extreme
+      type(adhesive_point), intent(inout) :: point
+      type(fitted_answer), intent(in), optional :: start
 
-      integer, parameter :: steps = 5
-      real(dp), parameter :: narrowing = 0.2_dp
-      type(adhesive_point) :: after, before, here
-      real(dp) :: bend, sense, width
-      integer :: i
+      real(dp) :: cell, slopes(2)   ! cell: of one spot or pool; with the sign of d(contact area)
+      logical :: found
 
-      sense = sign(1.0_dp, 2*point%load - first%load - last%load)
-      before = first
-      here = point
-      after = last
-      width = t_step
-      do i = 1, steps
-         bend = before%load - 2*here%load + after%load
-         if (.not. sense*bend < 0.0_dp) exit
-         call solve_point(curve, solver, &
-                          here%t + width*min(max(0.5_dp*(before%load - after%load)/bend, -1.0_dp), 1.0_dp), here)
-         width = narrowing*width
-         call solve_point(curve, solver, here%t - width, before)
-         call solve_point(curve, solver, here%t + width, after)
-         if (.not. (before%exists .and. here%exists .and. after%exists)) return
-      end do
-      if (here%t <= first%t .or. here%t >= last%t .or. sense*(here%load - point%load) < 0.0_dp &
-          .or. here%release_range(2) > most_release) return
-      point = here
-      point%kind = merge(jump_point, pull_off_point, sense > 0.0_dp)
-   end subroutine find_extreme
+      allocate (point%answer)
+      associate (lattice => curve%frame%lattice, unit => curve%frame%pressure_unit, answer => point%answer)
+         cell = lattice%area
+         if (point%pools) cell = -lattice%area/lattice%troughs
+         call solve_adhesive(lattice, point%pools, curve%work/unit, merge(point%area - 1.0_dp, point%area, point%pools) &
+                             *cell, curve%accuracy/(1.0_dp + curve%surface%full_contact_peak), answer, start)
+         if (answer%status > fitted_less_exact) return
+         call find_area_slopes(lattice, answer, slopes, found)
+         if (.not. found) return
+         point%exists = .true.
+         point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*slopes]
+         point%error = [unit*answer%load_error, answer%error(mean_gap)]
+         point%energy = answer%value(elastic_energy)*unit/lattice%area
+         point%energy_error = answer%error(elastic_energy)*unit/lattice%area
+      end associate
+   end subroutine find_point_of_lattice
 
-   !> The point of a load between two knots of a wave's curve, by the secant method in a bracket (Illinois).
-   subroutine find_crossing(curve, solver, load, first, last, point)
+   !> The point between two of a branch at which one of the numbers has a value, by the secant method in a bracket
+   !> (Illinois) for the area. Without one it does not exist.
+   subroutine find_zero(curve, which, target, first, last, point)
       type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: load
+      integer, intent(in) :: which                 !! of point%value
+      real(dp), intent(in) :: target               !! between those of both points
       type(adhesive_point), intent(in) :: first, last
       type(adhesive_point), intent(out) :: point
 
-      integer, parameter :: most_steps = 30
-      real(dp), parameter :: rounding = 1e-13_dp
-      real(dp) :: miss(2), t(2), t_new
+      integer, parameter :: most_steps = 60
+      real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
+      real(dp) :: area(2), miss(2), next
       integer :: step
+      type(fitted_answer) :: start
 
-      t = [first%t, last%t]
-      miss = [first%load, last%load] - load
+      area = [first%area, last%area]
+      miss = [first%value(which), last%value(which)] - target
+      if (allocated(last%answer)) start = last%answer
       do step = 1, most_steps
-         t_new = t(2) - miss(2)*(t(2) - t(1))/(miss(2) - miss(1))
-         call solve_point(curve, solver, t_new, point)
-         if (.not. point%exists .or. abs(t_new - t(2)) <= rounding) return
-         if ((point%load - load)*miss(2) <= 0.0_dp) then
-            t(1) = t(2)
-            miss(1) = miss(2)
-         else
-            miss(1) = 0.5_dp*miss(1)
-         end if
-         t(2) = t_new
-         miss(2) = point%load - load
-         if (abs(miss(2)) <= rounding) return
+         next = area(2) - miss(2)*(area(2) - area(1))/(miss(2) - miss(1))
+         call find_point(curve, first%pools, next, point, start)
+         if (.not. point%exists) return
+         if (allocated(point%answer)) start = point%answer
+         associate (missed => point%value(which) - target)
+            if (missed*miss(2) <= 0.0_dp) then
+               area(1) = area(2)
+               miss(1) = miss(2)
+            else
+               miss(1) = 0.5_dp*miss(1)
+            end if
+            area(2) = next
+            miss(2) = missed
+         end associate
+         if (abs(miss(2)) <= tolerance(which, point) .or. abs(area(2) - area(1)) <= rounding*area(2)) exit
       end do
-   end subroutine find_crossing
+      ! What the value misses, and its error, as an area.
+      if (which <= 2) point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
+   end subroutine find_zero
+
+   !> How close to a value a search comes.
+   pure real(dp) function tolerance(which, point)
+      integer, intent(in) :: which
+      type(adhesive_point), intent(in) :: point
+
+      tolerance = epsilon(1.0_dp)*abs(point%value(min(which, 2)))
+      if (which <= 2) tolerance = max(tolerance, 0.1_dp*point%error(which))
+   end function tolerance
+
+   !> Hertz's contact of a ball under a load [p*]; over p* and Delta the modulus does not matter.
+   pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: load
+
+      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
+                              force=load*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+   end function hertz_of_ball
 
 end module wavycon_adhesive_curve

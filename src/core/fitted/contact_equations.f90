@@ -12,6 +12,7 @@
 !> it the strength that the work of adhesion asks for. The equations are more than the unknowns, which are the
 !> coefficients, a spot's approach or, with adhesion, a pool's load, and the shape.
 module wavycon_contact_equations
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
@@ -76,7 +77,8 @@ contains
          if (merging_ratio > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + min(20, degree)
          ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
          if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
-         call start_chord_rule(equations%chords, like%pool, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)
+         call start_chord_rule(equations%chords, like%pool, like%basis, ubound(b, 1), angles, &
+                               merge(degree + 1, degree/2 + extra_chord_points, like%pool .and. like%work > 0.0_dp))
          finer = merge(1, 0, merging_ratio > sharp_quadrature_ratio)
          ! Low degrees are not accurate enough to need many more.
          if (merging_ratio > near_images_ratio) finer = min(6, degree/4)
@@ -162,7 +164,11 @@ contains
       do i = 1, size(self%edge)
          row = size(self%target) + i
          call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
-         if (now%pool) then
+         if (.not. ratio > 0.0_dp) then
+            ! The map folds: there is no step.
+            self%residual(row) = ieee_value(ratio, ieee_quiet_nan)
+            return
+         else if (now%pool) then
             strength = 4*sqrt(now%work/ratio)
             log_slope = -0.5_dp*log_slope
          else

@@ -180,13 +180,10 @@ contains
       type(expansion) :: now
 
       real(dp), allocatable :: inside(:), values(:, :)
-      real(dp) :: curvature(2), mean, missing, radius, ratio   ! of the axes along y and x
+      real(dp) :: curvature(2), mean, missing, radius, ratio   ! ratio: of the axes along y and x
       type(disc_rule) :: rule
-      integer :: i
 
-      associate (wave_height => merge(-lattice%pressure*lattice%phase%re, lattice%amplitude, pool))
-         curvature = 4*pi**2*[(sum(lattice%wave(i, :)**2*wave_height), i=1, 2)]
-      end associate
+      curvature = lattice%curvatures(pool)
       mean = sqrt(product(curvature))
       missing = lattice%closing_pressure - load
       if (pool) then
