@@ -410,8 +410,8 @@ contains
       type(adhesive_point), intent(out) :: point
 
       integer, parameter :: most_steps = 60
-      real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-      real(dp) :: area(2), miss(2), next
+      real(dp), parameter :: of_extreme = 1e-8_dp, rounding = 4*epsilon(1.0_dp)   ! relative changes of the area
+      real(dp) :: area(2), before, miss(2), next
       integer :: step
       type(fitted_answer) :: start
 
@@ -419,7 +419,8 @@ contains
       miss = [first%value(which), last%value(which)] - target
       if (allocated(last%answer)) start = last%answer
       do step = 1, most_steps
-         next = area(2) - miss(2)*(area(2) - area(1))/(miss(2) - miss(1))
+         before = area(2)
+         next = before - miss(2)*(before - area(1))/(miss(2) - miss(1))
          call find_point(curve, first%pools, next, point, start)
          if (.not. point%exists) return
          if (allocated(point%answer)) start = point%answer
@@ -433,20 +434,18 @@ contains
             area(2) = next
             miss(2) = missed
          end associate
-         if (abs(miss(2)) <= tolerance(which, point) .or. abs(area(2) - area(1)) <= rounding*area(2)) exit
+         ! An extreme does not change with a small change of its area.
+         if (abs(next - before) <= merge(of_extreme, rounding, which > 2)*next) exit
+         if (which > 2) cycle
+         if (abs(miss(2)) <= max(0.1_dp*point%error(which), epsilon(1.0_dp)*abs(target))) exit
       end do
-      ! What the value misses, and its error, as an area.
-      if (which <= 2) point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
+      if (which > 2) then
+         point%area_error = merge(unknown, abs(next - before), allocated(point%answer))
+      else
+         ! What the value misses, and its error, as an area.
+         point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
+      end if
    end subroutine find_zero
-
-   !> How close to a value a search comes.
-   pure real(dp) function tolerance(which, point)
-      integer, intent(in) :: which
-      type(adhesive_point), intent(in) :: point
-
-      tolerance = epsilon(1.0_dp)*abs(point%value(min(which, 2)))
-      if (which <= 2) tolerance = max(tolerance, 0.1_dp*point%error(which))
-   end function tolerance
 
    !> Hertz's contact of a ball under a load [p*]; over p* and Delta the modulus does not matter.
    pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)

@@ -167,7 +167,7 @@ contains
                exit
             end if
          end if
-         if (degree >= last_degree .or. failed == most_failed_degrees) exit
+         if (degree >= last_degree .or. failed == merge(1, most_failed_degrees, now%work > 0.0_dp)) exit
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
       answer%iterations = answer%iterations + newton%iterations

@@ -112,8 +112,7 @@ contains
          now = scaled_to_area(start%solution, area)
          found = merging_ratio(lattice, now) < 1.0_dp
          degree = max(first_degree, nint(start%value(polynomial_degree)) - degree_step)
-         if (found) return
-         degree = first_degree
+         return
       end if
       at = min(area, small_area*lattice%area)
       now = asymptote(lattice, 0.0_dp, pool, work, at)
