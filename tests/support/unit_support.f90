@@ -1,5 +1,5 @@
-!> What tests of many subjects build again and again: files, maps and decks that are read, surfaces, integrals,
-!> numbers.
+!> What tests of many subjects build again and again: files, maps and decks that are read, surfaces, values and slopes
+!> of solutions, integrals, numbers.
 !>
 !> What must be possible before a test has a question ends the program, and so the test, if it fails.
 module unit_support
