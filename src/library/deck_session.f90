@@ -241,7 +241,7 @@ contains
          call solved%solution%move_to(results%loads(1))
          results%scene%mean_pressure = solved%mean_pressure
          if (name == 'stress_largest') then
-            if (allocated(results%von_mises)) deallocate (results%von_mises, results%shear)
+            if (allocated(results%largest_stresses)) deallocate (results%largest_stresses)
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)

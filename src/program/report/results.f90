@@ -33,8 +33,9 @@ module wavycon_results
       character(:), allocatable :: method                    !! the solver and its discretisation in words
       logical :: keeps_fields = .false.                      !! whether solutions have fields, edges and stresses
       type(contact_solution), allocatable :: loads(:)        !! in the deck's order; loads of other ranks: the measures
-      !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
-      type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
+      !> The largest von Mises stress and the largest shear stress, shape (2, bodies, loads); not allocated unless the
+      !> deck asks for them.
+      type(largest_stress), allocatable :: largest_stresses(:, :, :)
       !> Partial slip, shape (tangential loads, loads), and adhesion; not allocated unless the deck asks for them.
       type(partial_slip), allocatable :: slip(:, :)
       type(adhesive_curve), allocatable :: adhesion
@@ -106,13 +107,13 @@ contains
 
       status = self%loads(load)%status
       if (.not. is_good_status(status)) return
-      if (.not. (is_doubtful(self%von_mises(body, load)) .or. is_doubtful(self%shear(body, load)))) return
+      if (.not. any(is_doubtful(self%largest_stresses(:, body, load)))) return
       status = not_accurate
       if (all(self%traits%given_grid > 0)) status = unresolved
    end function stress_status
 
    !> Whether a largest stress is hardly known.
-   pure logical function is_doubtful(largest)
+   elemental logical function is_doubtful(largest)
       type(largest_stress), intent(in) :: largest
 
       is_doubtful = .false.
@@ -129,8 +130,8 @@ contains
       integer :: body
 
       is_solved = is_good_status(self%loads(load)%status)
-      if (allocated(self%von_mises)) is_solved = is_solved .and. &
-         all([(is_good_status(self%stress_status(load, body)), body=1, size(self%von_mises, 1))])
+      if (allocated(self%largest_stresses)) is_solved = is_solved .and. &
+         all([(is_good_status(self%stress_status(load, body)), body=1, size(self%largest_stresses, 2))])
       if (allocated(self%slip)) is_solved = is_solved .and. &
          all(self%slip(:, load)%slides .or. is_good_status(self%slip(:, load)%status))
    end function is_solved
