@@ -10,7 +10,7 @@ module wavycon_results
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_kind, column_list, column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_list, column_type, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
@@ -63,15 +63,17 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
 
+      type(column_type), allocatable :: list(:)
+
       if (associated(self%memory)) then
          file%memory => self%memory
       else
          call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
       end if
-      associate (names => column_list(columns))
-         call file%put_columns(column_name(names), self%unit_in_words(column_unit(names)), column_kind(names))
-      end associate
+      list = column_list(columns)
+      list%unit = self%unit_in_words(list%unit)
+      call file%put_columns(list)
    end subroutine open_table
 
    !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
