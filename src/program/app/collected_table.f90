@@ -7,7 +7,7 @@ module wavycon_collected_table
    use wavycon_file_bytes, only: read_file
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
-   use wavycon_memory_table, only: column_list, column_name, column_unit
+   use wavycon_memory_table, only: column_list
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, newline
    use wavycon_scene, only: scene_type
@@ -180,8 +180,8 @@ contains
       units = ''
       associate (summary => column_list(summary_columns()))
          do k = 1, size(summary)
-            names = names//' '//trim(column_name(summary(k)))
-            units = units//' ['//trim(column_unit(summary(k)))//']'
+            names = names//' '//trim(summary(k)%name)
+            units = units//' ['//trim(summary(k)%unit)//']'
          end do
       end associate
       if (size(solved) > 0) then

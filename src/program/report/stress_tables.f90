@@ -74,8 +74,8 @@ contains
          to_unit = [results%scene%p_star, results%scene%p_star, surface%length, surface%length(1)]
       end associate
       do body = 1, size(results%scene%stress_setting%body)
-         associate (setting => results%scene%stress_setting, yielding => results%von_mises(body, load), &
-                    shear => results%shear(body, load), status => results%stress_status(load, body))
+         associate (setting => results%scene%stress_setting, yielding => results%largest_stresses(1, body, load), &
+                    shear => results%largest_stresses(2, body, load), status => results%stress_status(load, body))
             ratio = not_a_number()
             if (allocated(setting%yield_stress)) &
                ratio = setting%over_yield_stress(body, [yielding%value, yielding%error], [shear%value, shear%error])
