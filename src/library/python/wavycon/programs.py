@@ -66,11 +66,11 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
         with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
             try:
                 frames = list(progress(pool.map(run, range(len(combinations))), len(combinations)))
-            except BaseException:
+            finally:
+                # After an interruption: those that have ended are left alone.
                 pool.shutdown(wait=False, cancel_futures=True)
                 for process in started:
                     process.terminate()
-                raise
     if not frames:
         raise ValueError("there are no values, so there is no run")
     return pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
