@@ -219,12 +219,11 @@ contains
       real(dp), allocatable, intent(out) :: depths(:)   !! [length]
 
       integer :: i, intervals, steps
-      logical :: by_list, has_range
+      logical :: by_list
       real(dp) :: side(2)
 
       side = surface%sides()
-      has_range = stress%depth_from%is_given .or. stress%depth_to%is_given .or. stress%depth_steps%is_given
-      by_list = of_planes .or. .not. has_range
+      by_list = of_planes .or. .not. stress%depth_from%in_effect
       if (by_list .and. stress%depths%is_given) then
          depths = stress%depths%numbers
       else if (by_list .and. stress%depths_over_cell_x%is_given) then

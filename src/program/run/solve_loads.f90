@@ -238,13 +238,11 @@ contains
          do i = 1, size(curve%critical)
             associate (point => curve%critical(i), surface => results%solver%surface)
                mean_pressure = results%scene%p_star*point%load
-               if (surface%has_free_edges) then
-                  words = ', force = '//short_number(mean_pressure*surface%nominal_area())//', area = '// &
-                          short_number(surface%nominal_area()*point%area)
-               else
-                  words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
-                          ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
-               end if
+               words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
+                       ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
+               if (surface%has_free_edges) words = ', force = '// &
+                  short_number(mean_pressure*surface%nominal_area())//', area = '// &
+                  short_number(surface%nominal_area()*point%area)
                call log%say('adhesion: '//trim(point_names(point%kind))//words)
             end associate
          end do
