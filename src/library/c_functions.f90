@@ -3,8 +3,7 @@
 module wavycon_c_functions
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_procpointer, c_funptr, c_int, c_ptr, &
       c_size_t
-   use wavycon_c_handles, only: begin_call, check_arguments, close_call, close_new, handle_type, lock, new_handle, &
-      not_a_handle, object_at, put_text, text_at
+   use wavycon_c_handles, only: c_call, handle_type, new_handle, not_a_handle, put_text, text_at
    use wavycon_deck_session, only: pick_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_reference, only: key_json
@@ -26,17 +25,17 @@ contains
       integer(c_int), value :: keep_fields, points_x, points_y
       real(c_double), intent(in), optional :: heights(points_x, points_y)
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: made
+      type(c_call) :: this
 
-      call lock()
-      made => new_handle('scene')
-      call check_arguments([present(deck), present(path)], trouble)
-      if (present(heights) .and. min(points_x, points_y) < 1 .and. .not. allocated(trouble)) &
-         call fatal_error(trouble, exit_bad_input, 'points_x and points_y must be 1 or more')
-      if (.not. allocated(trouble)) &
-         call made%scene%open(text_at(deck), text_at(path), keep_fields /= 0, trouble, heights)
-      handle = close_new(error, made, trouble)
+      if (this%begins(error, are_there=[present(deck), present(path)])) then
+         this%made => new_handle('scene')
+         if (present(heights) .and. min(points_x, points_y) < 1) then
+            call fatal_error(this%trouble, exit_bad_input, 'points_x and points_y must be 1 or more')
+         else
+            call this%made%scene%open(text_at(deck), text_at(path), keep_fields /= 0, this%trouble, heights)
+         end if
+      end if
+      handle = this%new_object()
    end function new_scene
 
    type(c_ptr) function read_scene(error, path, settings, keep_fields) result(handle) bind(c, name='wavycon_read_scene')
@@ -44,36 +43,32 @@ contains
       character(kind=c_char), intent(in), optional :: path(*), settings(*)
       integer(c_int), value :: keep_fields
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: made
+      type(c_call) :: this
 
-      call lock()
-      made => new_handle('scene')
-      call check_arguments([present(path), present(settings)], trouble)
-      if (.not. allocated(trouble)) &
-         call made%scene%open_file(text_at(path), text_at(settings), keep_fields /= 0, trouble)
-      handle = close_new(error, made, trouble)
+      if (this%begins(error, are_there=[present(path), present(settings)])) then
+         this%made => new_handle('scene')
+         call this%made%scene%open_file(text_at(path), text_at(settings), keep_fields /= 0, this%trouble)
+      end if
+      handle = this%new_object()
    end function read_scene
 
    integer(c_int) function set_progress(error, scene, callback, data) bind(c, name='wavycon_set_progress')
       type(c_ptr), value :: error, scene, data
       type(c_funptr), value :: callback
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(scene, 'scene', contents, trouble)
-      if (.not. allocated(trouble)) then
-         associate (progress => contents%progress, solver => contents%scene%results%solver)
+      if (this%begins(error, scene, 'scene')) then
+         associate (progress => this%contents%progress, solver => this%contents%scene%results%solver)
             nullify (progress%callback, solver%progress)
             progress%data = data
             if (c_associated(callback)) then
                call c_f_procpointer(callback, progress%callback)
-               solver%progress => contents%progress
+               solver%progress => this%contents%progress
             end if
          end associate
       end if
-      set_progress = close_call(error, trouble)
+      set_progress = this%code()
    end function set_progress
 
    type(c_ptr) function solve(error, scene, quantity, value) result(handle) bind(c, name='wavycon_solve')
@@ -82,29 +77,28 @@ contains
       real(c_double), value :: value
 
       character(:), allocatable :: key
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents, made
+      type(c_call) :: this
 
-      call begin_call(scene, 'scene', contents, trouble, [present(quantity)])
-      key = text_at(quantity)   ! in a variable: other threads come in meanwhile
-      made => new_handle('solution', contents)
-      if (.not. allocated(trouble)) call contents%scene%solve(key, value, made%solution, trouble)
-      handle = close_new(error, made, trouble)
+      if (this%begins(error, scene, 'scene', [present(quantity)])) then
+         key = text_at(quantity)   ! in a variable: other threads come in meanwhile
+         this%made => new_handle('solution', this%contents)
+         call this%contents%scene%solve(key, value, this%made%solution, this%trouble)
+      end if
+      handle = this%new_object()
    end function solve
 
    type(c_ptr) function solve_load(error, scene, load) result(handle) bind(c, name='wavycon_solve_load')
       type(c_ptr), value :: error, scene
       integer(c_int), value :: load
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents, made
+      type(c_call) :: this
 
-      call begin_call(scene, 'scene', contents, trouble)
-      made => new_handle('solution', contents)
-      ! C counts loads from 0.
-      if (.not. allocated(trouble)) &
-         call contents%scene%solve_load(int(min(load, huge(load) - 1)) + 1, made%solution, trouble)
-      handle = close_new(error, made, trouble)
+      if (this%begins(error, scene, 'scene')) then
+         this%made => new_handle('solution', this%contents)
+         ! C counts loads from 0.
+         call this%contents%scene%solve_load(int(min(load, huge(load) - 1)) + 1, this%made%solution, this%trouble)
+      end if
+      handle = this%new_object()
    end function solve_load
 
    integer(c_int) function get(error, object, name, value) bind(c, name='wavycon_get')
@@ -112,26 +106,24 @@ contains
       character(kind=c_char), intent(in), optional :: name(*)
       real(c_double), intent(inout), optional :: value
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call lock()
-      contents => object_at(object)
-      call check_arguments([present(name), present(value)], trouble)
-      if (.not. allocated(trouble)) then
-         select case (contents%kind)
+      if (this%begins(error, object, are_there=[present(name), present(value)])) then
+         select case (this%contents%kind)
          case ('scene')
-            call contents%scene%number(text_at(name), value, trouble)
+            call this%contents%scene%number(text_at(name), value, this%trouble)
          case ('solution')
-            call get_of_solution(contents, text_at(name), value, trouble)
+            call get_of_solution(this%contents, text_at(name), value, this%trouble)
          case ('table')
-            call pick_number([character(7) :: 'rows', 'columns'], &
-                             real([contents%table%rows, size(contents%table%names)], dp), text_at(name), value, trouble)
+            associate (table => this%contents%table)
+               call pick_number([character(7) :: 'rows', 'columns'], real([table%rows, size(table%columns)], dp), &
+                                text_at(name), value, this%trouble)
+            end associate
          case default
-            call fatal_error(trouble, exit_bad_input, not_a_handle//'scene')
+            call fatal_error(this%trouble, exit_bad_input, not_a_handle//'scene')
          end select
       end if
-      get = close_call(error, trouble)
+      get = this%code()
    end function get
 
    !> A number of a solution: a column of the summary, or of the grid that it was solved on (own_) or of the map (map_).
@@ -168,45 +160,40 @@ contains
 
       character(:), allocatable :: its_name, words
       integer(c_int) :: ignored
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call lock()
-      contents => object_at(object)
-      call check_arguments([present(name)], trouble)
-      if (.not. allocated(trouble)) then
+      if (this%begins(error, object, are_there=[present(name)])) then
          its_name = text_at(name)
-         select case (contents%kind)
+         select case (this%contents%kind)
          case ('scene')
-            call contents%scene%text(its_name, words, trouble)
+            call this%contents%scene%text(its_name, words, this%trouble)
          case ('solution')
-            call contents%owner%scene%text(its_name, words, trouble, contents%solution)
+            call this%contents%owner%scene%text(its_name, words, this%trouble, this%contents%solution)
          case ('table')
-            call contents%table%text(its_name, words)
+            call this%contents%table%text(its_name, words)
          case default
             if (its_name == 'version' .and. .not. c_associated(object)) words = version
             if (its_name == 'keys' .and. .not. c_associated(object)) words = key_json()
          end select
-         if (.not. (allocated(words) .or. allocated(trouble))) &
-            call fatal_error(trouble, exit_bad_input, not_a_handle//"scene, or there is no text '"//its_name//"'")
+         if (.not. (allocated(words) .or. allocated(this%trouble))) &
+            call fatal_error(this%trouble, exit_bad_input, not_a_handle//"scene, or there is no text '"//its_name//"'")
       end if
       needed = 0
-      if (.not. allocated(trouble)) needed = put_text(words, buffer, bytes)
-      ignored = close_call(error, trouble)
+      if (.not. allocated(this%trouble)) needed = put_text(words, buffer, bytes)
+      ignored = this%code()
    end function get_text
 
    type(c_ptr) function new_table(error, solution, name) result(handle) bind(c, name='wavycon_new_table')
       type(c_ptr), value :: error, solution
       character(kind=c_char), intent(in), optional :: name(*)
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents, made
+      type(c_call) :: this
 
-      call begin_call(solution, 'solution', contents, trouble, [present(name)])
-      made => new_handle('table')
-      if (.not. allocated(trouble)) &
-         call contents%owner%scene%make_table(text_at(name), contents%solution, made%table, trouble)
-      handle = close_new(error, made, trouble)
+      if (this%begins(error, solution, 'solution', [present(name)])) then
+         this%made => new_handle('table')
+         call this%contents%owner%scene%make_table(text_at(name), this%contents%solution, this%made%table, this%trouble)
+      end if
+      handle = this%new_object()
    end function new_table
 
    integer(c_int) function get_column(error, table, name, rows, values) bind(c, name='wavycon_get_column')
@@ -216,21 +203,19 @@ contains
       real(c_double), intent(inout), optional :: values(*)
 
       integer :: column
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(table, 'table', contents, trouble, [present(name), present(values)])
-      if (.not. allocated(trouble)) then
-         column = contents%table%find_column(text_at(name))
+      if (this%begins(error, table, 'table', [present(name), present(values)])) then
+         column = this%contents%table%find_column(text_at(name))
          if (column == 0) then
-            call fatal_error(trouble, exit_bad_input, "the table has no column '"//text_at(name)//"'")
-         else if (rows /= contents%table%rows) then
-            call fatal_error(trouble, exit_bad_input, 'rows is not the number of rows of the table')
+            call fatal_error(this%trouble, exit_bad_input, "the table has no column '"//text_at(name)//"'")
+         else if (rows /= this%contents%table%rows) then
+            call fatal_error(this%trouble, exit_bad_input, 'rows is not the number of rows of the table')
          else
-            values(:rows) = contents%table%values(column, :rows)
+            values(:rows) = this%contents%table%values(column, :rows)
          end if
       end if
-      get_column = close_call(error, trouble)
+      get_column = this%code()
    end function get_column
 
    integer(c_int) function get_fields(error, solution, points, x, y, pressure, gap, displacement) &
@@ -240,14 +225,12 @@ contains
       real(c_double), intent(in), optional :: x(*), y(*)
       real(c_double), intent(inout), optional :: pressure(*), gap(*), displacement(*)
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(solution, 'solution', contents, trouble, [present(x), present(y)])
-      if (.not. allocated(trouble)) &
-         call fields_at(contents%owner%scene, contents%solution, int(points), x, y, trouble, pressure, gap, &
-                        displacement)
-      get_fields = close_call(error, trouble)
+      if (this%begins(error, solution, 'solution', [present(x), present(y)])) &
+         call fields_at(this%contents%owner%scene, this%contents%solution, int(points), x, y, this%trouble, pressure, &
+                        gap, displacement)
+      get_fields = this%code()
    end function get_fields
 
    integer(c_int) function get_grid(error, solution, points_x, points_y, offset, pressure, gap, displacement) &
@@ -257,14 +240,12 @@ contains
       real(c_double), intent(in), optional :: offset(2)
       real(c_double), intent(inout), optional :: pressure(*), gap(*), displacement(*)
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(solution, 'solution', contents, trouble)
-      if (.not. allocated(trouble)) &
-         call fields_on_grid(contents%owner%scene, contents%solution, [points_x, points_y], offset, &
-                             trouble, pressure, gap, displacement)
-      get_grid = close_call(error, trouble)
+      if (this%begins(error, solution, 'solution')) &
+         call fields_on_grid(this%contents%owner%scene, this%contents%solution, [points_x, points_y], offset, &
+                             this%trouble, pressure, gap, displacement)
+      get_grid = this%code()
    end function get_grid
 
    integer(c_int) function get_stresses(error, solution, points, x, y, depth, nu, lateral, stress, stress_error) &
@@ -276,15 +257,13 @@ contains
       character(kind=c_char), intent(in), optional :: lateral(*)
       real(c_double), intent(inout), optional :: stress(6, *), stress_error(*)
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(solution, 'solution', contents, trouble, &
-                      [present(x), present(y), present(depth), present(lateral), present(stress)])
-      if (.not. allocated(trouble)) &
-         call stresses_at(contents%owner%scene, contents%solution, int(points), x, y, depth, nu, text_at(lateral), &
-                          stress, trouble, stress_error)
-      get_stresses = close_call(error, trouble)
+      if (this%begins(error, solution, 'solution', &
+                      [present(x), present(y), present(depth), present(lateral), present(stress)])) &
+         call stresses_at(this%contents%owner%scene, this%contents%solution, int(points), x, y, depth, nu, &
+                          text_at(lateral), stress, this%trouble, stress_error)
+      get_stresses = this%code()
    end function get_stresses
 
    integer(c_int) function get_stress_plane(error, solution, points_x, points_y, offset, depth, nu, lateral, stress, &
@@ -296,14 +275,12 @@ contains
       character(kind=c_char), intent(in), optional :: lateral(*)
       real(c_double), intent(inout), optional :: stress(*), stress_error(*)
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(solution, 'solution', contents, trouble, [present(lateral), present(stress)])
-      if (.not. allocated(trouble)) &
-         call stresses_on_plane(contents%owner%scene, contents%solution, [points_x, points_y], offset, &
-                                depth, nu, text_at(lateral), stress, trouble, stress_error)
-      get_stress_plane = close_call(error, trouble)
+      if (this%begins(error, solution, 'solution', [present(lateral), present(stress)])) &
+         call stresses_on_plane(this%contents%owner%scene, this%contents%solution, [points_x, points_y], offset, &
+                                depth, nu, text_at(lateral), stress, this%trouble, stress_error)
+      get_stress_plane = this%code()
    end function get_stress_plane
 
    integer(c_int) function get_invariants(error, points, stress, to_von_mises, to_shear, to_principal) &
@@ -313,20 +290,18 @@ contains
       real(c_double), intent(in), optional :: stress(6, *)
       real(c_double), intent(inout), optional :: to_von_mises(*), to_shear(*), to_principal(3, *)
 
-      type(error_type), allocatable :: trouble
+      type(c_call) :: this
       integer :: i
 
-      call lock()
-      call check_arguments([present(stress)], trouble)
-      if (.not. allocated(trouble)) call check_number(int(points), trouble)
-      if (.not. allocated(trouble)) then
+      if (this%begins(error, are_there=[present(stress)])) call check_number(int(points), this%trouble)
+      if (.not. allocated(this%trouble)) then
          do i = 1, points
             if (present(to_von_mises)) to_von_mises(i) = von_mises(stress(:, i))
             if (present(to_shear)) to_shear(i) = largest_shear(stress(:, i))
             if (present(to_principal)) to_principal(:, i) = principal_stresses(stress(:, i))
          end do
       end if
-      get_invariants = close_call(error, trouble)
+      get_invariants = this%code()
    end function get_invariants
 
    integer(c_int) function c_run_deck(error, path, directory, quiet, exit_status) bind(c, name='wavycon_run_deck')
@@ -335,12 +310,11 @@ contains
       integer(c_int), value :: quiet
       integer(c_int), intent(inout), optional :: exit_status
 
-      type(error_type), allocatable :: trouble
+      type(c_call) :: this
 
-      call lock()
-      call check_arguments([present(path), present(directory), present(exit_status)], trouble)
-      if (.not. allocated(trouble)) call run_deck(text_at(path), text_at(directory), quiet /= 0, exit_status, trouble)
-      c_run_deck = close_call(error, trouble)
+      if (this%begins(error, are_there=[present(path), present(directory), present(exit_status)])) &
+         call run_deck(text_at(path), text_at(directory), quiet /= 0, exit_status, this%trouble)
+      c_run_deck = this%code()
    end function c_run_deck
 
 end module wavycon_c_functions

@@ -1,8 +1,8 @@
 !> What all functions of the C interface need: handles, errors, texts, the lock. wavycon.h documents each function.
 !>
-!> A function is begin_call or lock, its work unless there is an error, and close_call or close_new. All handles point
-!> to one type, whose mark and kind are checked before use: a null handle, or one of another kind, is an error of the
-!> caller and not a crash. A pointer that is NULL in C is an absent optional argument.
+!> A function is `begins` of a c_call, its work if the arguments are right, and `code` or `new_object`. All handles
+!> point to one type, whose mark and kind are checked before use: a null handle, or one of another kind, is an error of
+!> the caller and not a crash. A pointer that is NULL in C is an absent optional argument.
 module wavycon_c_handles
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, &
       c_null_ptr, c_ptr, c_size_t
@@ -15,9 +15,7 @@ module wavycon_c_handles
    implicit none (type, external)
    private
 
-   public :: c_progress, handle_type, progress_callback
-   public :: begin_call, check_arguments, close_call, close_new, lock, new_handle, not_a_handle, object_at, &
-      put_text, text_at
+   public :: c_call, c_progress, handle_type, new_handle, not_a_handle, progress_callback, put_text, text_at
 
    !> Marks the objects of this library in memory.
    integer, parameter :: our_mark = 1935764579
@@ -55,11 +53,23 @@ module wavycon_c_handles
       type(handle_type), pointer :: owner => null()   !! of a solution: its scene
    end type handle_type
 
+   !> A call from C.
+   type :: c_call
+      type(handle_type), pointer :: contents => null()   !! of the handle of the object
+      type(handle_type), pointer :: made => null()       !! contents of the object that the call makes, if it does
+      type(error_type), allocatable :: trouble           !! not allocated: success
+      type(c_ptr), private :: error = c_null_ptr         !! handle of the caller's error object
+   contains
+      procedure :: begins
+      procedure :: code
+      procedure :: new_object
+   end type c_call
+
    !> The contents of a handle that is none.
    type(handle_type), target :: nothing
 
    interface
-      !> Begins a call without an object: waits until no other thread is in one.
+      !> Waits until no other thread is in a call.
       subroutine lock() bind(c, name='wavycon_lock')
       end subroutine lock
 
@@ -72,60 +82,63 @@ module wavycon_c_handles
 
 contains
 
-   !> Begins a call with an object. Errors: exit_bad_input if the handle is none, or that of another kind, or if another
-   !> pointer is null.
-   subroutine begin_call(handle, kind, contents, error, are_there)
-      type(c_ptr), intent(in) :: handle
-      character(*), intent(in) :: kind
-      type(handle_type), pointer, intent(out) :: contents
-      type(error_type), allocatable, intent(out) :: error
-      logical, intent(in), optional :: are_there(:)   !! as of check_arguments
+   !> Begins a call, and tells whether its arguments are right. Errors: exit_bad_input if the handle is none, or that of
+   !> another kind, or if another pointer is null.
+   logical function begins(self, error, object, kind, are_there)
+      class(c_call), intent(inout) :: self
+      type(c_ptr), intent(in) :: error                 !! may be null: then the code alone tells
+      type(c_ptr), intent(in), optional :: object
+      character(*), intent(in), optional :: kind       !! of the object; absent: any, or none
+      logical, intent(in), optional :: are_there(:)    !! for each other pointer whether it is not null
 
       call lock()
-      contents => object_at(handle)
-      if (contents%kind /= kind) call fatal_error(error, exit_bad_input, not_a_handle//kind)
-      if (present(are_there)) call check_arguments(are_there, error)
-   end subroutine begin_call
+      self%error = error
+      if (present(object)) self%contents => object_at(object)
+      if (present(kind)) then
+         if (self%contents%kind /= kind) call fatal_error(self%trouble, exit_bad_input, not_a_handle//kind)
+      end if
+      if (present(are_there) .and. .not. allocated(self%trouble)) then
+         if (.not. all(are_there)) call fatal_error(self%trouble, exit_bad_input, 'an argument is NULL')
+      end if
+      begins = .not. allocated(self%trouble)
+   end function begins
 
    !> Ends a call: stores its outcome in the caller's error object and returns its code, 0 for success. The error of a
    !> call that failed to make a handle is kept by the calls that then get NULL.
-   integer(c_int) function close_call(error_handle, error) result(code)
-      type(c_ptr), intent(in) :: error_handle                  !! may be null: then the code alone tells
-      type(error_type), allocatable, intent(in) :: error       !! not allocated: success
+   integer(c_int) function code(self)
+      class(c_call), intent(in) :: self
 
       logical :: is_consequence
       type(handle_type), pointer :: caller
 
       code = exit_fine
-      if (allocated(error)) code = int(error%status, c_int)
-      caller => object_at(error_handle)
+      if (allocated(self%trouble)) code = int(self%trouble%status, c_int)
+      caller => object_at(self%error)
       if (caller%kind == 'error') then
          is_consequence = code /= exit_fine .and. caller%error%status /= exit_fine
-         if (is_consequence) is_consequence = index(error%message, not_a_handle) == 1
+         if (is_consequence) is_consequence = index(self%trouble%message, not_a_handle) == 1
          if (.not. is_consequence) then
             caller%error = error_type(code, '')
-            if (allocated(error)) caller%error = error
+            if (allocated(self%trouble)) caller%error = self%trouble
          end if
       end if
       call unlock()
-   end function close_call
+   end function code
 
    !> Ends a call that makes an object: its handle or, in case of an error, null.
-   type(c_ptr) function close_new(error_handle, contents, error) result(handle)
-      type(c_ptr), intent(in) :: error_handle                     !! as of close_call
-      type(handle_type), pointer, intent(inout) :: contents       !! the object; deallocated in case of an error
-      type(error_type), allocatable, intent(in) :: error
+   type(c_ptr) function new_object(self) result(handle)
+      class(c_call), intent(inout) :: self   !! the object is deallocated in case of an error
 
       integer(c_int) :: ignored
 
       handle = c_null_ptr
-      if (allocated(error)) then
-         call release(contents)
-      else
-         handle = c_loc(contents)
+      if (.not. allocated(self%trouble)) then
+         handle = c_loc(self%made)
+      else if (associated(self%made)) then
+         call release(self%made)
       end if
-      ignored = close_call(error_handle, error)
-   end function close_new
+      ignored = self%code()
+   end function new_object
 
    !> A new object of a kind. Its owner, if it has one, lives as long as it.
    function new_handle(kind, owner) result(made)
@@ -150,14 +163,6 @@ contains
       if (c_associated(handle)) call c_f_pointer(handle, contents)
       if (contents%mark /= our_mark) contents => nothing
    end function object_at
-
-   !> Errors: exit_bad_input if a pointer is null.
-   subroutine check_arguments(are_there, error)
-      logical, intent(in) :: are_there(:)                     !! for each pointer whether it is not null
-      type(error_type), allocatable, intent(inout) :: error   !! nothing is checked if it is allocated
-
-      if (.not. (allocated(error) .or. all(are_there))) call fatal_error(error, exit_bad_input, 'an argument is NULL')
-   end subroutine check_arguments
 
    !> A text from C; empty if the pointer is null.
    pure function text_at(bytes) result(text)
@@ -211,12 +216,10 @@ contains
    integer(c_int) function get_code(handle) bind(c, name='wavycon_get_code')
       type(c_ptr), value :: handle
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(handle, 'error', contents, trouble)
       get_code = exit_bad_input
-      if (.not. allocated(trouble)) get_code = int(contents%error%status, c_int)
+      if (this%begins(c_null_ptr, handle, 'error')) get_code = int(this%contents%error%status, c_int)
       call unlock()
    end function get_code
 
@@ -225,12 +228,10 @@ contains
       character(kind=c_char), intent(inout), optional :: buffer(*)
       integer(c_size_t), value :: bytes
 
-      type(error_type), allocatable :: trouble
-      type(handle_type), pointer :: contents
+      type(c_call) :: this
 
-      call begin_call(handle, 'error', contents, trouble)
-      if (.not. allocated(trouble)) trouble = contents%error
-      get_message = put_text(trouble%message, buffer, bytes)
+      if (this%begins(c_null_ptr, handle, 'error')) this%trouble = this%contents%error
+      get_message = put_text(this%trouble%message, buffer, bytes)
       call unlock()
    end function get_message
 
@@ -270,15 +271,16 @@ contains
       integer(c_int), value :: number
 
       integer, parameter :: most_threads = 1024
-      type(error_type), allocatable :: trouble
+      type(c_call) :: this
 
-      call lock()
-      if (number < 1 .or. number > most_threads) then
-         call fatal_error(trouble, exit_bad_input, 'the number of threads must be from 1 to 1024')
-      else
-         call set_threads(int(number))
+      if (this%begins(error)) then
+         if (number < 1 .or. number > most_threads) then
+            call fatal_error(this%trouble, exit_bad_input, 'the number of threads must be from 1 to 1024')
+         else
+            call set_threads(int(number))
+         end if
       end if
-      c_set_threads = close_call(error, trouble)
+      c_set_threads = this%code()
    end function c_set_threads
 
 end module wavycon_c_handles

@@ -241,7 +241,7 @@ contains
          call solved%solution%move_to(results%loads(1))
          results%scene%mean_pressure = solved%mean_pressure
          if (name == 'stress_largest') then
-            if (allocated(results%von_mises)) deallocate (results%von_mises, results%shear)
+            if (allocated(results%largest_stresses)) deallocate (results%largest_stresses)
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
@@ -307,8 +307,8 @@ contains
       if (allocated(error)) return
       if (present(solved)) then
          associate (summary => solved%summary)
-            call pick_number(pack(summary%names, summary%kinds /= of_words), &
-                             pack(summary%values(:, 1), summary%kinds /= of_words), name, value, error)
+            call pick_number(pack(summary%columns%name, summary%columns%kind /= of_words), &
+                             pack(summary%values(:, 1), summary%columns%kind /= of_words), name, value, error)
          end associate
       else
          associate (surface => self%results%solver%surface, scale => self%scale)
@@ -360,8 +360,10 @@ contains
             end if
             words = log%notes
          else if (present(solved)) then
-            i = findloc(solved%summary%names == name .and. solved%summary%kinds == of_words, .true., dim=1)
-            if (i > 0) words = trim(solved%summary%words(nint(solved%summary%values(i, 1))))
+            associate (summary => solved%summary)
+               i = findloc(summary%columns%name == name .and. summary%columns%kind == of_words, .true., dim=1)
+               if (i > 0) words = trim(summary%words(nint(summary%values(i, 1))))
+            end associate
          else if (name == 'solver') then
             words = scene%method%solver%text
          else if (name == 'method') then

@@ -8,7 +8,7 @@ module wavycon_session_fields
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
-   use wavycon_elastic_body, only: elastic_body
+   use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: key_index
@@ -27,9 +27,6 @@ module wavycon_session_fields
 
    !> Numbers of double precision that a point takes: fields or stresses and the work space of transforms.
    integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28
-
-   !> Below a flat surface there is the stress of the mean pressure alone.
-   real(dp), parameter :: no_waves(6, 2) = 0.0_dp
 
 contains
 

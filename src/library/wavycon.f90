@@ -25,7 +25,7 @@ module wavycon
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
-   use wavycon_memory_table, only: memory_table, of_integers, of_reals, of_words
+   use wavycon_memory_table, only: column_type, memory_table, of_integers, of_reals, of_words
    use wavycon_quantities, only: approach, area_at_hardness, contact_area, contact_area_corrected, &
       contact_area_counted, elastic_energy, is_known, load_at_hardness, mean_gap, min_pressure, peak_pressure, &
       perimeter, quantities, quantity_list, saddle_gap, saddle_pressure, trough_gap, unknown

@@ -14,7 +14,6 @@ import re
 
 from program import ProgramTest, main
 from sample_tables import WORDS, blocks_of, make_tables, page_examples, run_page_decks
-from tables import Table
 from virtual_environment import go_on_with
 
 # pandas reads numbers fast, to within some units of the last of 16 digits.

@@ -253,6 +253,11 @@ def result_complaints(folder, names):
     return words
 
 
+def stripped(path):
+    """A table without its head, which may name paths and programs."""
+    return [line for line in path.read_text(errors="replace").splitlines() if not line.startswith("#")]
+
+
 def table_complaints(table, may_be_missing):
     """Entries of a table that are no numbers and should be."""
     return [f"{name} is {word}" for row in table.rows() for name, word in zip(table.columns, row)

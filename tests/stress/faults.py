@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from common import complaints_about, files_below, finish, result_complaints, run, start, write
+from common import complaints_about, files_below, finish, result_complaints, run, start, stripped, write
 
 NOBODY = 65534
 DECK = ("&surface kind = 'wave_2d' /\n&method solver = 'beale' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 19 /\n"
@@ -45,11 +45,6 @@ def whole(folder, reference):
         elif stripped(path) != stripped(good):
             words.append(f"{path.name} is not that of an undisturbed run")
     return words
-
-
-def stripped(path):
-    """A table without its head, which may name paths and programs."""
-    return [line for line in path.read_text(errors="replace").splitlines() if not line.startswith("#")]
 
 
 def leftovers(folder):

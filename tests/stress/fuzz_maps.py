@@ -11,7 +11,7 @@ import struct
 import sys
 
 from common import (SECONDS, as_bytes, check_all, complaints_about, files_below, memory_limits, result_complaints, run,
-                    write)
+                    stripped, write)
 from fuzz_decks import mutate_bytes, mutate_tokens
 
 MEGABYTE = 1000000
@@ -396,7 +396,7 @@ def fuzz_runs(settings, work, count=None):
             again = run([settings.program, "outputs/deck/deck.resolved.nml", "--output", "again"], work)
             if again.status != outcome.status:
                 complaints.append(f"the resolved deck ends with status {again.status}")
-            elif rows(work/"again"/"deck.summary.dat") != rows(work/"outputs"/"deck"/"deck.summary.dat"):
+            elif stripped(work/"again"/"deck.summary.dat") != stripped(work/"outputs"/"deck"/"deck.summary.dat"):
                 complaints.append("the resolved deck gives another summary")
         unsolved += outcome.status == 2
         refused += outcome.status in (1, 3)
@@ -404,10 +404,6 @@ def fuzz_runs(settings, work, count=None):
         part.count(name, complaints, files)
     part.worst = f"{refused} refused, {unsolved} with status 2, {slowest:.2f} s"
     return part
-
-
-def rows(path):
-    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
 
 
 def monsters(stream, size):

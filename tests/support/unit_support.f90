@@ -1,10 +1,10 @@
-!> What tests of many subjects build again and again: files, maps and decks that are read, surfaces, integrals,
-!> numbers.
+!> What tests of many subjects build again and again: files, maps and decks that are read, surfaces, values and slopes
+!> of solutions, integrals, numbers.
 !>
 !> What must be possible before a test has a question ends the program, and so the test, if it fails.
 module unit_support
    use, intrinsic :: iso_c_binding, only: c_int
-   use wavycon, only: dp, error_type, surface_type, wave_1d, wave_2d
+   use wavycon, only: contact_solution, contact_solver, dp, error_type, surface_type, wave_1d, wave_2d
    use wavycon_scene, only: scene_type
    use wavycon_deck_text, only: deck_text_type
    use wavycon_map_file, only: read_height_map
@@ -34,7 +34,7 @@ module unit_support
    end interface
 
    public :: deck_trouble, errors_of, good_deck, integral_of, lines, map_trouble, process_id, read_map, rms_slope_of, &
-      spread_number, unit_wave, values_of, write_file
+      slopes_at, spread_number, unit_wave, value_at, values_of, write_file
 
 contains
 
@@ -63,6 +63,29 @@ contains
 
       errors = measures%error(main_quantities)
    end function errors_of
+
+   !> A quantity of the solution of a load.
+   real(dp) function value_at(solver, p, quantity) result(value)
+      class(contact_solver), intent(inout) :: solver
+      real(dp), intent(in) :: p
+      integer, intent(in) :: quantity
+
+      type(contact_solution) :: solution
+
+      call solver%solve(p, solution)
+      value = solution%value(quantity)
+   end function value_at
+
+   !> How the quantities change with the load.
+   type(quantities) function slopes_at(solver, p) result(slopes)
+      class(contact_solver), intent(inout) :: solver
+      real(dp), intent(in) :: p
+
+      type(contact_solution) :: solution
+
+      call solver%solve(p, solution)
+      call solution%derivatives(solver%surface, slopes)
+   end function slopes_at
 
    !> Numbers spread evenly over 0 .. 1.
    elemental real(dp) function spread_number(i, j)

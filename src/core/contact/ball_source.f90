@@ -21,7 +21,7 @@ module wavycon_ball_source
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
    use wavycon_solution_record, only: by_closed_form
-   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_fields, only: start_place, stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -218,21 +218,21 @@ contains
       if (present(error)) error = error*self%unit
    end subroutine stress_at
 
-   subroutine start_places(self, body, places, widths, stresses)
+   subroutine start_places(self, body, places)
       class(ball_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: places(:, :)
-      real(dp), allocatable, intent(out) :: widths(:)
-      real(dp), allocatable, intent(out) :: stresses(:, :)
+      type(start_place), allocatable, intent(out) :: places(:)
 
       integer :: i
 
-      call self%own%start_places(body, places, widths, stresses)
-      do i = 1, size(places, 2)
-         places(:, i) = (places(:, i) - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])/self%scale + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
+      call self%own%start_places(body, places)
+      do i = 1, size(places)
+         associate (here => places(i)%place)
+            here = (here - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])/self%scale + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
+         end associate
+         places(i)%stress = places(i)%stress*self%unit
       end do
-      widths = widths/maxval(self%scale)
-      stresses = stresses*self%unit
+      places%width = places%width/maxval(self%scale)
    end subroutine start_places
 
    !> Of the powers of the force: 2/3 of approach and area.

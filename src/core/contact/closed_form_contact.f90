@@ -19,7 +19,7 @@ module wavycon_closed_form_contact
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
    use wavycon_solution_record, only: by_closed_form, no_solution
-   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_fields, only: start_place, stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -168,12 +168,10 @@ contains
    end subroutine stress_at
 
    !> Places across the contact, at depths from the surface to that of the longest wave.
-   subroutine start_places(self, body, places, widths, stresses)
+   subroutine start_places(self, body, places)
       class(closed_form_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: places(:, :)
-      real(dp), allocatable, intent(out) :: widths(:)
-      real(dp), allocatable, intent(out) :: stresses(:, :)
+      type(start_place), allocatable, intent(out) :: places(:)
 
       !> Places over the half width of the contact.
       real(dp), parameter :: across(*) = [0.0_dp, 0.3_dp, 0.6_dp, 0.9_dp, 1.0_dp, 1.1_dp], &
@@ -182,10 +180,9 @@ contains
       integer :: i, k
 
       half_width = pi*westergaard_contact_area_fraction(self%pbar_over_pstar)
-      places = half_width*reshape([((across(i), 0.0_dp, below(k), i=1, size(across)), k=1, size(below))], &
-                                  [3, size(across)*size(below)])
-      allocate (widths(size(places, 2)), source=0.5_dp*half_width)
-      call self%at_places(body, places, stresses)
+      places = [((start_place(half_width*[across(i), 0.0_dp, below(k)], 0.5_dp*half_width), i=1, size(across)), &
+                 k=1, size(below))]
+      call self%set_stresses(body, places)
    end subroutine start_places
 
    !> Of (20) and of A = 2 psi/pi, P = sin^2 psi (7). Both ends of a strip are alike.

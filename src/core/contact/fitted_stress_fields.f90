@@ -5,7 +5,7 @@ module wavycon_fitted_stress_fields
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_stress, only: fitted_stress
    use wavycon_kinds, only: dp
-   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_fields, only: start_place, stress_fields
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: depths_of_spot, depths_of_cell, edge_ratios
    implicit none (type, external)
@@ -57,16 +57,14 @@ contains
 
    !> Places below the spot or, above merging, below the crest and about the pool, on the lines of symmetry of the
    !> lattice.
-   subroutine start_places(self, body, places, widths, stresses)
+   subroutine start_places(self, body, places)
       class(fitted_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: places(:, :)
-      real(dp), allocatable, intent(out) :: widths(:)
-      real(dp), allocatable, intent(out) :: stresses(:, :)
+      type(start_place), allocatable, intent(out) :: places(:)
 
       complex(dp) :: centre
       complex(dp), allocatable :: at_surface(:), edge(:)
-      real(dp), allocatable :: below(:), size_at(:)
+      real(dp), allocatable :: below(:)
       real(dp) :: radius
       integer :: directions, i, k, n
 
@@ -87,17 +85,16 @@ contains
          below = radius*depths_of_spot
       end if
       n = size(at_surface)
-      allocate (places(3, n*size(below)), widths(n*size(below)), size_at(size(below)))
-      size_at = max(below, 0.25_dp*radius)
+      allocate (places(n*size(below)))
       do k = 1, size(below)
          do i = 1, n
-            associate (z => at_surface(i)*self%frame%side/self%frame%turn)
-               places(:, (k - 1)*n + i) = 2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
+            associate (z => at_surface(i)*self%frame%side/self%frame%turn, here => places((k - 1)*n + i))
+               here%place = 2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
+               here%width = 2*pi*max(below(k), 0.25_dp*radius)*self%frame%side/self%frame%length(1)
             end associate
-            widths((k - 1)*n + i) = 2*pi*size_at(k)*self%frame%side/self%frame%length(1)
          end do
       end do
-      call self%at_places(body, places, stresses)
+      call self%set_stresses(body, places)
    end subroutine start_places
 
 end module wavycon_fitted_stress_fields

@@ -7,7 +7,7 @@ module wavycon_roughness
    implicit none (type, external)
    private
 
-   public :: roughness_type, roughness_of, power_spectrum, line_spectrum, radial_spectrum
+   public :: roughness_type, roughness_of, spectrum_bin, line_spectrum, radial_spectrum
 
    type :: roughness_type
       real(dp) :: height = 0.0_dp      !! of the height over its mean, eq. (M22) [length]
@@ -17,15 +17,15 @@ module wavycon_roughness
       real(dp) :: frequency_moment = 0.0_dp
    end type roughness_type
 
-   !> A spectrum in bins of rising wave number; all arrays have one element a bin.
-   type :: power_spectrum
-      real(dp), allocatable :: wave_number(:)    !! mean of its waves [rad/length]
-      integer, allocatable :: waves(:)           !! how many there are, >= 1
+   !> A bin of a spectrum, which has them in the order of rising wave numbers.
+   type :: spectrum_bin
+      real(dp) :: wave_number    !! mean of its waves [rad/length]
+      integer :: waves           !! how many there are, >= 1
       !> Mean of the power spectral densities of its waves: [length^4] of a radial spectrum, [length^3] along a line.
-      real(dp), allocatable :: density(:)
+      real(dp) :: density
       !> Root mean squares of the waves up to this bin: height [length], slope, curvature [1/length].
-      real(dp), allocatable :: height(:), slope(:), curvature(:)
-   end type power_spectrum
+      real(dp) :: height, slope, curvature
+   end type spectrum_bin
 
    !> Most bins of a radial spectrum, more than those of the largest square map with its mirror images, 11584.
    integer, parameter :: most_bins = 12000
@@ -71,7 +71,7 @@ contains
       real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
       integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
-      type(power_spectrum) :: spectrum
+      type(spectrum_bin), allocatable :: spectrum(:)
 
       real(dp), allocatable :: bins(:, :)
       real(dp) :: highest, powers(0:series%last(1)), unit, width
@@ -110,7 +110,7 @@ contains
       real(dp), intent(in) :: length(2)            !! [length]
       integer, intent(in) :: points(2)
       integer, intent(in) :: direction             !! 1 or 2: along x or y
-      type(power_spectrum) :: spectrum
+      type(spectrum_bin), allocatable :: spectrum(:)
 
       real(dp) :: bins(5, 0:series%last(direction))
       real(dp) :: of_lines(0:series%last(direction)), powers(0:series%last(1))
@@ -146,25 +146,22 @@ contains
       real(dp), intent(in) :: amplitude        !! unit of the heights [length]
       real(dp), intent(in) :: unit             !! of the wave numbers, which are over 2 pi/unit [length]
       real(dp), intent(in) :: size_of_cell     !! area of the cell [length^2], of lines their length [length]
-      type(power_spectrum) :: spectrum
+      type(spectrum_bin), allocatable :: spectrum(:)
 
-      real(dp), allocatable :: kept(:, :), rms(:, :)   ! rms of the waves up to each bin
-      real(dp) :: up_to(3)
-      integer :: b
+      real(dp) :: rms(3), up_to(3)   ! of the waves up to a bin
+      integer :: b, n
 
-      kept = reshape(pack(bins, spread(bins(1, :) > 0.0_dp, 1, 5)), [5, count(bins(1, :) > 0.0_dp)])
-      allocate (rms(size(kept, 2), 3))
+      allocate (spectrum(count(bins(1, :) > 0.0_dp)))
       up_to = 0.0_dp
-      do b = 1, size(kept, 2)
-         up_to = up_to + kept(3:, b)
-         rms(b, :) = [1.0_dp, 2*pi/unit, (2*pi/unit)**2]*(amplitude*sqrt(up_to))
+      n = 0
+      do b = 1, size(bins, 2)
+         if (.not. bins(1, b) > 0.0_dp) cycle
+         n = n + 1
+         up_to = up_to + bins(3:, b)
+         rms = [1.0_dp, 2*pi/unit, (2*pi/unit)**2]*(amplitude*sqrt(up_to))
+         spectrum(n) = spectrum_bin(2*pi/unit*(bins(2, b)/bins(1, b)), nint(bins(1, b)), &
+                                    amplitude*size_of_cell*(amplitude*(bins(3, b)/bins(1, b))), rms(1), rms(2), rms(3))
       end do
-      allocate (spectrum%wave_number, source=2*pi/unit*(kept(2, :)/kept(1, :)))
-      allocate (spectrum%waves, source=nint(kept(1, :)))
-      allocate (spectrum%density, source=amplitude*size_of_cell*(amplitude*(kept(3, :)/kept(1, :))))
-      allocate (spectrum%height, source=rms(:, 1))
-      allocate (spectrum%slope, source=rms(:, 2))
-      allocate (spectrum%curvature, source=rms(:, 3))
    end function spectrum_of
 
    !> The mean square of all waves of wave numbers +-k and +-l in X and Y, for all k of the series, eq. (M21); 0 for the

@@ -10,6 +10,9 @@ module wavycon_elastic_body
    !> The lateral stresses of the mean pressure pbar: no lateral strain, -nu pbar/(1 - nu); none; -pbar.
    integer, parameter, public :: laterally_constrained = 1, laterally_free = 2, hydrostatic = 3
 
+   !> The parts where there is the mean pressure alone.
+   real(dp), parameter, public :: no_waves(6, 2) = 0.0_dp
+
    type :: elastic_body
       real(dp) :: nu = 0.3_dp                        !! Poisson's ratio, -1 < nu <= 1/2
       integer :: lateral = laterally_constrained     !! one of the names above

@@ -4,13 +4,13 @@
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
-   use wavycon_elastic_body, only: elastic_body
+   use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_load_tree, only: load_tree, plant_load_tree
    use wavycon_series_samples, only: sample_series
-   use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_fields, only: start_place, stress_fields
    use wavycon_stress_kernel, only: stress_parts
    use wavycon_stress_tensor, only: von_mises, zz
    use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
@@ -293,7 +293,6 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :)
       real(dp), allocatable, intent(out) :: error(:, :)
 
-      real(dp), parameter :: no_waves(6, 2) = 0.0_dp
       complex(dp), allocatable :: waves(:, :, :)
       real(dp), allocatable :: fields(:, :, :), smooth(:, :, :)
       real(dp) :: mean(6), step(2)
@@ -329,12 +328,10 @@ contains
    !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
    !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points. Where few windows have all large
    !> pressures the planes close to the surface are those of the windows.
-   subroutine start_places(self, body, places, widths, stresses)
+   subroutine start_places(self, body, places)
       class(series_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: places(:, :)
-      real(dp), allocatable, intent(out) :: widths(:)
-      real(dp), allocatable, intent(out) :: stresses(:, :)
+      type(start_place), allocatable, intent(out) :: places(:)
 
       integer, parameter :: window(2) = window_points
       real(dp), allocatable :: highest(:, :), pressure(:, :)
@@ -346,7 +343,7 @@ contains
 
       step = least_width(self)
       last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
-      allocate (places(3, 0), widths(0), stresses(6, 0))
+      allocate (places(0))
       largest = 0.0_dp
       all_waves = self%waves
       if (allocated(self%whole)) all_waves = self%whole
@@ -415,11 +412,8 @@ contains
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
                                      min(floor(to*number), number - 1), depth/part(1), body, place, stress)
                do k = 1, 2
-                  associate (here => [2*pi*(corner/real(points, dp) + part*place(:, k)/number), depth] + self%first)
-                     places = reshape([places, here], [3, ubound(places, 2) + 1])
-                  end associate
-                  widths = [widths, max(depth, step)]
-                  stresses = reshape([stresses, stress(:, k)], [6, ubound(stresses, 2) + 1])
+                  places = [places, start_place([2*pi*(corner/real(points, dp) + part*place(:, k)/number), depth] &
+                                                + self%first, max(depth, step), stress(:, k))]
                end do
                largest = max(largest, von_mises(stress(:, 1)))
             end do

@@ -12,7 +12,14 @@ module wavycon_stress_fields
    implicit none (type, external)
    private
 
-   public :: stress_fields
+   public :: start_place, stress_fields
+
+   !> A place from which the search for the largest stress starts.
+   type :: start_place
+      real(dp) :: place(3) = 0.0_dp     !! X, Y, Z [rad]
+      real(dp) :: width = 0.0_dp        !! distance over which the stress changes [rad]
+      real(dp) :: stress(6) = 0.0_dp    !! about that there, or its deviator [p*]
+   end type start_place
 
    !> Extensions have the stresses of a solution, by `at` and `start_places`. This type is for a load without one.
    type :: stress_fields
@@ -29,7 +36,7 @@ module wavycon_stress_fields
       procedure :: near
       procedure :: on_line
       procedure :: on_plane
-      procedure :: at_places
+      procedure :: set_stresses
    end type stress_fields
 
 contains
@@ -49,17 +56,14 @@ contains
       if (present(error)) error = ieee_value(error, ieee_quiet_nan)
    end subroutine at
 
-   !> Places from which the search for the largest stress starts, the best of them close to it, and about the stresses
-   !> there.
-   subroutine start_places(self, body, places, widths, stresses)
+   !> Places from which the search for the largest stress starts, the best of them close to it.
+   subroutine start_places(self, body, places)
       class(stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: places(:, :)   !! X, Y, Z, shape (3, n) [rad]
-      real(dp), allocatable, intent(out) :: widths(:)      !! distance over which the stress changes, shape (n) [rad]
-      real(dp), allocatable, intent(out) :: stresses(:, :) !! or their deviators, shape (6, n) [p*]
+      type(start_place), allocatable, intent(out) :: places(:)
 
-      allocate (places(3, 0), widths(0))
-      call self%at_places(body, places, stresses)
+      associate (unused => self, unused_too => body); end associate
+      allocate (places(0))
    end subroutine start_places
 
    !> Prepares `near` for places about a place. Here nothing needs it.
@@ -83,22 +87,22 @@ contains
       call self%at(place(1), place(2), place(3), parts)
    end subroutine near
 
-   !> The stresses of a body at places, with those of the mean pressure.
-   subroutine at_places(self, body, places, stresses)
+   !> Sets the stresses of a body at places, with those of the mean pressure.
+   subroutine set_stresses(self, body, places)
       class(stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      real(dp), intent(in) :: places(:, :)                    !! X, Y, Z, shape (3, n) [rad]
-      real(dp), allocatable, intent(out) :: stresses(:, :)    !! xx, yy, zz, xy, xz, yz [p*], shape (6, n)
+      type(start_place), intent(inout) :: places(:)
 
       real(dp) :: parts(6, 2)
       integer :: i
 
-      allocate (stresses(6, size(places, 2)))
-      do i = 1, size(places, 2)
-         call self%at(places(1, i), places(2, i), places(3, i), parts)
-         stresses(:, i) = body%stress(parts, self%pbar_over_pstar)
+      do i = 1, size(places)
+         associate (here => places(i)%place)
+            call self%at(here(1), here(2), here(3), parts)
+         end associate
+         places(i)%stress = body%stress(parts, self%pbar_over_pstar)
       end do
-   end subroutine at_places
+   end subroutine set_stresses
 
    !> Along a line at one depth, at X = X_0 + d_x t, Y = Y_0 + d_y t.
    subroutine on_line(self, start, direction, t, depth, parts, error)

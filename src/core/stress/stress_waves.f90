@@ -3,7 +3,7 @@
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt3
-   use wavycon_elastic_body, only: elastic_body
+   use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
@@ -208,7 +208,7 @@ contains
       number = merge(2, 5, self%pressure%is_even())
       allocate (spectra(0:points(1)/2, 0:points(2) - 1, number))
       call self%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
-      mean = body%stress(reshape([(0.0_dp, i=1, 12)], [6, 2]), pbar_over_pstar)
+      mean = body%stress(no_waves, pbar_over_pstar)
       spectra(0, 0, 2) = spectra(0, 0, 2) + mean(xx) - mean(zz)
       call plane%start(points, even=.false., whole=.true.)
       do i = 1, number

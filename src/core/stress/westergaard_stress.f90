@@ -13,13 +13,11 @@
 !> In full contact F = P + exp(i X - Z). Stresses are in p* = pi E* Delta/lambda, positive in tension.
 module wavycon_westergaard_stress
    use wavycon_kinds, only: dp
+   use wavycon_stress_tensor, only: xx, xz, yy, zz
    implicit none (type, external)
    private
 
    public :: westergaard_stress
-
-   !> Places of the components that are not zero.
-   integer, parameter :: xx = 1, yy = 2, zz = 3, xz = 5
 
 contains
 

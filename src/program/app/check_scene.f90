@@ -8,7 +8,7 @@ module wavycon_check_scene
    use wavycon_kinds, only: dp
    use wavycon_methods, only: why_chosen
    use wavycon_notes, only: show_scene
-   use wavycon_plain_text, only: escaped, integer_text, listed
+   use wavycon_plain_text, only: clauses, escaped, integer_text, listed
    use wavycon_results, only: results_type
    use wavycon_run_log, only: duration, run_log
    use wavycon_run_scene, only: start_results
@@ -36,10 +36,10 @@ contains
       call start_results(scene, results, tables)
       call show_scene(results, log)
       reason = why_chosen(results%traits)
-      if (.not. results%scene%method%solver%is_given) then
-         if (reason /= '') reason = '; '//reason
-         reason = "'"//results%scene%method%solver%text//"' is the default"//reason
-      end if
+      ! The default is 'auto', which has a reason.
+      associate (solver => results%scene%method%solver)
+         if (.not. solver%is_given) reason = clauses("'"//solver%text//"' is the default", reason)
+      end associate
       if (reason /= '') call log%say('because: '//reason)
       if (all(results%traits%finest_grid > 0)) then
          call log%say('memory: '//memory(results))

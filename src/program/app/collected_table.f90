@@ -7,7 +7,7 @@ module wavycon_collected_table
    use wavycon_file_bytes, only: read_file
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
-   use wavycon_memory_table, only: column_list, column_name, column_unit
+   use wavycon_memory_table, only: column_list
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, newline
    use wavycon_scene, only: scene_type
@@ -58,8 +58,9 @@ contains
       class(collected_deck), intent(in) :: decks(:)   !! those that are run have a stem
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: full, kind, trouble
-      integer :: d, number
+      character(:), allocatable :: full, trouble
+      character(16), allocatable :: kinds(:)
+      integer :: d, k, number
       type(table_type), allocatable :: tables(:)
 
       call make_directories(directory_of(path), trouble)
@@ -73,41 +74,37 @@ contains
          trouble = 'this is a directory'
       full = full_path(path)
       call all_tables(tables)
+      kinds = [character(len(kinds)) :: tables%file, 'resolved', 'checkpoint']
       do d = 1, size(decks)
          if (.not. allocated(decks(d)%stem)) cycle
-         if (index(full, decks(d)%stem//'.') /= 1) cycle
-         kind = full(len(decks(d)%stem) + 2:)
-         kind = kind(:index(kind//'.', '.') - 1)
-         if (any(kind == [character(len(tables%file)) :: tables%file, 'resolved', 'checkpoint'])) &
+         if (any([(index(full//'.', decks(d)%stem//'.'//trim(kinds(k))//'.') == 1, k=1, size(kinds))])) &
             trouble = 'this is a result of '//escaped(decks(d)%path)
       end do
       if (allocated(trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(path)//': the table cannot be written: '//trouble)
    end subroutine check_table_file
 
-   !> Lists the keys of &material, &surface, &load, &stress and &method, the same for all decks. Lists of loads have no
-   !> effect here: a table has a row for each.
+   !> Lists all keys, the same for all decks. Here those of &scene, &interface and &output and lists of loads have no
+   !> effect: a table has a row for each load.
    subroutine list_keys(scene, keys)
       type(scene_type), intent(in), target :: scene
       type(deck_key), allocatable, intent(out) :: keys(:)
 
-      logical :: is_listed(number_of_groups)
       integer :: i, k, number
       type(key_list) :: lists(number_of_groups)
 
       call list_deck_keys(scene, lists)
-      is_listed = [(all(lists(i)%name /= ['scene    ', 'interface', 'output   ']), i=1, size(lists))]
-      allocate (keys(sum([(size(lists(i)%rows), i=1, size(lists))], is_listed)))
+      allocate (keys(sum([(size(lists(i)%rows), i=1, size(lists))])))
       number = 0
       do i = 1, size(lists)
-         if (.not. is_listed(i)) cycle
          do k = 1, size(lists(i)%rows)
             number = number + 1
             associate (key => lists(i)%rows(k), value => lists(i)%keys(k)%value, listed => keys(number))
                listed%name = trim(lists(i)%name)//'_'//key%name
                listed%given = value%is_given
-               listed%in_effect = value%in_effect .and. .not. (lists(i)%name == 'load' .and. key%most_values > 1) &
-                                  .and. (lists(i)%name /= 'stress' .or. lists(i)%group%place > 0)
+               listed%in_effect = value%in_effect .and. all(lists(i)%name /= ['scene    ', 'interface', 'output   ']) &
+                                  .and. .not. (lists(i)%name == 'load' .and. key%most_values > 1) .and. &
+                                  (lists(i)%name /= 'stress' .or. lists(i)%group%place > 0)
                listed%word = '-'
                if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
                if (listed%in_effect) listed%word = word_of(lists(i), k)
@@ -180,8 +177,8 @@ contains
       units = ''
       associate (summary => column_list(summary_columns()))
          do k = 1, size(summary)
-            names = names//' '//trim(column_name(summary(k)))
-            units = units//' ['//trim(column_unit(summary(k)))//']'
+            names = names//' '//trim(summary(k)%name)
+            units = units//' ['//trim(summary(k)%unit)//']'
          end do
       end associate
       if (size(solved) > 0) then

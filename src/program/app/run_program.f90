@@ -157,30 +157,28 @@ contains
       type(error_type), allocatable :: error
       integer :: begun, i, jobs, running, status(size(scenes))
       logical :: has_ended(0:size(scenes))   ! of each job
-      logical :: is_good(size(scenes)), keep_going, with_table
+      logical :: keep_going, with_table
 
       jobs = nint(command_line%options%jobs%number)
       keep_going = command_line%options%keep_going%is_true
       call set_threads(nint(command_line%options%threads%number))
-      with_table = .false.
-      if (is_first_rank()) with_table = command_line%options%table%is_given
+      with_table = is_first_rank() .and. command_line%options%table%is_given
       if (with_table) call check_table_file(command_line%options%table%text, scenes, error)
       call share_error(error)
       call stop_on(error)
-      is_good = [(allocated(scenes(i)%scene), i=1, size(scenes))]
       do i = 1, size(scenes)
-         if (is_good(i)) call remove_leftovers(scenes(i)%scene%directory//c_null_char)
+         if (allocated(scenes(i)%scene)) call remove_leftovers(scenes(i)%scene%directory//c_null_char)
       end do
       status = exit_bad_input
       begun = 0
       running = 0
       has_ended = .false.
       do i = 1, size(scenes)
-         if (is_good(i) .and. jobs == 1) then
+         if (allocated(scenes(i)%stem) .and. jobs == 1) then
             call run_one(i, status(i), error)
             if (.not. keep_going) call stop_on(error)
             call show(error)
-         else if (is_good(i)) then
+         else if (allocated(scenes(i)%stem)) then
             call take_job(i, status(i))
          end if
       end do
@@ -229,7 +227,7 @@ contains
          do
             do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
                begun = begun + 1
-               if (.not. is_good(begun)) cycle
+               if (.not. allocated(scenes(begun)%stem)) cycle
                flush (error_unit)
                here = begin_job(begun)
                if (here < 0) call fatal_error(error, exit_file_trouble, &

@@ -70,11 +70,9 @@ contains
 
       line_of = 1
       do i = 1, place - 1
-         if (self%content(i:i) == newline) then
-            line_of = line_of + 1
-         else if (self%content(i:i) == carriage_return) then
-            if (self%content(i + 1:i + 1) /= newline) line_of = line_of + 1
-         end if
+         ! Of CR LF the LF ends the line.
+         if (self%content(i:i) == newline .or. (self%content(i:i) == carriage_return .and. &
+                                                self%content(i + 1:i + 1) /= newline)) line_of = line_of + 1
       end do
    end function line_of
 

@@ -115,11 +115,8 @@ contains
       if (.not. values%friction%is_given) return
       setting%friction = values%friction%number
       setting%over_mean_pressure = values%tangential_over_normal%is_given
-      if (setting%over_mean_pressure) then
-         setting%tangential = values%tangential_over_normal%numbers
-      else
-         setting%tangential = values%tangential_load%numbers/p_star
-      end if
+      setting%tangential = values%tangential_load%numbers/p_star
+      if (setting%over_mean_pressure) setting%tangential = values%tangential_over_normal%numbers
       e = [1.0_dp]
       if (material%e2%is_given) e = [material%e1%number, material%e2%number]
       nu = values%nu%numbers

@@ -255,13 +255,11 @@ contains
             surface = formula_surface(values)
          end select
       end if
-      if (.not. allocated(error)) then
-         if (surface%has_free_edges .and. surface%amplitude > 0.0_dp .and. &
-             (surface%amplitude < smallest_number .or. surface%amplitude > largest_number)) &
-            call fatal_error(error, exit_bad_input, escaped(values%deck_path)//': the mean gap before load is '// &
-                             short_number(surface%amplitude)//' [length]: lengths may be from '// &
-                             short_number(smallest_number)//' to '//short_number(largest_number))
-      end if
+      if (.not. allocated(error) .and. surface%has_free_edges .and. surface%amplitude > 0.0_dp .and. &
+          (surface%amplitude < smallest_number .or. surface%amplitude > largest_number)) &
+         call fatal_error(error, exit_bad_input, escaped(values%deck_path)//': the mean gap before load is '// &
+                          short_number(surface%amplitude)//' [length]: lengths may be from '// &
+                          short_number(smallest_number)//' to '//short_number(largest_number))
       if (allocated(error)) deallocate (surface)
    end subroutine make_surface
 

@@ -4,7 +4,7 @@ module wavycon_cell_file
    use, intrinsic :: iso_fortran_env, only: int64, int8
    use wavycon_contact_fields, only: contact_fields
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: column_kind, column_list, column_name, longest_column, of_integers
+   use wavycon_memory_table, only: column_list, column_type, of_integers
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: integer_text, newline
    use wavycon_results, only: results_type
@@ -48,7 +48,7 @@ contains
       integer, intent(in) :: numbers_a_point    !! that are in memory at a time
       character(*), intent(in) :: what          !! before the number of points, for the message on memory
 
-      character(longest_column), allocatable :: columns(:)
+      type(column_type), allocatable :: columns(:)
 
       self%points = map_points(results)
       ! A table with more than one plane a load counts all of them.
@@ -62,9 +62,9 @@ contains
          call results%open_table(trim(table%file), table%columns, self%file)
       else
          columns = column_list(table%columns)
-         columns = pack(columns, column_kind(columns) /= of_integers)
+         columns = pack(columns, columns%kind /= of_integers)
          call self%file%open(results%scene%directory, results%scene%case//'.'//trim(table%file)//'.npy', &
-                             npy_header([planes, self%points([2, 1])], column_name(columns)))
+                             npy_header([planes, self%points([2, 1])], columns%name))
       end if
       call check_memory(self%file, self%points, numbers_a_point, what)
    end subroutine open_cell_file

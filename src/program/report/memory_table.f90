@@ -8,19 +8,23 @@ module wavycon_memory_table
    implicit none (type, external)
    private
 
-   public :: column_kind, column_list, column_name, column_unit, memory_table
+   public :: column_list, column_type, memory_table
 
    !> What the values of a column are.
    integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
 
-   !> Bytes of name[unit].
+   !> Bytes of a name or a unit.
    integer, parameter, public :: longest_column = 48
    integer, parameter, public :: longest_word = 32
    integer, parameter :: first_room = 64
 
+   type :: column_type
+      character(longest_column) :: name = '', unit = ''     !! '-' is the unit of integers and words
+      integer :: kind = of_reals                            !! what its values are
+   end type column_type
+
    type :: memory_table
-      character(longest_column), allocatable :: names(:), units(:)   !! of the columns
-      integer, allocatable :: kinds(:)                      !! of the columns, names above
+      type(column_type), allocatable :: columns(:)
       integer :: rows = 0
       real(dp), allocatable :: values(:, :)                 !! shape (columns, rows or more)
       !> A column of words has their numbers in this list, from 1.
@@ -36,16 +40,12 @@ module wavycon_memory_table
 contains
 
    !> Starts an empty table.
-   subroutine start(self, names, units, kinds)
+   subroutine start(self, columns)
       class(memory_table), intent(out) :: self
-      character(*), intent(in) :: names(:)
-      character(*), intent(in) :: units(:)   !! as many
-      integer, intent(in) :: kinds(:)        !! as many
+      type(column_type), intent(in) :: columns(:)
 
-      self%names = [character(longest_column) :: names]
-      self%units = [character(longest_column) :: units]
-      self%kinds = kinds
-      allocate (self%values(size(names), first_room), self%words(0))
+      self%columns = columns
+      allocate (self%values(size(columns), first_room), self%words(0))
    end subroutine start
 
    !> Adds a row.
@@ -55,18 +55,18 @@ contains
       character(*), intent(in), optional :: words(:)   !! of the columns of words, of at most longest_word bytes
 
       integer :: i
-      logical :: is_word(size(self%kinds))
+      logical :: is_word(size(self%columns))
       real(dp), allocatable :: longer(:, :)
 
       if (self%rows == size(self%values, 2)) then
          self%is_full = .not. has_memory_for(2*size(self%values, kind=int64))
          if (self%is_full) return
-         allocate (longer(size(self%kinds), 2*self%rows))
+         allocate (longer(size(self%columns), 2*self%rows))
          longer(:, :self%rows) = self%values
          call move_alloc(longer, self%values)
       end if
       self%rows = self%rows + 1
-      is_word = self%kinds == of_words
+      is_word = self%columns%kind == of_words
       associate (row => self%values(:, self%rows))
          row = unpack(numbers, .not. is_word, 0.0_dp)
          if (present(words)) row = unpack([(real(number_of_word(self, words(i)), dp), i=1, size(words))], is_word, row)
@@ -90,7 +90,7 @@ contains
       character(*), intent(in) :: name
 
       column = 0
-      if (allocated(self%names)) column = findloc(self%names == name, .true., dim=1)
+      if (allocated(self%columns)) column = findloc(self%columns%name == name, .true., dim=1)
    end function find_column
 
    !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being
@@ -104,14 +104,14 @@ contains
 
       if (name /= 'columns' .and. name /= 'words') return
       lines = ''
-      do i = 1, merge(size(self%names), size(self%words), name == 'columns')
+      do i = 1, merge(size(self%columns), size(self%words), name == 'columns')
          if (i > 1) lines = lines//newline
          if (name == 'words') then
             lines = lines//trim(self%words(i))
-         else if (self%kinds(i) == of_words) then
-            lines = lines//trim(self%names(i))//'[word]'
+         else if (self%columns(i)%kind == of_words) then
+            lines = lines//trim(self%columns(i)%name)//'[word]'
          else
-            lines = lines//trim(self%names(i))//'['//trim(self%units(i))//']'
+            lines = lines//trim(self%columns(i)%name)//'['//trim(self%columns(i)%unit)//']'
          end if
       end do
    end subroutine text
@@ -119,43 +119,21 @@ contains
    !> The columns in a text, name[unit] of each.
    pure function column_list(text) result(columns)
       character(*), intent(in) :: text   !! with a blank between two
-      character(longest_column), allocatable :: columns(:)
+      type(column_type), allocatable :: columns(:)
 
-      integer :: first, i, length
+      integer :: behind, first, i, last
 
       allocate (columns(count([(text(i:i) == ']', i=1, len(text))])))
       first = 1
       do i = 1, size(columns)
-         length = index(text(first:), ']')
-         columns(i) = text(first:first + length - 1)
-         first = first + length + 1
+         behind = first + index(text(first:), '[') - 1
+         last = first + index(text(first:), ']') - 1
+         columns(i) = column_type(text(first:behind - 1), text(behind + 1:last - 1))
+         if (columns(i)%unit == '#') columns(i)%kind = of_integers
+         if (columns(i)%unit == 'word') columns(i)%kind = of_words
+         if (columns(i)%kind /= of_reals) columns(i)%unit = '-'
+         first = last + 2
       end do
    end function column_list
-
-   !> The name in name[unit].
-   elemental function column_name(column) result(name)
-      character(*), intent(in) :: column
-      character(len(column)) :: name
-
-      name = column(:index(column, '[') - 1)
-   end function column_name
-
-   !> The unit in name[unit]; '-' of integers and words.
-   elemental function column_unit(column) result(unit)
-      character(*), intent(in) :: column
-      character(len(column)) :: unit
-
-      unit = column(index(column, '[') + 1:index(column, ']') - 1)
-      if (column_kind(column) /= of_reals) unit = '-'
-   end function column_unit
-
-   !> What the values of a column are, by its unit.
-   elemental integer function column_kind(column) result(kind)
-      character(*), intent(in) :: column   !! name[unit]
-
-      kind = of_reals
-      if (index(column, '[#]') > 0) kind = of_integers
-      if (index(column, '[word]') > 0) kind = of_words
-   end function column_kind
 
 end module wavycon_memory_table

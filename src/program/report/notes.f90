@@ -182,8 +182,9 @@ contains
             names = [character(40) :: 'vMises'//in_unit, 'depth['//scene%length_unit//']', 'shear'//in_unit]
          end if
          do load = 1, size(results%loads)
-            do body = 1, size(results%von_mises, 1)
-               associate (yielding => results%von_mises(body, load), shear => results%shear(body, load))
+            do body = 1, size(results%largest_stresses, 2)
+               associate (yielding => results%largest_stresses(1, body, load), &
+                          shear => results%largest_stresses(2, body, load))
                   call line%start(results, load)
                   call line%add('body', real(body, dp))
                   call line%add(trim(names(1)), stress_unit*yielding%value)

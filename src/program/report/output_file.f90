@@ -7,7 +7,7 @@ module wavycon_output_file
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: memory_table, of_words
+   use wavycon_memory_table, only: column_type, longest_column, memory_table, of_words
    use wavycon_plain_text, only: escaped, newline
    use wavycon_system, only: end_written, error_text, open_written, put_bytes, put_text
    implicit none (type, external)
@@ -35,7 +35,7 @@ module wavycon_output_file
       type(c_ptr) :: file = c_null_ptr            !! of open_written
       character(:), allocatable :: name
       character(:), allocatable :: trouble        !! first error; not allocated if there was none
-      character(:), allocatable :: names(:)       !! of the columns; not allocated if the file is no table
+      type(column_type), allocatable :: columns(:)   !! not allocated if the file is no table
       logical :: has_names = .false.              !! whether the line of the names was written
       integer :: blocks = 0                       !! data sets begun by begin_block
       integer(c_int), allocatable :: column_end(:)       !! position in a row at which each column ends
@@ -93,24 +93,22 @@ contains
 
    !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
    !> or, without blocks, before the first row.
-   subroutine put_columns(self, names, units, kinds)
+   subroutine put_columns(self, columns)
       class(output_file), intent(inout) :: self
-      character(*), intent(in) :: names(:)   !! without blanks
-      character(*), intent(in) :: units(:)   !! as many; shown in brackets
-      integer, intent(in) :: kinds(:)        !! as many: names of wavycon_memory_table
+      type(column_type), intent(in) :: columns(:)   !! names without blanks; units are shown in brackets
 
-      character(len(units) + 2) :: in_brackets(size(units))
+      character(longest_column + 2) :: in_brackets(size(columns))
       character(:), allocatable :: line
       integer :: i, last, width
 
-      if (associated(self%memory)) call self%memory%start(names, units, kinds)
-      self%kinds = int(kinds, c_int)
-      self%names = names
-      allocate (self%column_end(size(names)))
+      if (associated(self%memory)) call self%memory%start(columns)
+      self%kinds = int(columns%kind, c_int)
+      self%columns = columns
+      allocate (self%column_end(size(columns)))
       last = 0
-      do i = 1, size(names)
-         in_brackets(i) = '['//trim(units(i))//']'
-         width = max(narrowest, len_trim(names(i)) + 1, len_trim(in_brackets(i)) + merge(2, 1, i == 1))
+      do i = 1, size(columns)
+         in_brackets(i) = '['//trim(columns(i)%unit)//']'
+         width = max(narrowest, len_trim(columns(i)%name) + 1, len_trim(in_brackets(i)) + merge(2, 1, i == 1))
          last = last + width
          self%column_end(i) = last
       end do
@@ -138,7 +136,7 @@ contains
       type(output_file), intent(inout) :: self
 
       self%has_names = .true.
-      call self%put(aligned(self, self%names))
+      call self%put(aligned(self, self%columns%name))
    end subroutine put_names
 
    !> Begins a data set of gnuplot's `index`: two blank lines, unless it is the first, a comment, and the names of the
@@ -205,7 +203,7 @@ contains
          if (allocated(self%trouble)) call fatal_error(error, exit_file_trouble, 'table in memory: '//self%trouble)
          return
       end if
-      if (allocated(self%names) .and. .not. self%has_names) call put_names(self)
+      if (allocated(self%columns) .and. .not. self%has_names) call put_names(self)
       call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
       if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)

@@ -10,7 +10,7 @@ module wavycon_results
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_kind, column_list, column_name, column_unit, memory_table
+   use wavycon_memory_table, only: column_list, column_type, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
@@ -33,8 +33,9 @@ module wavycon_results
       character(:), allocatable :: method                    !! the solver and its discretisation in words
       logical :: keeps_fields = .false.                      !! whether solutions have fields, edges and stresses
       type(contact_solution), allocatable :: loads(:)        !! in the deck's order; loads of other ranks: the measures
-      !> The largest von Mises and shear stresses, shape (bodies, loads); not allocated unless the deck asks for them.
-      type(largest_stress), allocatable :: von_mises(:, :), shear(:, :)
+      !> The largest von Mises stress and the largest shear stress, shape (2, bodies, loads); not allocated unless the
+      !> deck asks for them.
+      type(largest_stress), allocatable :: largest_stresses(:, :, :)
       !> Partial slip, shape (tangential loads, loads), and adhesion; not allocated unless the deck asks for them.
       type(partial_slip), allocatable :: slip(:, :)
       type(adhesive_curve), allocatable :: adhesion
@@ -62,15 +63,17 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each; the units of `unit_in_words` are replaced
       type(output_file), intent(out) :: file
 
+      type(column_type), allocatable :: list(:)
+
       if (associated(self%memory)) then
          file%memory => self%memory
       else
          call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
       end if
-      associate (names => column_list(columns))
-         call file%put_columns(column_name(names), self%unit_in_words(column_unit(names)), column_kind(names))
-      end associate
+      list = column_list(columns)
+      list%unit = self%unit_in_words(list%unit)
+      call file%put_columns(list)
    end subroutine open_table
 
    !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
@@ -106,13 +109,13 @@ contains
 
       status = self%loads(load)%status
       if (.not. is_good_status(status)) return
-      if (.not. (is_doubtful(self%von_mises(body, load)) .or. is_doubtful(self%shear(body, load)))) return
+      if (.not. any(is_doubtful(self%largest_stresses(:, body, load)))) return
       status = not_accurate
       if (all(self%traits%given_grid > 0)) status = unresolved
    end function stress_status
 
    !> Whether a largest stress is hardly known.
-   pure logical function is_doubtful(largest)
+   elemental logical function is_doubtful(largest)
       type(largest_stress), intent(in) :: largest
 
       is_doubtful = .false.
@@ -129,8 +132,8 @@ contains
       integer :: body
 
       is_solved = is_good_status(self%loads(load)%status)
-      if (allocated(self%von_mises)) is_solved = is_solved .and. &
-         all([(is_good_status(self%stress_status(load, body)), body=1, size(self%von_mises, 1))])
+      if (allocated(self%largest_stresses)) is_solved = is_solved .and. &
+         all([(is_good_status(self%stress_status(load, body)), body=1, size(self%largest_stresses, 2))])
       if (allocated(self%slip)) is_solved = is_solved .and. &
          all(self%slip(:, load)%slides .or. is_good_status(self%slip(:, load)%status))
    end function is_solved

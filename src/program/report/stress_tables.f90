@@ -74,8 +74,8 @@ contains
          to_unit = [results%scene%p_star, results%scene%p_star, surface%length, surface%length(1)]
       end associate
       do body = 1, size(results%scene%stress_setting%body)
-         associate (setting => results%scene%stress_setting, yielding => results%von_mises(body, load), &
-                    shear => results%shear(body, load), status => results%stress_status(load, body))
+         associate (setting => results%scene%stress_setting, yielding => results%largest_stresses(1, body, load), &
+                    shear => results%largest_stresses(2, body, load), status => results%stress_status(load, body))
             ratio = not_a_number()
             if (allocated(setting%yield_stress)) &
                ratio = setting%over_yield_stress(body, [yielding%value, yielding%error], [shear%value, shear%error])
@@ -219,12 +219,11 @@ contains
       real(dp), allocatable, intent(out) :: depths(:)   !! [length]
 
       integer :: i, intervals, steps
-      logical :: by_list, has_range
+      logical :: by_list
       real(dp) :: side(2)
 
       side = surface%sides()
-      has_range = stress%depth_from%is_given .or. stress%depth_to%is_given .or. stress%depth_steps%is_given
-      by_list = of_planes .or. .not. has_range
+      by_list = of_planes .or. .not. stress%depth_from%in_effect
       if (by_list .and. stress%depths%is_given) then
          depths = stress%depths%numbers
       else if (by_list .and. stress%depths_over_cell_x%is_given) then

@@ -10,7 +10,7 @@ module wavycon_surface_tables
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
    use wavycon_results, only: not_a_number, results_type
-   use wavycon_roughness, only: line_spectrum, power_spectrum, radial_spectrum
+   use wavycon_roughness, only: line_spectrum, radial_spectrum, spectrum_bin
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
@@ -44,7 +44,7 @@ contains
       type(output_file), intent(inout) :: file
 
       character(6), parameter :: directions(3) = [character(6) :: 'radial', 'x', 'y']
-      type(power_spectrum) :: spectrum
+      type(spectrum_bin), allocatable :: spectrum(:)
       real(dp) :: densities(2)
       integer :: k
 
@@ -57,11 +57,13 @@ contains
          end if
       end associate
       call file%begin_block('direction: '//trim(directions(block)))
-      do k = 1, size(spectrum%waves)
+      do k = 1, size(spectrum)
          densities = not_a_number()
-         densities(merge(1, 2, block == 1)) = spectrum%density(k)
-         call file%put_row([real(dp) :: spectrum%wave_number(k), spectrum%waves(k), densities, &
-                            spectrum%height(k), spectrum%slope(k), spectrum%curvature(k)], [directions(block)])
+         associate (bin => spectrum(k))
+            densities(merge(1, 2, block == 1)) = bin%density
+            call file%put_row([real(dp) :: bin%wave_number, bin%waves, densities, bin%height, bin%slope, &
+                               bin%curvature], [directions(block)])
+         end associate
       end do
    end subroutine put_spectrum
 

@@ -6,7 +6,7 @@ module wavycon_table
    use wavycon_error, only: error_type
    use wavycon_formula_kinds, only: paper_waves
    use wavycon_kinds, only: dp
-   use wavycon_memory_table, only: column_kind, column_list, column_name, longest_word, of_words
+   use wavycon_memory_table, only: column_list, longest_word, of_words
    use wavycon_methods, only: solvers_for
    use wavycon_output_file, only: output_file
    use wavycon_paper_wave, only: is_paper_wave
@@ -182,10 +182,10 @@ contains
       of_load = results%loads(load)%quantities
       if (self%needs_fields) call results%loads(load)%details(of_load)
       associate (columns => column_list(self%columns), solution => results%loads(load))
-         associate (names => column_name(pack(columns, column_kind(columns) /= of_words)), &
+         associate (names => pack(columns%name, columns%kind /= of_words), &
                     words => [character(longest_word) :: solver_names(solution%solver), status_name(solution%status)])
             call file%put_row([(results%number(load, trim(names(i)), of_load), i=1, size(names))], &
-                              pack(words, [any(columns == 'solver[word]'), .true.]))
+                              pack(words, [any(columns%name == 'solver'), .true.]))
          end associate
       end associate
    end subroutine put_quantities

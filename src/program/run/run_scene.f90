@@ -284,12 +284,10 @@ contains
       ! The series, and twice as much while it is gathered.
       if (surface .and. results%solver%surface%is_distributed()) &
          numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
-      if (results%sharing%is_first) then
-         if (.not. has_memory_for(numbers)) call fatal_error(error, exit_file_trouble, &
-            'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
-            'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
-            "summary, a map with map_format = 'npy' and the points of the grid, and the heights, or solve fewer loads")
-      end if
+      if (.not. has_memory_for(numbers) .and. results%sharing%is_first) call fatal_error(error, exit_file_trouble, &
+         'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
+         'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &
+         "summary, a map with map_format = 'npy' and the points of the grid, and the heights, or solve fewer loads")
       call results%sharing%share_error(error)
       if (allocated(error) .or. .not. allocated(results%loads)) return
       do load = 1, merge(size(results%loads), 0, fields)

@@ -12,7 +12,7 @@ module wavycon_solve_loads
    use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
-   use wavycon_largest_stress, only: find_largest_stresses, largest_stress
+   use wavycon_largest_stress, only: find_largest_stresses
    use wavycon_partial_slip, only: solve_partial_slip
    use wavycon_plain_text, only: integer_text, short_number
    use wavycon_quantities, only: approach, contact_area, mean_gap
@@ -22,7 +22,7 @@ module wavycon_solve_loads
    use wavycon_solution_record, only: record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
-   use wavycon_work_sharing, only: distributed_loads, work_sharing
+   use wavycon_work_sharing, only: distributed_loads
    implicit none (type, external)
    private
 
@@ -130,21 +130,21 @@ contains
 
       class(stress_fields), allocatable :: fields
       integer :: body, load, number
+      integer(int64), allocatable :: words(:)   ! the largest stresses of all loads
       logical :: are_distributed
 
       are_distributed = results%sharing%kind == distributed_loads
       if (are_distributed) call results%sharing%work_alone(.true.)
       associate (setting => results%scene%stress_setting)
-         allocate (results%von_mises(size(setting%body), size(results%loads)))
-         allocate (results%shear(size(setting%body), size(results%loads)))
+         allocate (results%largest_stresses(2, size(setting%body), size(results%loads)))
          do load = 1, size(results%loads)
             if (.not. results%sharing%is_own_load(load)) cycle
             call results%loads(load)%stresses(results%solver%surface, fields)
             if (results%loads(load)%is_good() .and. .not. fields%exist) call log%note( &
                'there is not enough memory for the stresses of load '//integer_text(load))
             do body = 1, size(setting%body)
-               call find_largest_stresses(fields, setting%body(body), results%von_mises(body, load), &
-                                          results%shear(body, load))
+               call find_largest_stresses(fields, setting%body(body), results%largest_stresses(1, body, load), &
+                                          results%largest_stresses(2, body, load))
             end do
             call log%say_progress('stresses of '//integer_text(load)//' of '//integer_text(size(results%loads))// &
                                   ' loads')
@@ -152,27 +152,18 @@ contains
       end associate
       if (are_distributed) then
          call results%sharing%work_alone(.false.)
-         call share_stresses(results%sharing, results%von_mises)
-         call share_stresses(results%sharing, results%shear)
+         associate (stresses => results%largest_stresses)
+            words = transfer(stresses, [0_int64])
+            call results%sharing%share_loads(words)
+            stresses = reshape(transfer(words, stresses), shape(stresses))
+         end associate
       end if
-      number = count([(any([(results%stress_status(load, body), body=1, size(results%von_mises, 1))] /= &
+      number = count([(any([(results%stress_status(load, body), body=1, size(results%largest_stresses, 2))] /= &
                            results%loads(load)%status), load=1, size(results%loads))])
       if (number > 0) call log%note('the error of the largest stress is more than half of it at '// &
          integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
          'grid_points')
    end subroutine find_stresses
-
-   !> Gives all ranks the largest stresses of all loads.
-   subroutine share_stresses(sharing, stresses)
-      type(work_sharing), intent(in) :: sharing
-      type(largest_stress), intent(inout) :: stresses(:, :)   !! shape (bodies, loads); of the own loads
-
-      integer(int64) :: words(size(stresses)*storage_size(stresses)/storage_size(0_int64))
-
-      words = transfer(stresses, words)
-      call sharing%share_loads(words)
-      stresses = reshape(transfer(words, stresses), shape(stresses))
-   end subroutine share_stresses
 
    !> Solves partial slip of all loads and tangential loads, and the curve of the contact with adhesion.
    subroutine find_interface(results, log, table)
@@ -251,13 +242,11 @@ contains
          do i = 1, size(curve%critical)
             associate (point => curve%critical(i))
                mean_pressure = results%scene%p_star*point%value(at_load)
-               if (surface%has_free_edges) then
-                  words = ', force = '//short_number(mean_pressure*surface%nominal_area())//', area = '// &
-                          short_number(surface%nominal_area()*point%area)
-               else
-                  words = ', pbar/p* = '//short_number(point%value(at_load))//', pbar = '//short_number(mean_pressure)// &
-                          ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
-               end if
+               words = ', pbar/p* = '//short_number(point%value(at_load))//', pbar = '//short_number(mean_pressure)// &
+                       ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
+               if (surface%has_free_edges) words = ', force = '// &
+                  short_number(mean_pressure*surface%nominal_area())//', area = '// &
+                  short_number(surface%nominal_area()*point%area)
                call log%say('adhesion: '//trim(point_names(point%kind))//words)
             end associate
          end do

@@ -1,7 +1,7 @@
 """Runs of the program, many at a time."""
+import contextlib
 import csv
 import importlib.metadata
-import io
 import itertools
 import os
 import re
@@ -17,12 +17,11 @@ from .deck import value_text
 
 def program() -> str:
     """The path of the program that was installed with this package, otherwise of that in PATH."""
-    try:
-        files = importlib.metadata.files("wavycon") or []
-    except importlib.metadata.PackageNotFoundError:
-        files = []
-    own = [file for file in files if file.name == "wavycon" and file.parent.name in ("bin", "Scripts")]
-    path = str(own[0].locate()) if own else shutil.which("wavycon")
+    with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+        for file in importlib.metadata.files("wavycon") or []:
+            if file.name == "wavycon" and file.parent.name in ("bin", "Scripts"):
+                return str(file.locate())
+    path = shutil.which("wavycon")
     if not path:
         raise OSError("the program wavycon is neither installed with this package nor in PATH")
     return path
@@ -41,7 +40,7 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
     import pandas
     combinations = [dict(zip(values, one)) for one in itertools.product(*values.values())]
     command = [program(), os.fspath(deck)]
-    running: set = set()
+    started: list = []
     with tempfile.TemporaryDirectory() as own:
         def run(number):
             settings, table = combinations[number], Path(own, f"{number}.dat")
@@ -50,13 +49,12 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
             with subprocess.Popen([*command, *sets, f"--output={output}", f"--table={table}"], text=True,
                                   errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE) as process:
-                running.add(process)
+                started.append(process)
                 log, message = process.communicate()
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
-            running.discard(process)
             if table.exists():
-                lines = [line for line in table.read_text().splitlines(True) if not line.startswith("#")]
-                rows = pandas.read_csv(io.StringIO("".join(lines)), sep=r"\s+", quoting=csv.QUOTE_NONE,
+                # The head of a deck that did not fail: version, units.
+                rows = pandas.read_csv(table, sep=r"\s+", skiprows=2, quoting=csv.QUOTE_NONE,
                                        float_precision="round_trip").loc[:, "load":]
             else:
                 rows = pandas.DataFrame({"status": ["failed"]})
@@ -68,11 +66,11 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
         with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
             try:
                 frames = list(progress(pool.map(run, range(len(combinations))), len(combinations)))
-            except BaseException:
+            finally:
+                # After an interruption: those that have ended are left alone.
                 pool.shutdown(wait=False, cancel_futures=True)
-                for process in list(running):
+                for process in started:
                     process.terminate()
-                raise
     if not frames:
         raise ValueError("there are no values, so there is no run")
     return pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
@@ -80,8 +78,7 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
 
 def progress(steps, number):
     """The steps, with a bar where tqdm is installed."""
-    try:
+    with contextlib.suppress(ImportError):
         from tqdm.auto import tqdm
-    except ImportError:
-        return steps
-    return tqdm(steps, total=number, unit="run")
+        return tqdm(steps, total=number, unit="run")
+    return steps

@@ -48,10 +48,8 @@ contains
                            in_slabs=values%fill_missing%text == 'none' .and. .not. &
                                     (values%crop_missing%is_true .or. values%despike%is_true))
       if (.not. allocated(error)) call convert_lengths(path, values%deck_unit, heights, error)
-      if (path_kind(path) == path_absent .and. file(1:1) /= '/') then
-         if (allocated(error)) error%message = escaped(file)// &
-            ': there is no such file beside the deck, nor where the program was started'
-      end if
+      if (path_kind(path) == path_absent .and. allocated(error) .and. file(1:1) /= '/') error%message = &
+         escaped(file)//': there is no such file beside the deck, nor where the program was started'
       if (.not. allocated(error)) call make_of(path, values, heights, surface, map, error)
       if (allocated(error)) then
          error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
