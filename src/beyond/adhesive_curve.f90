@@ -304,8 +304,13 @@ contains
       if (.not. point%exists) return
       point%value(which) = target
       point%error = 0.0_dp
-      if (which == at_load .and. point%kind == closed) point%value(at_approach) = 1.0_dp
-      if (which == at_approach .and. point%kind == separated) point%value(at_load) = 0.0_dp
+      if (point%kind == closed) then
+         point%value(at_approach) = 1.0_dp
+      else
+         if (which == at_approach) point%value(at_load) = 0.0_dp
+         point%energy = 0.0_dp
+         point%energy_error = 0.0_dp
+      end if
    end function beyond_extremes
 
    !> The point of a branch at a contact area fraction.
@@ -410,11 +415,14 @@ contains
       type(adhesive_point), intent(out) :: point
 
       integer, parameter :: most_steps = 60
-      real(dp), parameter :: of_extreme = 1e-8_dp, rounding = 4*epsilon(1.0_dp)   ! relative changes of the area
-      real(dp) :: area(2), before, miss(2), next
+      real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
       integer :: step
+      real(dp) :: area(2), before, changes(2), last_values(2), miss(2), missed, next
       type(fitted_answer) :: start
 
+      missed = 0.0_dp
+      changes = 0.0_dp
+      last_values = last%value(:2)
       area = [first%area, last%area]
       miss = [first%value(which), last%value(which)] - target
       if (allocated(last%answer)) start = last%answer
@@ -424,26 +432,32 @@ contains
          call find_point(curve, first%pools, next, point, start)
          if (.not. point%exists) return
          if (allocated(point%answer)) start = point%answer
-         associate (missed => point%value(which) - target)
-            if (missed*miss(2) <= 0.0_dp) then
+         associate (new => point%value(which) - target)
+            if (new*miss(2) <= 0.0_dp) then
                area(1) = area(2)
                miss(1) = miss(2)
             else
                miss(1) = 0.5_dp*miss(1)
             end if
             area(2) = next
-            miss(2) = missed
+            miss(2) = new
          end associate
-         ! An extreme does not change with a small change of its area.
-         if (abs(next - before) <= merge(of_extreme, rounding, which > 2)*next) exit
-         if (which > 2) cycle
-         if (abs(miss(2)) <= max(0.1_dp*point%error(which), epsilon(1.0_dp)*abs(target))) exit
+         if (abs(next - before) <= rounding*next) exit
+         if (which <= 2) then
+            missed = abs(point%value(which) - target)
+            if (missed <= max(0.1_dp*point%error(which), epsilon(target)*abs(target))) exit
+         else
+            ! At an extreme of one value the other one changes with the area.
+            changes = abs(point%value(:2) - last_values)
+            if (all(changes <= max(0.1_dp*point%error, epsilon(target)*abs(last_values)))) exit
+            last_values = point%value(:2)
+         end if
       end do
       if (which > 2) then
+         point%error = point%error + changes
          point%area_error = merge(unknown, abs(next - before), allocated(point%answer))
       else
-         ! What the value misses, and its error, as an area.
-         point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
+         point%area_error = abs((missed + point%error(which))/point%value(2 + which))
       end if
    end subroutine find_zero
 

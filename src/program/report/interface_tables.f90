@@ -6,7 +6,8 @@
 !> <case>.adhesion.dat: the contact with adhesion. Blocks: the curve of load and approach against area; pull-off, jumps
 !> and ends of branches; the loads.
 module wavycon_interface_tables
-   use wavycon_adhesive_curve, only: adhesive_point, at_approach, at_load, point_names
+   use wavycon_adhesive_curve, only: adhesive_point, at_approach, at_load, closed, not_solved, &
+      point_names, separated
    use wavycon_contact_status, only: no_load, status_code, status_name
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -181,16 +182,17 @@ contains
       associate (surface => results%solver%surface, p_star => results%scene%p_star)
          do i = 1, size(points)
             associate (point => points(i))
-               mean_pressure = p_star*point%value(at_load)
+               mean_pressure = p_star*or_nan(point%value(at_load))
                words = [character(len(words)) :: 'spots', point_names(point%kind), status_name(point%status)]
                if (point%pools) words(1) = 'pools'
+               if (any(point%kind == [separated, closed, not_solved])) words(1) = 'none'
                call file%put_row( &
                   [real(dp) :: point%number, point%area, or_nan(point%area_error), surface%nominal_area()*point%area, &
-                   results%in_p_star([point%value(at_load), or_nan(point%error(at_load))]), mean_pressure, &
+                   results%in_p_star(or_nan([point%value(at_load), point%error(at_load)])), mean_pressure, &
                    mean_pressure*surface%nominal_area(), &
-                   results%in_p_star([1.0_dp - point%value(at_approach), or_nan(point%error(at_approach))]), &
-                   surface%amplitude*[point%value(at_approach), &
-                                      p_star*point%energy, p_star*or_nan(point%energy_error), &
+                   results%in_p_star([1.0_dp - or_nan(point%value(at_approach)), or_nan(point%error(at_approach))]), &
+                   surface%amplitude*[or_nan(point%value(at_approach)), &
+                                      p_star*or_nan([point%energy, point%energy_error]), &
                                       -p_star*results%scene%interface_setting%work*point%area], &
                    status_code(point%status)], &
                   words)
