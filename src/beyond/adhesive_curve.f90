@@ -13,7 +13,6 @@ module wavycon_adhesive_curve
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
-   use wavycon_load_slopes, only: find_area_slopes
    use wavycon_quantities, only: approach, elastic_energy, mean_gap, unknown
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -385,8 +384,7 @@ contains
       type(adhesive_point), intent(inout) :: point
       type(fitted_answer), intent(in), optional :: start
 
-      real(dp) :: cell, slopes(2)   ! cell: of one spot or pool; with the sign of d(contact area)
-      logical :: found
+      real(dp) :: cell   ! of one spot or pool, with the sign of d(contact area)
 
       allocate (point%answer)
       associate (lattice => curve%frame%lattice, unit => curve%frame%pressure_unit, answer => point%answer)
@@ -395,10 +393,8 @@ contains
          call solve_adhesive(lattice, point%pools, curve%work/unit, merge(point%area - 1.0_dp, point%area, point%pools) &
                              *cell, curve%accuracy/(1.0_dp + curve%surface%full_contact_peak), answer, start)
          if (answer%status > fitted_less_exact) return
-         call find_area_slopes(lattice, answer, slopes, found)
-         if (.not. found) return
          point%exists = .true.
-         point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*slopes]
+         point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]
          point%error = [unit*answer%load_error, answer%error(mean_gap)]
          point%energy = answer%value(elastic_energy)*unit/lattice%area
          point%energy_error = answer%error(elastic_energy)*unit/lattice%area
@@ -406,7 +402,7 @@ contains
    end subroutine find_point_of_lattice
 
    !> The point between two of a branch at which one of the numbers has a value, by the secant method in a bracket
-   !> (Illinois) for the area. Without one it does not exist.
+   !> for the area (Anderson and Bjorck). Without one it does not exist.
    subroutine find_zero(curve, which, target, first, last, point)
       type(adhesive_curve), intent(in) :: curve
       integer, intent(in) :: which                 !! of point%value
@@ -437,7 +433,7 @@ contains
                area(1) = area(2)
                miss(1) = miss(2)
             else
-               miss(1) = 0.5_dp*miss(1)
+               miss(1) = miss(1)*merge(1.0_dp - new/miss(2), 0.5_dp, abs(new) < abs(miss(2)))
             end if
             area(2) = next
             miss(2) = new

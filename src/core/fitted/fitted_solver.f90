@@ -9,7 +9,7 @@ module wavycon_fitted_solver
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       load_measure, measure_expansion, peak_measure, perimeter_measure
    use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
-   use wavycon_gauss_newton, only: newton_steps
+   use wavycon_gauss_newton, only: change_with_area, newton_steps
    use wavycon_kinds, only: dp
    use wavycon_load_continuation, only: is_start, start_at_area, start_at_load
    use wavycon_quantities, only: approach, contact_area, elastic_energy, mean_gap, peak_pressure, perimeter, &
@@ -171,9 +171,33 @@ contains
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
       answer%iterations = answer%iterations + newton%iterations
+      if (now%work > 0.0_dp .and. answer%status <= fitted_less_exact) call set_area_slopes(answer, lattice, equations)
       ! On the square lattice a solution of a lower degree is kept although a higher one has merged: it is nearly right.
       if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
    end subroutine raise_degree
+
+   !> The derivatives of load and approach with respect to the area, README.md (F69).
+   subroutine set_area_slopes(answer, lattice, equations)
+      type(fitted_answer), intent(inout) :: answer             !! with a solution with adhesion
+      type(wave_lattice), intent(in) :: lattice
+      type(contact_equations), intent(inout) :: equations      !! with images for its shape
+
+      logical :: finite
+      real(dp), allocatable :: change(:)
+
+      associate (now => answer%solution)
+         call start_equations(equations, now, answer%merging_ratio)
+         allocate (change(equations%unknowns))
+         call change_with_area(equations, lattice, now, change, finite)
+         if (.not. finite) answer%status = fitted_failed
+         if (.not. finite) return
+         ! Solving overwrote the matrix, not the load's row.
+         associate (of_integral => dot_product(equations%load_row, change)/lattice%area)
+            answer%area_slopes = [of_integral, change(now%basis%terms + 1)]
+            if (now%pool) answer%area_slopes = [change(now%basis%terms + 1), -lattice%troughs*of_integral]
+         end associate
+      end associate
+   end subroutine set_area_slopes
 
    !> Writes the newest solution to the answer.
    subroutine set_answer(answer, lattice, history, now, residual, ratio, images_tolerance)

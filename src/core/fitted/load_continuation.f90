@@ -111,7 +111,7 @@ contains
       if (found) then
          now = scaled_to_area(start%solution, area)
          found = merging_ratio(lattice, now) < 1.0_dp
-         degree = max(first_degree, nint(start%value(polynomial_degree)) - degree_step)
+         degree = max(first_degree, nint(start%value(polynomial_degree)) - 2*degree_step)
          return
       end if
       at = min(area, small_area*lattice%area)

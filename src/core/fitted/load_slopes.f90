@@ -7,21 +7,19 @@ module wavycon_load_slopes
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
-   use wavycon_gauss_newton, only: change_with_area, changes_with_load
+   use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
    use wavycon_expansion_size, only: merging_ratio
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: find_area_slopes, find_load_slopes
+   public :: find_load_slopes
 
    !> Numbers in an array of slopes: G', A' of the contact area fraction, G''.
    integer, parameter :: number_of_slopes = 3
    !> Points of half a sector of the edge, beyond the degree: the integrals along it converge exponentially.
    integer, parameter :: least_edge_points = 32, edge_points_per_degree = 4
-   !> Relative error of the images in slopes with the area, which only tell where a curve turns.
-   real(dp), parameter :: slope_tolerance = 1e-10_dp
 
 contains
 
@@ -51,30 +49,6 @@ contains
       errors = error_estimate(at, answer%misfit_decay, abs(slopes))
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
-
-   !> The derivatives of load and approach with respect to the area of a spot or pool with adhesion, README.md (F69).
-   subroutine find_area_slopes(lattice, answer, slopes, found)
-      type(wave_lattice), intent(in) :: lattice    !! the answer's
-      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact, with adhesion
-      real(dp), intent(out) :: slopes(2)           !! of P and delta [pi E* Delta/s^3, Delta/s^2]
-      logical, intent(out) :: found                !! otherwise the equations have no finite solution
-
-      type(contact_equations) :: equations
-      real(dp), allocatable :: change(:)
-
-      associate (now => answer%solution)
-         call equations%images%prepare(lattice, now, series_growth, slope_tolerance)
-         call start_equations(equations, now, answer%merging_ratio)
-         allocate (change(equations%unknowns))
-         call change_with_area(equations, lattice, now, change, found)
-         if (.not. found) return
-         ! Solving overwrote the matrix, not the load's row.
-         associate (of_integral => dot_product(equations%load_row, change)/lattice%area)
-            slopes = [of_integral, change(now%basis%terms + 1)]
-            if (now%pool) slopes = [change(now%basis%terms + 1), -lattice%troughs*of_integral]
-         end associate
-      end associate
-   end subroutine find_area_slopes
 
    !> The derivatives of one expansion, and the least and the largest k^2 along its edge: (I4) to (I7).
    subroutine slopes_of(lattice, now, slopes, intensity_range, found)
