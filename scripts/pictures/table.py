@@ -157,6 +157,8 @@ class Table:
             if len(within) == 2:
                 block.body = place//within[1] % within[0] + 1
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
+            if self.names == ["height"]:
+                block.columns.update(x=list(range(columns))*rows, y=[j for j in range(rows) for _ in range(columns)])
             self.blocks.append(block)
 
     @property
@@ -171,7 +173,12 @@ class Table:
         self.surface, self.method, self.title = summary.surface, summary.method, summary.title
         of_load = summary.column("pbar_over_pstar" if "p*" in summary.numbers else "mean_pressure")
         for block in self.blocks:
-            if self.kind != "height" and block.load <= len(of_load):
+            if self.kind == "height":
+                # Places are numbers of points until the cell is known.
+                for name, count in zip("xy", self.points):
+                    step = self.numbers.get(f"cell_{name}", count)/count
+                    block.columns[name] = [step*number for number in block.columns[name]]
+            elif block.load <= len(of_load):
                 block.pbar_over_pstar = of_load[block.load - 1]
 
     def size_of(self, name):
