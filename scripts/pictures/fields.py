@@ -4,7 +4,7 @@ import dataclasses
 import math
 
 from axes import Axis, decades, label_of_unit, step_of
-from picture import DELTA, GAP, MOST_CURVES, MOST_EDGES, MOST_PANELS, P, P_BAR, P_STAR, RIGHT, X, Y, CannotBeDrawn, \
+from picture import GAP, MOST_CURVES, MOST_EDGES, MOST_PANELS, P, P_BAR, P_STAR, RIGHT, X, Y, CannotBeDrawn, \
     Quantity, entry
 
 # Points of a map along a side that a picture can show.
@@ -65,21 +65,21 @@ def lines(picture, along=None):
             label = along or "distance" + (" along " + ("x", "the diagonal")[line - 1] if dimension == 2 else "")
             picture.panel(n*dimension + line - 1, Axis(0.0, longest[line - 1], step, label=length.label(label)), y,
                           curves + picture.runs("lines"), key=RIGHT if n == 0 and line == dimension else "")
-    return picture
 
 
 def maps(picture):
     """Maps: a column of panels for each load, contact above pressure above gap; side by side for one load."""
     table = picture.table
-    if len(set(table.blocks[0].columns["y"])) == 1:
-        return lines(as_lines(picture), X)
+    if len(table.cell) == 1:
+        take_as_lines(picture)
+        lines(picture, X)
+        return
     loads = picture.loads(MOST_PANELS)
-    length = Quantity([table], [cell_of(table)], "cell_x")
     # The paper's series has contact where the pressure exceeds a level.
     level = table.numbers.get("edge_level", 0.0)*table.numbers.get("p*", 1.0)
     found, rows = [], [("contact", ["eval of_contact", "set cbrange [0:1]"], "")]
     for (name, unit, symbol), colours in zip(FIELDS, ("eval of_contact", "eval of_gap")):
-        columns = [load.blocks[0].columns[name] for load in loads]
+        columns = [load.columns[name] for load in loads]
         # A map has too many numbers for a list of all.
         ends = [end(map(end, columns)) for end in (min, max)]
         found.append(Quantity([table], [ends], unit))
@@ -97,25 +97,28 @@ def maps(picture):
         return (0.75 if is_contact else MISSING, found[0].factors[0]*pressure if is_contact else MISSING,
                 MISSING if is_contact else found[1].factors[0]*gap)
 
-    wide, contour, drawn = panel_of(length.numbers, 150)[0], picture.beside.get("contour"), []
-    for load in loads:
-        drawn.append((picture.image(*closed(table, load.place, length.factors[0], fields)),
-                      outline(picture, contour, table, load, length.factors[0], wide)))
-    return images(picture, *((0.0, side) for side in length.numbers), [length.label(X), length.label(Y)],
-                  [load.name for load in loads],
-                  [(name, [[f"{image}:{3 + n} with image", edge] for image, edge in drawn], colours, label)
-                   for n, (name, colours, label) in enumerate(rows)])
+    drawn = [(picture.image(*closed(table, load.place, fields)), outline(picture, table, load)) for load in loads]
+    cells(picture, loads, [(name, [[f"{image}:{3 + n} with image", edge] for image, edge in drawn], colours, label)
+                           for n, (name, colours, label) in enumerate(rows)])
 
 
-def images(picture, range_x, range_y, labels, names, rows, common=None, size=150, true_shape=True):
+def length_of(table):
+    """The sides of the cell as a quantity."""
+    return Quantity([table], [table.cell], "cell_x")
+
+
+def cells(picture, loads, rows, common=None, size=150, section=None):
     """Panels of colours over a cell: a column for each load and a row for each field, side by side if there is one
     load.
 
-    range_x, range_y: ends of the axes; labels: theirs. names: of the loads. rows: name of the row, curves of each load,
-    commands of its colours, and the label of a bar, '' without. common: the label of one bar for all. size: of a panel.
+    loads: None without. rows: name of the row, curves of each load, commands of its colours, and the label of a bar, ''
+    without. common: the label of one bar for all. size: of a panel. section: the ranges of its axes and their labels in
+    place of those of the cell; it does not have the true shape.
     """
+    length, names = length_of(picture.table), [load.name for load in loads] if loads else [""]*len(rows[0][1])
+    (range_x, range_y), labels = section or (([0.0, side] for side in length.numbers), map(length.label, (X, Y)))
     sides = [max(range_x), max(range_y)]
-    wide, tall = panel_of(sides, size) if true_shape else panel_of(sides, size, 0.7, 1.5)
+    wide, tall = panel_of(sides, size, 0.7, 1.5) if section else panel_of(sides, size)
     by_load = len(names) > 1
     gaps = 24 if by_load else [109 if label else 24 for *_, label in rows[:-1]]
     across, down = (len(names), len(rows)) if by_load else (len(rows), 1)
@@ -123,7 +126,7 @@ def images(picture, range_x, range_y, labels, names, rows, common=None, size=150
     font = ",12" if size < 200 else ",14"
     x, y = (Axis(*ends, step_of(360*side/points), label=label, font=font)
             for ends, side, points, label in zip((range_x, range_y), sides, (wide, tall), labels))
-    look = ["unset grid", "set border 15 lw 0.7 front", *["set size ratio -1"]*true_shape]
+    look = ["unset grid", "set border 15 lw 0.7 front", *["set size ratio -1"]*(not section)]
     for r, (row, curves_of_loads, colours, label) in enumerate(rows):
         for c, (name, curves) in enumerate(zip(names, curves_of_loads)):
             n = r*across + c if by_load else r
@@ -136,35 +139,19 @@ def images(picture, range_x, range_y, labels, names, rows, common=None, size=150
             elif common and n == across*down - 1:
                 bar = picture.colours(across - 1, n, common)
             picture.panel(n, x, y_axis, curves, *look, *colours, *bar, title=above)
-    return picture
 
 
-def as_lines(picture):
-    """The map of a profile as a table of one line."""
-    picture, blocks = copy.copy(picture), []
+def take_as_lines(picture):
+    """Puts a table of one line in place of the map of a profile."""
+    blocks = []
     for place, block in enumerate(picture.table.blocks):
-        (row,), *_ = closed(picture.table, place, 1.0, lambda *numbers: numbers)
+        (row,), *_ = closed(picture.table, place, lambda *numbers: numbers, factor=1.0)
         blocks.append(copy.copy(block))
-        blocks[-1].columns = {name: row[k::4] for k, name in ((0, "distance"), (2, "pressure"), (3, "gap"))}
-        blocks[-1].columns["line"] = [1.0]*(len(row)//4)
+        blocks[-1].columns = {"distance": row[::4], "pressure": row[2::4], "gap": row[3::4],
+                              "line": [1.0]*(len(row)//4)}
     picture.table = picture.table.with_blocks(blocks)
     picture.table.names = list(blocks[0].columns)
     picture.tables, picture.beside = [picture.table], {}
-    return picture
-
-
-def cell_of(table):
-    """The sides of the cell: as in the head, otherwise from the points, of which the last is not written."""
-    sides = []
-    for axis_name in "xy":
-        places = sorted(set(table.blocks[0].columns[axis_name]))
-        step = places[1] - places[0] if len(places) > 1 else 1.0
-        sides.append(table.numbers.get(f"cell_{axis_name}", len(places)*step))
-    return sides if len(set(table.blocks[0].columns["y"])) > 1 else sides[:1]
-
-
-def cell_in_head(table):
-    return [table.numbers[name] for name in ("cell_x", "cell_y") if name in table.numbers]
 
 
 def panel_of(cell, size, least=0.45, most=2.2):
@@ -173,16 +160,16 @@ def panel_of(cell, size, least=0.45, most=2.2):
     return size/stretch, size*stretch
 
 
-def closed(table, place, factor, field, names=("pressure", "gap")):
-    """The points of a map in rows for Picture.image: x and y times a factor, and what `field` makes of the named
-    columns. The first column and row stand once more behind the last, of a mirrored map the last ones: the cell is
-    closed. Points that a picture cannot show are left out. Returns the rows and the numbers of points.
+def closed(table, place, field, names=("pressure", "gap"), factor=None):
+    """The points of a map in rows for Picture.image: x and y on the axes, or times a factor, and what `field` makes of
+    the named columns. The first column and row stand once more behind the last, of a mirrored map the last ones: the
+    cell is closed. Points that a picture cannot show are left out. Returns the rows and the numbers of points.
     """
-    block = table.blocks[place].columns
+    block, factor = table.blocks[place].columns, factor or length_of(table).factors[0]
     columns = len(set(block["x"]))
     rows = len(block["x"])//columns
     step = max(1, math.ceil(max(columns, rows)/MOST_PIXELS))
-    cell, records = cell_of(table), []
+    cell, records = table.cell, []
     across = list(range(0, columns, step)) + [columns]
     for j in list(range(0, rows, step)) + ([rows] if rows > 1 else []):
         record = []
@@ -204,16 +191,18 @@ def copies(table, numbers, side):
     return range(1) if table.mirrored else range(-math.floor(max(numbers)/side), 1 - math.floor(min(numbers)/side))
 
 
-def outline(picture, contour, table, load, factor, wide, look=None, dashes=""):
+def outline(picture, table, load, contour=None, size=150, look=None, dashes=""):
     """The edges of contact of a load over one cell, thinner where spots are small, None where lines would hide them.
 
-    table: has the cell. factor: of lengths on the axis. wide: the width of the cell's picture in points. look: of lines
-    that are not left out, in place of that of outlines.
+    table: has the cell. contour: the edges, in place of those beside it. size: of a panel, as of `cells`. look: of
+    lines that are not left out, in place of that of outlines.
     """
+    contour, factor = contour or picture.beside.get("contour"), length_of(table).factors[0]
+    wide = panel_of(table.cell, size)[0]
     blocks = [block for block in (contour.blocks if contour else ()) if block.load == load.blocks[0].load]
     if not blocks:
         return None
-    cell, xs, ys, length, area = cell_of(table) if table is not contour else cell_in_head(table), [], [], 0.0, 0.0
+    cell, xs, ys, length, area = table.cell, [], [], 0.0, 0.0
     for x, y in curves_of(blocks[0]):
         for i in copies(contour, x, cell[0]):
             for j in copies(contour, y, cell[1]):
@@ -241,23 +230,21 @@ def curves_of(block):
 
 def edges(picture):
     """Contours: all loads on one cell, coloured by the load; in 1-D the strips of contact, one above the other."""
-    table, sides = picture.table, cell_in_head(picture.table)
-    loads, length, p_star = picture.loads(MOST_EDGES), Quantity([table], [sides], "cell_x"), table.numbers.get("p*", 1.0)
+    table, sides = picture.table, picture.table.cell
+    loads, length, p_star = picture.loads(MOST_EDGES), length_of(table), table.numbers.get("p*", 1.0)
     found = Quantity([table], [[p_star*load.blocks[0].pbar_over_pstar for load in loads]], "p*")
     axis = found.axis(P_BAR, "mean pressure", up_to=found.factors[0]*table.numbers.get("p*", 0.0))
     loads = list(zip(loads, found.numbers))
     if len(sides) > 1:
-        wide = panel_of(sides, 300)[0]
         colours = [f"set cbrange [{axis.low!r}:{axis.high!r}]",
                    *(("set logscale cb", "set format cb '10^{%T}'") if axis.wide else ())]
-        drawn = [outline(picture, table, table, load, length.factors[0], wide, f"lc palette cb {at!r}")
-                 for load, at in loads]
-        return images(picture, *((0.0, side) for side in length.numbers), [length.label(X), length.label(Y)], [""],
-                      [("", [drawn], colours, axis.label)], size=300)
+        drawn = [outline(picture, table, load, table, 300, f"lc palette cb {at!r}") for load, at in loads]
+        cells(picture, None, [("", [drawn], colours, axis.label)], size=300)
+        return
     strips, marks = [], []
     # A curve is the two ends of a strip, which is drawn as a vector from the first to the second: lines would begin
     # with small spikes, as gnuplot rounds their first point to whole pixels.
-    every = [x for load, _ in loads for x in load.blocks[0].columns["x"]]
+    every = [x for load, _ in loads for x in load.columns["x"]]
     for load, at in loads:
         for x, _ in curves_of(load.blocks[0]):
             for k in copies(table, every, sides[0]):
@@ -265,11 +252,9 @@ def edges(picture):
                 strips.append((ends[0], at, ends[-1] - ends[0], 0.0))
                 marks += [(end, at) for end in ends]
     side = length.numbers[0]
-    picture.grid(390, 216, room=(76, 14, 62, 42))
-    picture.panel(0, Axis(0.0, side, step_of(1.5*side), label=length.label(X)), axis, [
+    picture.single(Axis(0.0, side, step_of(1.5*side), label=length.label(X)), axis, [
         picture.curve("vectors nohead lc rgb blue lw 2", *zip(*strips)),
         picture.curve("points lc rgb blue pt 7 ps 0.4*mark", *zip(*marks))])
-    return picture
 
 
 def series(picture):
@@ -277,18 +262,16 @@ def series(picture):
     table, loads = picture.table, picture.loads(MOST_CURVES)
     dimension = 2 if any(table.column("j")) else 1
     # Coefficients of exactly zero are no less than the least that is shown.
-    sizes = [abs(number) for load in loads for number in load.blocks[0].columns["pressure_over_pstar"] if number]
+    sizes = [abs(number) for load in loads for number in load.columns["pressure_over_pstar"] if number]
     top = max(sizes, default=1.0)
     low = max(min(sizes, default=top/10), 1e-16*top)
     y = decades([low, top], f"coefficient |{{/:Italic A_{'i' if dimension == 1 else '{ij}'}}}|/{P_STAR}", 1.001)
     highest = max(map(math.hypot, table.column("i"), table.column("j")))
     harmonic = "{/:Italic i}" if dimension == 1 else "({/:Italic i}^2 + {/:Italic j}^2)^{1/2}"
-    picture.grid(319, 230, room=(84, 157, 68, 42))
     curves = [picture.curve(f"{look} pt 7 ps 0.7*mark", map(math.hypot, columns["i"], columns["j"]),
                             map(abs, columns["pressure_over_pstar"]), title=title)
               for load in loads for _, columns, look, title in picture.curves_of(load, "points", 1.2)]
-    picture.panel(0, Axis(0, highest + 0.5, label="harmonic " + harmonic), y, curves, key=RIGHT)
-    return picture
+    picture.single(Axis(0, highest + 0.5, label="harmonic " + harmonic), y, curves, key=RIGHT, right=160)
 
 
 def spectra(picture):
@@ -321,23 +304,19 @@ def spectra(picture):
         picture.panel(n, x, y, [picture.curve(f"linespoints ls {31 + k} ps 0.5*mark", *zip(*some),
                                               title=f"along {(X, Y)[k]}" if several else None)
                                 for k, some in enumerate(of_kind)], key="top right samplen 2" if several else "")
-    return picture
 
 
 def heights(picture):
     """Heights over the mean as colours over one cell, grey at the mean; of profiles a curve."""
     table = picture.table
-    column, sides = table.blocks[0].columns["height"], cell_of(table)
-    ends = [min(column), max(column)]
-    height, length = Quantity([table], [ends], "Delta"), Quantity([table], [sides], "cell_x")
-    rows = closed(table, 0, length.factors[0], lambda number: height.of((number,)), ("height",))
-    if len(sides) > 1:
+    ends = [end(table.columns["height"]) for end in (min, max)]
+    height, length = Quantity([table], [ends], "Delta"), length_of(table)
+    rows = closed(table, 0, lambda number: height.of((number,)), ("height",))
+    if len(table.cell) > 1:
         most = max(map(abs, height.numbers)) or 1.0
-        return images(picture, *((0.0, side) for side in length.numbers), [length.label(X), length.label(Y)], [""], [
-            ("", [[picture.image(*rows) + ":3 with image"]], ["eval of_sign", f"set cbrange [{-most!r}:{most!r}]"],
-             height.label("height"))], size=260)
+        cells(picture, None, [("", [[picture.image(*rows) + ":3 with image"]], [
+            "eval of_sign", f"set cbrange [{-most!r}:{most!r}]"], height.label("height"))], size=260)
+        return
     side, row = length.numbers[0], rows[0][0]
-    picture.grid(322, 140, room=(86, 22, 68, 42))
-    picture.panel(0, Axis(0.0, side, step_of(side), label=length.label(X)), height.axis("height", may_be_wide=False),
-                  [picture.curve("lines ls 31", row[::3], row[2::3])])
-    return picture
+    picture.single(Axis(0.0, side, step_of(side), label=length.label(X)), height.axis("height", may_be_wide=False),
+                   [picture.curve("lines ls 31", row[::3], row[2::3])])

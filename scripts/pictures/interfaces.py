@@ -2,19 +2,18 @@
 import math
 
 from axes import Axis, label_of_unit
-from fields import cell_in_head, cell_of, closed, images
-from picture import AREA, MOST_CURVES, MOST_PANELS, P_BAR, P_STAR, SLIP, TRACTION, X, Y, CannotBeDrawn, Quantity, \
+from fields import cells, closed
+from picture import AREA, MOST_CURVES, MOST_PANELS, P_BAR, P_STAR, SLIP, TRACTION, CannotBeDrawn, Quantity, \
     mean_pressure_axis
 
 
 def interface(picture):
     """Contact stiffness against the mean pressure and, if the deck gives resistivities, the resistance."""
-    table, columns = picture.table, picture.table.blocks[0].columns
+    table, columns = picture.table, picture.table.columns
     if not any(number > 0 for number in table.column("contact_stiffness")):
         raise CannotBeDrawn("it has no stiffness")
     units = [label_of_unit(unit) for unit in (table.label("p*"), table.label("Delta"))]
     load, x = mean_pressure_axis([table])
-    picture.grid(326, 210, room=(76, 78, 60, 30))
     names = ["stiffness", "resistance"][:1 + bool(table.column("contact_resistance"))]
     labels = "contact stiffness" + (" [{}/{}]".format(*units) if all(units) else ""), "resistance"
     axes = [Axis.of([number for number in table.column(f"contact_{name}") if number > 0] or [1.0], label)
@@ -22,9 +21,8 @@ def interface(picture):
     both = len(names) > 1
     curves = [picture.curve(f"linespoints ls {31 + n}" + " axes x1y2"*n, load.of(columns["mean_pressure"]),
                             columns[f"contact_{name}"], title=name, joined=True) for n, name in enumerate(names)]
-    picture.panel(0, x, axes[0], curves, *(["set border 11", *axes[1].commands("y2")] if both else []),
-                  key="top center" if both else "")
-    return picture
+    picture.single(x, axes[0], curves, *(["set border 11", *axes[1].commands("y2")] if both else []),
+                   key="top center" if both else "", right=78)
 
 
 def partial_slip(picture):
@@ -34,7 +32,7 @@ def partial_slip(picture):
         raise CannotBeDrawn("the bodies slide under all its loads")
     slip, x = Quantity([table], "displacement", "Delta"), Axis(0, 1, 0.2, label=f"{TRACTION} / ({{/:Italic f p̄}})")
     stick = Quantity([table], "stick_area_fraction")
-    loads = [(load, table.of_rows("load", load).blocks[0].columns)
+    loads = [(load, table.of_rows("load", load).columns)
              for load in sorted(set(table.column("load")))[:MOST_CURVES]]
     picture.grid(227, 210, 2, gaps=(96, 0), room=(77, 13, 54, 36))
     for n, (name, found, label) in enumerate((("stick_area_fraction", stick, (AREA, "stick area")),
@@ -44,20 +42,17 @@ def partial_slip(picture):
                   for k, (load, columns) in enumerate(loads)]
         picture.panel(n, x, found.axis(*label, may_be_wide=False), curves,
                       key="outside top right horizontal samplen 1.5"*n)
-    return picture
 
 
 def slip_loops(picture):
     """Tangential load against displacement, a curve for each block."""
     tables = picture.tables
     slip, traction = Quantity(tables, "displacement", "Delta"), Quantity(tables, "tangential_load", "p*")
-    picture.grid(390, 246, room=(76, 14, 60, 34)).panel(
-        0, slip.axis(SLIP, "displacement", may_be_wide=False),
-        traction.axis(TRACTION, "tangential load", may_be_wide=False), [
-            picture.curve(f"lines ls {31 + k} dt solid", slip.of(block.columns["displacement"]),
-                          traction.of(block.columns["tangential_load"]))
-            for k, block in enumerate(picture.table.blocks[:MOST_CURVES])])
-    return picture
+    curves = [picture.curve(f"lines ls {31 + k} dt solid", slip.of(block.columns["displacement"]),
+                            traction.of(block.columns["tangential_load"]))
+              for k, block in enumerate(picture.table.blocks[:MOST_CURVES])]
+    picture.single(slip.axis(SLIP, "displacement", may_be_wide=False),
+                   traction.axis(TRACTION, "tangential load", may_be_wide=False), curves)
 
 
 def slip_maps(picture):
@@ -65,13 +60,12 @@ def slip_maps(picture):
     table = picture.table
     if table.points:
         raise CannotBeDrawn("maps of slip are drawn from texts: set map_format = 'text' in &output")
-    if len(cell_in_head(table)) < 2:
+    if len(table.cell) < 2:
         raise CannotBeDrawn("the surface is a profile")
-    length, blocks = Quantity([table], [cell_of(table)], "cell_x"), table.blocks[:MOST_PANELS]
-    drawn = [picture.image(*closed(table, place, length.factors[0], lambda state: (state if state > 0 else math.nan,),
-                                   ("slip_state",))) + ":3 with image" for place in range(len(blocks))]
-    return images(picture, *((0, side) for side in length.numbers), [length.label(X), length.label(Y)],
-                  [""]*len(blocks), [("", [[one] for one in drawn], ["eval of_contact", "set cbrange [1:2.7]"], "")])
+    drawn = [picture.image(*closed(table, place, lambda state: (state if state > 0 else math.nan,), ("slip_state",)))
+             for place in range(len(table.blocks[:MOST_PANELS]))]
+    cells(picture, None, [("", [[f"{image}:3 with image"] for image in drawn], ["eval of_contact",
+                                                                              "set cbrange [1:2.7]"], "")])
 
 
 def adhesion(picture):
@@ -87,7 +81,6 @@ def adhesion(picture):
         least = min([-0.1] + [2*number for number in stable if number < 0])
     x = Axis(least, max(numbers, default=1.0), label="force" if free else f"{P_BAR}/{P_STAR}")
     y = Axis.of(table.column(area), "contact area" if free else AREA, may_be_wide=False, up_to=most)
-    picture.grid(390, 246, room=(76, 14, 60, 34))
     curves = []
     for place, kind, look, title in (
             (0, None, "lines ls 4", "not reliable"), (0, "stable", "lines ls 31", "stable"),
@@ -100,5 +93,4 @@ def adhesion(picture):
                      for one, release in zip(block.words["point"], block.columns["most_release_over_w"])]
             curves.append(picture.curve(look, block.columns[column], [
                 number if is_shown else math.nan for number, is_shown in zip(block.columns[area], shown)], title=title))
-    picture.panel(0, x, y, curves, key="bottom right")
-    return picture
+    picture.single(x, y, curves, key="bottom right")

@@ -57,7 +57,7 @@ def summary(picture):
     # not joined: the curve is that of the converged values.
     reference, entries = None, []
     if picture.alone and first.method in ("beale", "series"):
-        reference = Table(REFERENCE).blocks[0].columns if "cell_y" in first.numbers else CLOSED_FORMS
+        reference = Table(REFERENCE).columns if "cell_y" in first.numbers else CLOSED_FORMS
         entries += [entry("lines ls 31", "closed form" if reference is CLOSED_FORMS else "converged"),
                     entry("points ls 11", "the paper's series")]
     with_linear_law = picture.alone and bool(first.column(LINEAR_LAW))
@@ -78,12 +78,12 @@ def summary(picture):
         if reference:
             yield picture.curve("lines ls 31", [full*one for one in loads], [unit*one for one in values])
         if with_linear_law and n == 0:
-            columns = first.blocks[0].columns
+            columns = first.columns
             yield picture.curve("lines ls 33", load.of(columns["mean_pressure"]), found.of(columns[LINEAR_LAW]),
                                 joined=True)
 
     runs = [(run, table, 11 if reference else 31 + run) for run, table in enumerate(picture.tables)]
-    return with_errors(picture, SUMMARY, runs, entries, beside, joined=not reference)
+    with_errors(picture, SUMMARY, runs, entries, beside, joined=not reference)
 
 
 def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda n, found: [],
@@ -120,7 +120,8 @@ def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda 
                                  **kind)
 
         for run, look in zip(rows, looks):
-            curves.append(points(f"lines ls {look}", run, lambda point: joined and point[3] <= NOT_ACCURATE, joined=True))
+            curves.append(points(f"lines ls {look}", run, lambda point: joined and point[3] <= NOT_ACCURATE,
+                                 joined=True))
         for run, look in zip(rows, looks):
             bars = [(at, value - error, 0.0, 2*error) for at, value, error, *_ in run if 0 < error < value]
             curves.append(picture.curve(f"vectors ls {look} dt solid nohead", *zip(*bars)))
@@ -132,13 +133,12 @@ def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda 
         curves.append(points("points ls 42", together, lambda point: point[3] == NOT_ACCURATE))
         picture.panel(n, x, y, curves, key=key(n))
     picture.key(entries, title_high + 0.5*key_high)
-    return picture
 
 
 def points_of(table, load, found, run, column):
     """The points of a run on the axes: load, value, error, status, and whether a good row has an error that is unknown
     or as large as the value. The paper's series knows no errors: it has no such rows."""
-    columns = table.blocks[0].columns
+    columns = table.columns
     errors = columns.get(f"{column}_error")
     if column == "mean_gap":
         errors = [table.numbers.get("Delta", 0.0)*error for error in columns["mean_gap_over_amplitude_error"]]
@@ -172,36 +172,33 @@ def theory(picture):
         if solved:
             drawn.append(("lines ls 36 lw 2.5" if len(loads) > MANY else "points ls 11", solved, column, "solved"))
         picture.panel(n, x, y, [
-            picture.curve(look, of.blocks[0].columns["pbar_over_pstar"], of.blocks[0].columns[name], title=title)
+            picture.curve(look, of.columns["pbar_over_pstar"], of.columns[name], title=title)
             for look, of, name, title in drawn],
                       key="at graph -0.02, 1.03 left bottom font ',10.5' spacing 1.05 samplen 2.4")
-    return picture
 
 
 def details(picture):
     """Details: a panel for each quantity against the load, and the errors of all, in the colours of their panels."""
     table, (loads, x) = picture.table, load_axis(picture.table)
-    columns, size = table.blocks[0].columns, 0 if len(loads) > MANY else 0.7
+    columns, size = table.columns, 0 if len(loads) > MANY else 0.7
     picture.grid(180, 170, 3, 3, shared="x")
     for n, (name, label) in enumerate(DETAILS.items()):
-        length = Quantity([table], name, "cell_x")
-        numbers, label = (length.of(columns[name]), length.label(label)) if name == "perimeter" else (columns[name], label)
-        picture.panel(n, x, Axis.of(numbers, label, may_be_wide=x.wide), [picture.curve(
-            f"linespoints ls {31 + n} dt solid ps {size}*mark", columns["pbar_over_pstar"], numbers)])
+        found = Quantity([table], name, "cell_x" if name == "perimeter" else "", may_be_wide=x.wide)
+        picture.panel(n, x, found.axis(label, may_be_wide=x.wide), [picture.curve(
+            f"linespoints ls {31 + n} dt solid ps {size}*mark", columns["pbar_over_pstar"], found.of(columns[name]))])
     errors = [error for one in DETAILS for error in table.column(one + "_error") if error > 0] or [0.1, 0.5]
     picture.panel(8, x, decades([max(error, 1e-18) for error in errors], "errors, in the colours above"), [
         picture.curve(f"lines ls {k} dt solid", columns["pbar_over_pstar"], columns[one + "_error"], joined=True)
         for k, one in enumerate(DETAILS, 31)])
-    return picture
 
 
 def spots(picture):
     """Numbers of spots and pools, their areas, and percolation, against the mean pressure."""
-    table, columns = picture.table, picture.table.blocks[0].columns
+    table, columns = picture.table, picture.table.columns
     if "p*" in table.numbers:
         loads = [table.numbers["p*"]*number for number in columns["pbar_over_pstar"]]
     elif table.summary:
-        known = table.summary.blocks[0].columns
+        known = table.summary.columns
         of_load = dict(zip(known["load"], known["mean_pressure"]))
         loads = [of_load.get(load, math.nan) for load in columns["load"]]
     else:
@@ -224,18 +221,17 @@ def spots(picture):
             place if percolates == 1 else math.nan for percolates in columns[f"{part}_percolates_{along}"]])
         for place, (part, along) in enumerate(rows, 1)], "set format y '%s'", f"set ytics ({names})",
         "set label 2 'percolates along' at graph 0.5, 1.04 center font ',12'")
-    return picture
 
 
 def spot_sizes(picture):
     """How many spots and pools of each load have at least an area, as steps downwards."""
     loads, kinds = picture.loads(MOST_CURVES), ([], [])
-    areas = [area for load in loads for area in load.blocks[0].columns["area_fraction"] if area > 0]
-    ranks = [rank for load in loads for rank in load.blocks[0].columns["rank"]]
+    areas = [area for load in loads for area in load.columns["area_fraction"] if area > 0]
+    ranks = [rank for load in loads for rank in load.columns["rank"]]
     least = min(areas, default=0.1)/1.6
     picture.grid(355, 251, room=(80, 165, 67, 42))
     for load in loads:
-        columns = load.blocks[0].columns
+        columns = load.columns
         # A pool carries no load, but its rank begins again from 1.
         sizes = list(zip(columns["rank"], columns["area_fraction"]))
         first = next((k for k in range(1, len(sizes)) if sizes[k][0] <= sizes[k - 1][0]), len(sizes))
@@ -251,7 +247,6 @@ def spot_sizes(picture):
     looks = [entry("lines lc rgb blue lw 1.5", "spots"), entry("lines lc rgb red lw 0.8", "pools")]
     picture.panel(0, x, y, kinds[0] + looks, key=RIGHT)
     picture.panel(0, x, y, kinds[1], "unset grid", "eval of_gap", "set cbrange [-0.2:1]")
-    return picture
 
 
 def histogram(picture):
@@ -259,17 +254,16 @@ def histogram(picture):
     loads = picture.loads(MOST_CURVES)
     picture.grid(215, 211, 2, gaps=(90, 0), room=(82, 198, 67, 42))
     for n, (name, unit, symbol) in enumerate((("pressure", "p*", P), ("gap", "Delta", GAP))):
-        numbers = [number for load in loads for number in load.blocks[0].columns[name]]
+        numbers = [number for load in loads for number in load.columns[name]]
         found, size = Quantity(picture.tables, [numbers], unit), picture.table.numbers.get(unit)
         # Without p*, with free edges, densities are those over the numbers on the axis.
         unit_of = found.scale.unit and f" [1/{marked_up(found.scale.unit)}]"
         factor, over = (size, f" × {OVER[unit]}") if size else (1/found.factors[0], unit_of)
         # A bin in which nearly all of the area lies would hide the others.
-        heights = sorted(factor*number for load in loads for number in load.blocks[0].columns[name + "_density"])
+        heights = sorted(factor*number for load in loads for number in load.columns[name + "_density"])
         heights = [0.0] + [number for number in heights if number <= 3*heights[int(0.98*(len(heights) - 1))]]
         y = Axis.of(heights, f"density of {name}{over}", may_be_wide=False)
         curves = [picture.curve(look, found.of(columns[name]), [
             factor*number for number in columns[name + "_density"]], title=title)
                   for load in loads for _, columns, look, title in picture.curves_of(load, "histeps", 1.2)]
         picture.panel(n, found.axis(symbol, name, may_be_wide=False), y, curves, key=RIGHT if n else "")
-    return picture

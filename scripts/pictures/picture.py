@@ -27,20 +27,13 @@ STYLES = ["set style line 41 lc rgb red lw 1.3 pt 2 ps mark", "set style line 42
 
 # A load that is shown: its place in the first table, its block of each table, what it is called, and its colour, from
 # light loads, pale, to heavy ones.
-Load = collections.namedtuple("Load", "place blocks name colour")
+class Load(collections.namedtuple("Load", "place blocks name colour")):
+    __slots__ = ()
+    columns = property(lambda self: self.blocks[0].columns)
 
 
 class CannotBeDrawn(ValueError):
     """There is nothing to be shown."""
-
-
-class Choice:
-    """What the command line chooses to be shown: numbers of loads and of depths, None for as many as there is room for;
-    the column of a colour map; the number of the body, None for the first.
-    """
-
-    def __init__(self, loads=None, depths=None, variable="von_mises", body=None):
-        self.loads, self.depths, self.variable, self.body = loads, depths, variable, body
 
 
 class Quantity:
@@ -123,7 +116,9 @@ class Picture:
     """A picture of tables of one kind: a grid of panels, as commands of gnuplot that follow those of figure_style.gp.
 
     tables: those to be drawn together, one unless runs are compared. beside: tables of the same run, by kind. choice:
-    of what is to be shown. folder: of files for gnuplot. Sizes are in points.
+    what the command line chooses: numbers of `loads` and `depths`, None for as many as there is room for; `variable`,
+    the column of a colour map; the number of the `body`, None for the first. folder: of files for gnuplot. Sizes are in
+    points.
     """
 
     def __init__(self, tables, beside, choice, folder):
@@ -187,8 +182,13 @@ class Picture:
             font = f"noenhanced font ',{points:.3g}'"
         self.commands = [*STYLES, "set border 3 lw 0.7", "set tics nomirror out",
                          "set grid lc rgb '#d9d9d9' lw 0.7 dt solid", "set cbrange [0:1]", "set multiplot",
-                         f"set label 1 {quoted(words)} at screen 0.5, screen {1 - 15/self.height} center {font}", *self.commands]
-        return self
+                         f"set label 1 {quoted(words)} at screen 0.5, screen {1 - 15/self.height} center {font}",
+                         *self.commands]
+
+    def single(self, x, y, curves, *commands, key="", right=14):
+        """A picture of one panel. right: the room beside it."""
+        self.grid(390, 230, room=(80, right, 66, 42))
+        self.panel(0, x, y, curves, *commands, key=key)
 
     def curve(self, look, *columns, title=None, joined=False):
         """A curve as gnuplot's plot wants it, of a look such as 'lines ls 31'; None without numbers.
@@ -231,7 +231,8 @@ class Picture:
         bottom, inset = self.boxes[last][2], 0.05*(self.boxes[last][3] - self.boxes[last][2])
         high = (top - bottom - 2*inset)/self.height
         return [f"set colorbox user origin screen {(left + 8)/self.width!r}, screen {(bottom + inset)/self.height!r} "
-                f"size screen {9/self.width!r}, screen {high!r}", f"set cblabel {lines_of(label)} offset -0.5, 0 {SMALL}",
+                f"size screen {9/self.width!r}, screen {high!r}",
+                f"set cblabel {lines_of(label)} offset -0.5, 0 {SMALL}",
                 "set cbtics font ',11' offset -0.6, 0"]
 
     def key(self, entries, below):

@@ -4,9 +4,9 @@ import math
 import sys
 
 from axes import Axis, axis, step_of
-from fields import MOST_PIXELS, cell_of, closed, images, outline
+from fields import MOST_PIXELS, cells, closed, length_of, outline
 from loading import with_errors
-from picture import DEPTH, MOST_CURVES, MOST_PANELS, RIGHT, X, Y, CannotBeDrawn, Quantity, entry, shown
+from picture import DEPTH, MOST_CURVES, MOST_PANELS, RIGHT, X, CannotBeDrawn, Quantity, entry, shown
 
 # The columns of stresses that can be shown, and their labels: symbol and words.
 SYMBOLS = {"von_mises": ("{/:Italic σ}_{vM}", "von Mises stress"),
@@ -59,7 +59,6 @@ def below_crest(picture):
         curves = [picture.curve(look, stress.of(columns[name], run), depth.of(columns["depth"], run), title=title)
                   for load in loads for run, columns, look, title in picture.curves_of(load)]
         picture.panel(n, x, y, curves + picture.runs("lines"), key=RIGHT if n + 1 == across else "")
-    return picture
 
 
 def section(picture):
@@ -70,11 +69,11 @@ def section(picture):
     sides = [max(table.column("distance")), max(table.column("depth"))]
     length = Quantity([table], [sides], "cell_x")
     wide, deep = length.of(sides)
-    drawn = [picture.image(*resampled(load.blocks[0].columns, picture.choice.variable, length.factors[0],
-                                      stress.factors[0])) + ":3 with image" for load in loads]
-    return images(picture, (0, wide), (deep, 0), [length.label("distance"), length.label(DEPTH, "depth")],
-                  [load.name for load in loads], [("", [[one] for one in drawn], colours_of(stress), "")],
-                  common=stress.label(*SYMBOLS[picture.choice.variable]), true_shape=False)
+    drawn = [picture.image(*resampled(load.columns, picture.choice.variable, length.factors[0], stress.factors[0]))
+             for load in loads]
+    cells(picture, loads, [("", [[f"{image}:3 with image"] for image in drawn], colours_of(stress), "")],
+          common=stress.label(*SYMBOLS[picture.choice.variable]),
+          section=(((0, wide), (deep, 0)), (length.label("distance"), length.label(DEPTH, "depth"))))
 
 
 def planes(picture):
@@ -84,32 +83,30 @@ def planes(picture):
     at_depth = [table.with_blocks([block for block in table.blocks if block.columns["depth"][0] == depth])
                 for depth in depths]
     numbers = shown(table, range(1, len(depths) + 1), MOST_PANELS, picture.choice.depths, "depths")
-    flat = len(set(table.blocks[0].columns["y"])) == 1
+    flat = len(table.cell) == 1
     loads = picture.loads(MOST_CURVES if flat else MOST_PANELS, at_depth[:1])
     stress = stress_of(picture, [at_depth[k].blocks[load.place] for k in numbers for load in loads])
-    length = Quantity([table], [cell_of(table) + depths], "cell_x")
-    sides = length.of(cell_of(table))
+    length = length_of(table)
     names = [length.scale.value(DEPTH, length.factors[0]*depths[k]) for k in numbers]
 
     def points(k, load):
-        return closed(at_depth[k], load.place, length.factors[0], lambda number: stress.of((number,)), (variable,))
+        return closed(at_depth[k], load.place, lambda number: stress.of((number,)), (variable,))
 
     if not flat:
         rows = [(name, [[picture.image(*points(k, load)) + ":3 with image",
-                         outline(picture, picture.beside.get("contour"), at_depth[0], load, length.factors[0], 150,
-                                 dashes="dt (3, 3)")] for load in loads], colours_of(stress), "")
+                         outline(picture, table, load, dashes="dt (3, 3)")] for load in loads], colours_of(stress), "")
                 for k, name in zip(numbers, names)]
-        return images(picture, (0, sides[0]), (0, sides[1]), [length.label(X), length.label(Y)],
-                      [load.name for load in loads], rows, common=stress.label(*SYMBOLS[variable]))
+        cells(picture, loads, rows, common=stress.label(*SYMBOLS[variable]))
+        return
     picture.grid(158, 184, len(names), gaps=(32, 0), room=(78, 143, 56, 50), shared="y")
-    x = Axis(0, sides[0], step_of(1.5*sides[0]), label=length.label(X), font=",12")
+    side = length.numbers[0]
+    x = Axis(0, side, step_of(1.5*side), label=length.label(X), font=",12")
     y = stress.axis(*SYMBOLS[variable], may_be_wide=False)
     for n, (k, name) in enumerate(zip(numbers, names)):
         rows = [points(k, load)[0][0] for load in loads]
         curves = [picture.curve(f"lines {load.colour} lw 1.5", row[::3], row[2::3], title=load.name)
                   for load, row in zip(loads, rows)]
         picture.panel(n, x, y, curves, title=name, key=RIGHT if n + 1 == len(names) else "")
-    return picture
 
 
 def stress_of(picture, blocks):
@@ -168,7 +165,7 @@ def largest(picture):
         """Depths of the largest shear stress, and the yield stress."""
         if n == 2 and alone:
             for run, table, _ in runs:
-                columns = table.blocks[0].columns
+                columns = table.columns
                 yield picture.curve("points ls 11 ps 1.3*mark", load.of(columns["mean_pressure"], run),
                                     found.of(columns["shear_depth"], run))
             yield entry("points ls 31", "von Mises")
@@ -181,5 +178,5 @@ def largest(picture):
         others = [number for run, table, _ in runs for number in found.of(table.column("shear_depth"), run)]
         return [0.0, *others*(n == 2), *[1.0]*(n == 3)]
 
-    return with_errors(picture, LARGEST[:4 if with_yield else 3], runs, entries*(alone and last > first), beside,
-                       also=also, key=lambda n: "bottom right samplen 2"*(n == 2 and alone))
+    with_errors(picture, LARGEST[:4 if with_yield else 3], runs, entries*(alone and last > first), beside, also=also,
+                key=lambda n: "bottom right samplen 2"*(n == 2 and alone))

@@ -193,6 +193,21 @@ class Table:
             return math.sqrt(math.prod(ends))/3 or None
         return self.numbers.get(name, 0.0)/(3 if name == "cell_x" else 1) or None
 
+    @property
+    def columns(self):
+        """The columns of a table that is no series of blocks, or of its first block."""
+        return self.blocks[0].columns
+
+    @property
+    def cell(self):
+        """The sides of the cell, one of a profile: as in the head, otherwise from the points, of which the last is not
+        written."""
+        sides = [self.numbers[name] for name in ("cell_x", "cell_y") if name in self.numbers]
+        for name in () if sides else "xy":
+            places = sorted(set(self.blocks[0].columns[name]))
+            sides.append(len(places)*(places[1] - places[0]) if len(places) > 1 else 0.0)
+        return [side for side in sides if side > 0]
+
     def with_blocks(self, blocks):
         """The same table with some of its blocks alone."""
         part = copy.copy(self)

@@ -316,7 +316,7 @@ class Plot(ProgramTest):
         words = self.drawn("--loads", "2,19", "sweep.lines.dat")
         self.assertIn("p̄/p* = 0.1 p̄/p* = 0.95", words)
         self.assertIn("none of the loads 99", self.plot("--loads", "99", "sweep.lines.dat", status=3)[1])
-        self.assertIn("numbers of loads", self.plot("--loads", "a", "sweep.lines.dat", status=1)[1])
+        self.assertIn("--loads: needs numbers", self.plot("--loads", "a", "sweep.lines.dat", status=1)[1])
 
     def test_stresses(self):
         for kind, words in {"largest": ("von Mises stress σvM/p*", "shear stress τmax/p*", "depth z", "mean pressure p̄/p*"),
@@ -338,7 +338,7 @@ class Plot(ProgramTest):
                                  (("--body", "2", "stress.stress_line.dat"), "no stresses of body 2"),
                                  (("--body", "2", "stress.stress_largest.dat"), "no stresses of body 2")):
             self.assertIn(complaint, self.plot(*words, status=3)[1])
-        self.assertIn("--body needs", self.plot("--body", "3", "stress.stress_line.dat", status=1)[1])
+        self.assertIn("--body: invalid choice", self.plot("--body", "3", "stress.stress_line.dat", status=1)[1])
 
     def test_the_interface(self):
         for table, words in (("interface", ("contact stiffness", "resistance")),
@@ -510,7 +510,7 @@ class Numbers(unittest.TestCase):
                                for j in range(3) for i in range(4))
                 path.write_text("# surface: file, Delta[length] = 1, cell_x[length] = 1, cell_y[length] = 2\n"
                                 "load x y pressure gap displacement undeformed_gap\n" + rows)
-                records, columns, count = fields.closed(Table(path), 0, 1.0, lambda *numbers: numbers)
+                records, columns, count = fields.closed(Table(path), 0, lambda *numbers: numbers)
                 self.assertEqual((5, 4), (columns, count))
                 numbers = [number for record in records for number in record]
                 points = [numbers[4*k:4*k + 4] for k in range(20)]
