@@ -120,13 +120,11 @@ def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda 
                                  **kind)
 
         for run, look in zip(rows, looks):
-            curves.append(points(f"lines ls {look}", run, lambda point: joined and point[3] <= NOT_ACCURATE,
-                                 joined=True))
-        for run, look in zip(rows, looks):
+            if joined:
+                curves.append(points(f"lines ls {look}", run, lambda point: point[3] <= NOT_ACCURATE, joined=True))
             bars = [(at, value - error, 0.0, 2*error) for at, value, error, *_ in run if 0 < error < value]
             curves.append(picture.curve(f"vectors ls {look} dt solid nohead", *zip(*bars)))
-        curves += [points(f"points ls {look}", run, lambda point: point[3] < NOT_ACCURATE)
-                   for run, look in zip(rows, looks)]
+            curves.append(points(f"points ls {look}", run, lambda point: point[3] < NOT_ACCURATE))
         together = [point for run in rows for point in run]
         curves.append(points(OPEN, together, lambda point: point[4] and picture.alone))
         curves.append(points("points ls 41", together, lambda point: point[3] > NOT_ACCURATE))
@@ -252,7 +250,7 @@ def spot_sizes(picture):
 def histogram(picture):
     """Densities of pressure over the contact, and of gap over the open area, times p* and Delta."""
     loads = picture.loads(MOST_CURVES)
-    picture.grid(215, 211, 2, gaps=(90, 0), room=(82, 198, 67, 42))
+    picture.grid(215, 211, 2, gaps=(98, 0), room=(98, 174, 67, 42))
     for n, (name, unit, symbol) in enumerate((("pressure", "p*", P), ("gap", "Delta", GAP))):
         numbers = [number for load in loads for number in load.columns[name]]
         found, size = Quantity(picture.tables, [numbers], unit), picture.table.numbers.get(unit)

@@ -68,7 +68,7 @@ DECKS = {
             "&output map_points = 16 /",
     "free": "&scene pressure_unit = 'MPa', length_unit = 'mm' /\n&surface kind = 'ball', radius = 1, length_x = 0.2, points = 32 /\n"
             "&material e_star = 2 /\n&load force = 1e-4, 1e-3 /\n&stress nu = 0.3 /\n"
-            "&output map = t, contours = t, lines = t, spots = t /",
+            "&output map = t, contours = t, lines = t, spots = t, histograms = t /",
     "pull": "&surface kind = 'ball', radius = 1 /\n&load force = 1e-4 /\n&interface work_of_adhesion = 1e-5 /",
     "map": "&surface kind = 'file', file = 'heights.txt' /\n&load pbar_over_pstar = 0.1, 0.5 /",
 }
@@ -362,6 +362,12 @@ class Plot(ProgramTest):
         self.assertIn("mean pressure", self.drawn("free.spots.dat"))
         self.assertIn("[kPa]", self.drawn("free.spots.dat"))
         self.assertNotIn("error unknown", self.drawn("free.stress_largest.dat"))
+        self.assertIn("density of pressure [1/kPa]", self.drawn("free.histogram.dat"))
+        # Each of the three quantities has a bar at both loads.
+        self.drawn("free.summary.dat")
+        text = (self.folder/"free.summary.svg").read_text(encoding="utf-8")
+        paths = " ".join(re.findall(r"<path stroke='rgb\(  0, 101, 163\)'\s+d='([^']*)'", text))
+        self.assertEqual(6, len(re.findall(r"M([\d.]+),[\d.]+ L\1,", paths)))
         self.run_deck("hertz", DECKS["free"].replace("spots = t", "theory = t") + "\n")
         self.assertIn("no loads over p*", self.plot("hertz.theory.dat", status=3)[1])
 
