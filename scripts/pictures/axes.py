@@ -108,8 +108,10 @@ class Axis:
                 f"set m{name}tics {minor}", f"set format {name} '{form}'",
                 f"set {name}label {lines_of(self.label)} {self.options}"]
 
-    def with_label(self, label, **others):
-        return dataclasses.replace(self, label=label, **others)
+    @classmethod
+    def of(cls, numbers, label, **kind):
+        """The axis of numbers; kind: for `axis`."""
+        return cls(*axis(numbers, **kind), label)
 
     def bare(self, is_bare=True):
         """The axis without label and numbers, beside one that has them."""

@@ -1,8 +1,7 @@
 """How each kind of table is drawn.
 
-Each function of DRAWN takes the tables to be drawn together (one, unless runs are compared), the tables of the same run
-by kind as far as COMPANIONS lists them, the Choice of what is to be shown, and a folder for files that gnuplot reads.
-It returns the Picture, and raises CannotBeDrawn if there is nothing to be shown.
+Each function of DRAWN draws a Picture of its tables (one, unless runs are compared), with the tables of the same run as
+far as COMPANIONS lists them, and raises CannotBeDrawn if there is nothing to be shown.
 """
 from fields import edges, heights, lines, maps, series, spectra
 from interfaces import adhesion, interface, partial_slip, slip_loops, slip_maps

@@ -2,19 +2,25 @@
 import math
 import os
 
-from axes import Axis, axis, decades
-from picture import AREA, AREA_0, DELTA, GAP, MEAN_GAP, MOST_CURVES, OPEN, OPEN_ENTRY, P, P_BAR, P_MAX, P_STAR, X, Y, \
-    CannotBeDrawn, Picture, Quantity, bars, entry, load_names, mean_pressure_axis, mean_pressures, runs_of, shaded, shown
+from axes import Axis, axis, decades, marked_up
+from picture import AREA, DELTA, GAP, MEAN_GAP, MOST_CURVES, OVER, P, P_BAR, P_MAX, P_STAR, RIGHT, X, Y, \
+    CannotBeDrawn, Quantity, entry, mean_pressure_axis
 from table import Table
 
 REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "outputs", "reference", "wave_2d.dat")
-# The status of a grid whose errors may be unknown. Those of the paper's series are NaN too, but never known.
-UNRESOLVED = 4
 # The status of a load that is not accurate. Below are those of solutions, above those of loads that are not solved.
 NOT_ACCURATE = 10
 LINEAR_LAW = "linear_area_fraction"
 NONE = 0.5   # less than one spot, on a logarithmic axis
 MANY = 30    # so many points are joined without marks
+# Above the points whose error is unknown or as large as the value.
+OPEN = "points lc rgb '#ffffff' pt 7 ps 0.35*mark"
+OPEN_ENTRY = "keyentry with points lc rgb blue pt 6 ps 0.7*mark title 'error unknown or as large as the value'"
+ABOVE = "at graph 0, 1.03 left bottom vertical maxrows 3 samplen 1.5"   # the place of a key
+# The panels of summaries: column, unit, symbol, words, whether the axis may be logarithmic, where it ends.
+SUMMARY = (("contact_area_fraction", "", AREA, "contact area", True, 1.0),
+           ("mean_gap", "Delta", MEAN_GAP, "mean gap", False, "Delta"),
+           ("peak_pressure", "p*", P_MAX, "peak pressure", True, None))
 # Converged values of the profile, normalised: Westergaard's and Kuznetsov's closed forms.
 CLOSED_FORMS = (lambda load: 2/math.pi*math.asin(math.sqrt(load)),
                 lambda load: 1 - load + (load*math.log(load) if load > 0 else 0.0), lambda load: 2*math.sqrt(load))
@@ -35,7 +41,7 @@ FORMS = {"kuznetsov_mean_gap_over_amplitude": "Kuznetsov, (20)",
          "light_lattice_mean_gap_over_amplitude": "(29), the whole lattice",
          "hertz_peak_pressure_over_pstar": "Hertz, light loads"}
 # Quantities of details, and those of theory, which are the first: column and label.
-DETAILS = {"contact_area_fraction": f"contact area {AREA}/{AREA_0}",
+DETAILS = {"contact_area_fraction": f"contact area {AREA}",
            "mean_gap_over_amplitude": f"mean gap {MEAN_GAP}/{DELTA}",
            "peak_pressure_over_pstar": f"peak pressure {P_MAX}/{P_STAR}",
            "trough_gap_over_amplitude": f"gap at trough {GAP}/{DELTA}",
@@ -44,99 +50,101 @@ DETAILS = {"contact_area_fraction": f"contact area {AREA}/{AREA_0}",
            "elastic_energy_over_pstar_amplitude": f"elastic energy/({P_STAR}{DELTA})", "perimeter": "perimeter"}
 
 
-def summary(tables, beside, choice, folder):
+def summary(picture):
     """Summaries: contact area, mean gap and peak pressure against the mean pressure."""
-    first, alone = tables[0], len(tables) == 1
-    load, x = mean_pressure_axis(tables)
+    first = picture.table
     # The paper's series is shown beside converged values: its waves have one shape, whatever their size. Its points are
     # not joined: the curve is that of the converged values.
-    reference = None
-    if alone and first.method in ("beale", "series"):
-        reference = Table(REFERENCE).blocks[0].columns if "cell_y" in first.numbers else CLOSED_FORMS
-    with_linear_law = alone and bool(first.column(LINEAR_LAW))
-    panels, is_open, codes = [], False, [code for table in tables for code in table.column("status_code")]
-    for column, error_column, head, over, symbol, words, wide in (
-            ("contact_area_fraction", "contact_area_fraction_error", "", AREA_0, AREA, "contact area", x.wide),
-            ("mean_gap", "mean_gap_over_amplitude_error", "Delta", DELTA, MEAN_GAP, "mean gap", False),
-            ("peak_pressure", "peak_pressure_over_pstar_error", "p*", P_STAR, P_MAX, "peak pressure", x.wide)):
-        found = Quantity(tables, column, head, over, may_be_wide=wide)
-        runs = [with_errors(table, load, found, run, column, error_column, head) for run, table in enumerate(tables)]
-        up_to = {"": 1.0, "Delta": found.factors[0]*first.numbers.get(head, 0.0)}.get(head)
-        y = found.axis(symbol, words, [end for run in runs for _, value, error, _ in run for end in bars(value, error)],
-                       may_be_wide=wide, up_to=up_to)
-        openings = [point[:2] for point in runs[0] if alone and has_no_bar(*point[1:])]
-        is_open = is_open or bool(openings)
-        panels.append((found, y, runs, openings, found.factors[0]*first.numbers.get(head, 0.0 if head else 1.0)))
-    entries = []
-    if reference:
+    reference, entries = None, []
+    if picture.alone and first.method in ("beale", "series"):
+        reference = Table(REFERENCE).columns if "cell_y" in first.numbers else CLOSED_FORMS
         entries += [entry("lines ls 31", "closed form" if reference is CLOSED_FORMS else "converged"),
                     entry("points ls 11", "the paper's series")]
+    with_linear_law = picture.alone and bool(first.column(LINEAR_LAW))
     if with_linear_law:
-        entries += [entry("lines ls 33", "2 p̄/(E* h'), h' the rms slope")]
-    entries += runs_of(tables, "linespoints")
-    entries += [OPEN_ENTRY]*is_open
-    entries += [entry("points ls 42", "not accurate")]*(NOT_ACCURATE in codes)
-    entries += [entry("points ls 41", "not solved")]*any(code > NOT_ACCURATE for code in codes)
-    # Heights of title and key in points: the names of several runs may need two rows.
-    title_high, key_high = (28, 24*(len(entries) > 0)) if alone else (0, 40)
-    picture = Picture(folder, (780, 272 + title_high + key_high), tables)
-    full = first.numbers.get("p*", 0.0)*load.factors[0]   # p* on the axis
-    for n, (found, y, runs, openings, unit) in enumerate(panels):
-        curves = []
+        entries.append(entry("lines ls 33", "2 p̄/(E* h'), h' the rms slope"))
+
+    def beside(n, load, x, found):
+        """The curves that are no solutions: converged values, and for the area the linear law of light loads."""
+        full = first.numbers.get("p*", 0.0)*load.factors[0]   # p* on the axis
+        unit = found.factors[0]*first.numbers.get(SUMMARY[n][1], 1.0)
         if reference is CLOSED_FORMS:
             loads = [k/200 for k in range(201)]
             if x.wide:
                 loads = [min(1.0, x.low/full*(x.high/x.low)**part) for part in loads]
-            points = [(full*one, unit*reference[n](one)) for one in loads]
+            values = list(map(reference[n], loads))
         elif reference:
-            points = [(full*at, unit*one) for at, one in zip(reference["pbar_over_pstar"], reference[list(DETAILS)[n]])]
+            loads, values = (reference[name] for name in ("pbar_over_pstar", list(DETAILS)[n]))
         if reference:
-            curves = [picture.curve("lines ls 31", *zip(*points))]
+            yield picture.curve("lines ls 31", [full*one for one in loads], [unit*one for one in values])
         if with_linear_law and n == 0:
-            curves.append(curve_of_points(picture, "lines ls 33", zip(
-                *(of([number for block in first.blocks for number in block.columns[name]]) for of, name in (
-                    (load.of, "mean_pressure"), (found.of, LINEAR_LAW)))), joined=True))
-        looks = [11 if reference else 31 + r for r in range(len(runs))]
-        if not reference:
-            curves += [curve_of_points(picture, f"lines ls {look}", (
-                point for point in run if point[3] <= NOT_ACCURATE), joined=True) for run, look in zip(runs, looks)]
-        curves += [curve_of_bars(picture, look, run) for run, look in zip(runs, looks)]
-        curves += [curve_of_points(picture, f"points ls {look}", (point for point in run if point[3] < NOT_ACCURATE))
-                   for run, look in zip(runs, looks)]
-        curves.append(curve_of_points(picture, OPEN, openings))
-        rows = [point for run in runs for point in run]
-        curves.append(curve_of_points(picture, "points ls 41", (point for point in rows if point[3] > NOT_ACCURATE)))
-        curves.append(curve_of_points(picture, "points ls 42", (point for point in rows if point[3] == NOT_ACCURATE)))
-        top = 1 - (title_high + key_high + 10)/picture.height
-        picture.panel((0.09 + 0.33*n, 0.32 + 0.33*n, 67.5/picture.height, top), x, y, curves)
-    picture.key(entries, title_high, key_high)
-    return picture
+            columns = first.columns
+            yield picture.curve("lines ls 33", load.of(columns["mean_pressure"]), found.of(columns[LINEAR_LAW]),
+                                joined=True)
+
+    runs = [(run, table, 11 if reference else 31 + run) for run, table in enumerate(picture.tables)]
+    with_errors(picture, SUMMARY, runs, entries, beside, joined=not reference)
 
 
-def with_errors(table, load, found, run, column, error_column, head=""):
-    """The points of a run on the axes: load, value, error, status. head: unit of the errors, '' if they have that of
-    the value."""
-    unit = table.numbers.get(head, 0.0) if head else 1.0
-    return [(load.factors[run]*x, found.factors[run]*y, found.factors[run]*unit*error, code) for block in table.blocks
-            for x, y, error, code in zip(*(block.columns[name] for name in (
-                "mean_pressure", column, error_column, "status_code")))]
+def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda n, found: [],
+                key=lambda n: ""):
+    """Panels against the mean pressure with the points of runs, error bars, and marks of what is not accurate.
+
+    shown: the panels, as in SUMMARY. runs: the number of each run, its table, and the number of its style. entries: of
+    the key. beside: makes the other curves of a panel, of its number, the load, its axis, and the quantity. joined:
+    whether points are. also: numbers that the axis of a panel shows too. key: where that of a panel is.
+    """
+    load, x = mean_pressure_axis(picture.tables)
+    panels, is_open, codes = [], False, [code for _, table, _ in runs for code in table.column("status_code")]
+    for column, unit, *label, may_be_wide, up_to in shown:
+        found = Quantity(picture.tables, column, unit, may_be_wide=x.wide and may_be_wide)
+        rows = [points_of(table, load, found, run, column) for run, table, _ in runs]
+        reach = {"Delta": found.factors[0]*picture.table.numbers.get("Delta", 0.0)}.get(up_to, up_to)
+        ends = [end for run in rows for _, value, error, *_ in run
+                for end in ((value - error, value + error) if error < value else (value,))]
+        y = found.axis(*label, numbers=also(len(panels), found) + ends, may_be_wide=x.wide and may_be_wide, up_to=reach)
+        is_open = is_open or any(point[4] for run in rows for point in run)
+        panels.append((found, y, rows))
+    entries = entries + picture.runs("linespoints") + [OPEN_ENTRY]*(is_open and picture.alone)
+    entries += [entry("points ls 42", "not accurate")]*(NOT_ACCURATE in codes)
+    entries += [entry("points ls 41", "not solved")]*any(code > NOT_ACCURATE for code in codes)
+    # Heights of title and key in points: the names of several runs may need two rows.
+    title_high, key_high = (28, 24*(len(entries) > 0)) if picture.alone else (0, 40)
+    picture.grid(180, 195, len(panels), gaps=(80, 0), room=(70, 10, 67, title_high + key_high + 10))
+    for n, (found, y, rows) in enumerate(panels):
+        curves = list(beside(n, load, x, found))
+        looks = [look for _, _, look in runs]
+
+        def points(look, run, kept, **kind):
+            return picture.curve(look, *zip(*(point[:2] for point in run if kept(point) and math.isfinite(point[1]))),
+                                 **kind)
+
+        for run, look in zip(rows, looks):
+            if joined:
+                curves.append(points(f"lines ls {look}", run, lambda point: point[3] <= NOT_ACCURATE, joined=True))
+            bars = [(at, value - error, 0.0, 2*error) for at, value, error, *_ in run if 0 < error < value]
+            curves.append(picture.curve(f"vectors ls {look} dt solid nohead", *zip(*bars)))
+            curves.append(points(f"points ls {look}", run, lambda point: point[3] < NOT_ACCURATE))
+        together = [point for run in rows for point in run]
+        curves.append(points(OPEN, together, lambda point: point[4] and picture.alone))
+        curves.append(points("points ls 41", together, lambda point: point[3] > NOT_ACCURATE))
+        curves.append(points("points ls 42", together, lambda point: point[3] == NOT_ACCURATE))
+        picture.panel(n, x, y, curves, key=key(n))
+    picture.key(entries, title_high + 0.5*key_high)
 
 
-def has_no_bar(value, error, code):
-    """Whether a good row has an error as large as the value, or one that is unknown: then it is NaN."""
-    return code < NOT_ACCURATE and error > 0 and error >= value or code == UNRESOLVED and math.isnan(error)
-
-
-def curve_of_points(picture, look, points, joined=False):
-    """The points that there are, joined in the order of their loads."""
-    there = [point[:2] for point in points if not any(map(math.isnan, point[:2]))]
-    curve = picture.curve(look, *zip(*there)) if there else None
-    return curve.replace(" with ", " smooth unique with ") if curve and joined else curve
-
-
-def curve_of_bars(picture, look, points):
-    rows = [(x, value - error, 0.0, 2*error) for x, value, error, _ in points if 0 < error < value]
-    return picture.curve(f"vectors ls {look} dt solid nohead", *zip(*rows))
+def points_of(table, load, found, run, column):
+    """The points of a run on the axes: load, value, error, status, and whether a good row has an error that is unknown
+    or as large as the value. The paper's series knows no errors: it has no such rows."""
+    columns = table.columns
+    errors = columns.get(f"{column}_error")
+    if column == "mean_gap":
+        errors = [table.numbers.get("Delta", 0.0)*error for error in columns["mean_gap_over_amplitude_error"]]
+    estimated = errors is not None and table.method not in ("beale", "series")
+    errors = found.of(errors or [math.nan]*len(columns[column]), run)
+    return [(at, value, error, code, estimated and code < NOT_ACCURATE and not (error == 0 or error < value))
+            for at, value, error, code in zip(load.of(columns["mean_pressure"], run), found.of(columns[column], run),
+                                              errors, columns["status_code"])]
 
 
 def load_axis(table):
@@ -144,126 +152,116 @@ def load_axis(table):
     loads = table.column("pbar_over_pstar")
     if not loads:
         raise CannotBeDrawn("it has no loads over p*: a surface with free edges has no p*")
-    return loads, Axis(*axis(loads, up_to=1.0), f"mean pressure {P_BAR}/{P_STAR}")
+    return loads, Axis.of(loads, f"mean pressure {P_BAR}/{P_STAR}", up_to=1.0)
 
 
-def theory(tables, beside, choice, folder):
+def theory(picture):
     """Closed forms against the load, normalised, with the points of the summary."""
-    table, (loads, x) = tables[0], load_axis(tables[0])
-    picture, solved = Picture(folder, (860, 400), tables), beside.get("summary")
+    table, (loads, x) = picture.table, load_axis(picture.table)
+    picture.grid(206, 176, 3, gaps=(73, 0), room=(73, 23, 72, 152))
+    solved = picture.beside.get("summary")
     for n, (column, label) in enumerate(list(DETAILS.items())[:3]):
         found = [form for form in FORMS if form.endswith(column) and table.column(form)]
         # Asymptotes leave the range of the quantity far from where they hold.
         most, up_to = (2.0, None) if column.startswith("peak") else (1.0, 1.0)
-        numbers = [number for form in found for number in table.column(form) if 0 <= number <= most]
-        y = Axis(*axis(numbers + [0.0], may_be_wide=x.wide and "gap" not in column, up_to=up_to), label)
-        columns = table.blocks[0].columns
-        curves = [picture.curve(f"lines ls {k}", columns["pbar_over_pstar"], columns[form], title=FORMS[form])
-                  for k, form in enumerate(found, 31)]
+        numbers = [0.0] + [number for form in found for number in table.column(form) if 0 <= number <= most]
+        y = Axis.of(numbers, label, may_be_wide=x.wide and "gap" not in column, up_to=up_to)
+        drawn = [(f"lines ls {k}", table, form, FORMS[form]) for k, form in enumerate(found, 31)]
         if solved:
-            columns = solved.blocks[0].columns
-            curves.append(picture.curve("lines ls 36 lw 2.5" if len(loads) > MANY else "points ls 11",
-                                        columns["pbar_over_pstar"], columns[column], title="solved"))
-        picture.panel((0.085 + 0.325*n, 0.325*(n + 1), 0.18, 0.62), x, y, curves,
+            drawn.append(("lines ls 36 lw 2.5" if len(loads) > MANY else "points ls 11", solved, column, "solved"))
+        picture.panel(n, x, y, [
+            picture.curve(look, of.columns["pbar_over_pstar"], of.columns[name], title=title)
+            for look, of, name, title in drawn],
                       key="at graph -0.02, 1.03 left bottom font ',10.5' spacing 1.05 samplen 2.4")
-    return picture
 
 
-def details(tables, beside, choice, folder):
+def details(picture):
     """Details: a panel for each quantity against the load, and the errors of all, in the colours of their panels."""
-    table, (loads, x) = tables[0], load_axis(tables[0])
-    picture, columns = Picture(folder, (780, 700), tables), tables[0].blocks[0].columns
-    for n, (name, label) in enumerate([*DETAILS.items(), ("", "errors, in the colours above")]):
-        left, top = 0.09 + 0.33*(n % 3), 0.945 - 0.905/3*(n//3)
-        if name:
-            found = Quantity(tables, name, "cell_x" if name == "perimeter" else "")
-            if name != "perimeter":
-                found.factors = [1.0]
-            y = found.axis(label, may_be_wide=x.wide).with_label(found.label(label) if name == "perimeter" else label)
-            curves = [picture.curve(f"linespoints ls {31 + n} dt solid ps {0 if len(loads) > MANY else 0.7}*mark",
-                                    columns["pbar_over_pstar"], found.of(columns[name]))]
-        else:
-            errors = [error for one in DETAILS for error in table.column(one + "_error") if error > 0] or [0.1, 0.5]
-            y = decades([max(error, 1e-18) for error in errors], label)
-            curves = [curve_of_points(picture, f"lines ls {k} dt solid", zip(
-                columns["pbar_over_pstar"], columns[one + "_error"])) for k, one in enumerate(DETAILS, 31)]
-        picture.panel((left, left + 0.235, top - 0.725/3, top), x.bare(n < 6), y, curves)
-    return picture
+    table, (loads, x) = picture.table, load_axis(picture.table)
+    columns, size = table.columns, 0 if len(loads) > MANY else 0.7
+    picture.grid(180, 170, 3, 3, shared="x")
+    for n, (name, label) in enumerate(DETAILS.items()):
+        found = Quantity([table], name, "cell_x" if name == "perimeter" else "", may_be_wide=x.wide)
+        picture.panel(n, x, found.axis(label, may_be_wide=x.wide), [picture.curve(
+            f"linespoints ls {31 + n} dt solid ps {size}*mark", columns["pbar_over_pstar"], found.of(columns[name]))])
+    errors = [error for one in DETAILS for error in table.column(one + "_error") if error > 0] or [0.1, 0.5]
+    picture.panel(8, x, decades([max(error, 1e-18) for error in errors], "errors, in the colours above"), [
+        picture.curve(f"lines ls {k} dt solid", columns["pbar_over_pstar"], columns[one + "_error"], joined=True)
+        for k, one in enumerate(DETAILS, 31)])
 
 
-def spots(tables, beside, choice, folder):
+def spots(picture):
     """Numbers of spots and pools, their areas, and percolation, against the mean pressure."""
-    table, columns = tables[0], tables[0].blocks[0].columns
-    load, x = mean_pressure_axis(tables, lambda table: list(filter(math.isfinite, mean_pressures(table))))
-    places = load.of(mean_pressures(table))
-    picture = Picture(folder, (900, 310), tables)
-    up = 67.5, picture.height - 95
-    numbers, areas = {"spots": 31, "closed_pools": 32}, {"spots": 31, "largest_spot": 33, "closed_pools": 32}
-    y = axis([number for name in numbers for number in table.column(name)])
-    picture.panel(picture.box(75, 290, *up), x, Axis(*y[:2], max(y[2], 1.0), y[3], "number"), [
-        picture.curve(f"linespoints ls {look} ps 0.7*mark", places, columns[name], title=name.replace("_", " "))
-        for name, look in numbers.items()], key="at graph 0, 1.03 left bottom vertical maxrows 3 samplen 1.5")
-    fractions = [number for name in areas for number in table.column(f"{name}_area_fraction")]
-    y = axis(fractions, may_be_wide=x.wide, up_to=1.0)
-    picture.panel(picture.box(375, 590, *up), x, Axis(*y, f"area {AREA}/{AREA_0}"), [
-        picture.curve(f"linespoints ls {look} ps 0.7*mark", places, columns[f"{name}_area_fraction"],
-                      title={"spots": "contact"}.get(name, name.replace("_", " ")))
-        for name, look in areas.items()], key="at graph 0, 1.03 left bottom vertical maxrows 3 samplen 1.5")
+    table, columns = picture.table, picture.table.columns
+    if "p*" in table.numbers:
+        loads = [table.numbers["p*"]*number for number in columns["pbar_over_pstar"]]
+    elif table.summary:
+        known = table.summary.columns
+        of_load = dict(zip(known["load"], known["mean_pressure"]))
+        loads = [of_load.get(load, math.nan) for load in columns["load"]]
+    else:
+        raise CannotBeDrawn("its loads are in the summary of the run, which is not beside it")
+    load, x = mean_pressure_axis([table], [list(filter(math.isfinite, loads))])
+    picture.grid(215, 148, 3, gaps=([85, 115], 0), room=(75, 20, 67, 95))
+    number = axis(table.column("spots") + table.column("closed_pools"))
+    names = {"spots": 31, "largest_spot": 33, "closed_pools": 32}
+    fractions = [part for name in names for part in table.column(f"{name}_area_fraction")]
+    for n, ending, y in ((0, "", Axis(*number[:2], max(number[2], 1.0), number[3], "number")),
+                         (1, "_area_fraction", Axis.of(fractions, f"area {AREA}", may_be_wide=x.wide, up_to=1.0))):
+        picture.panel(n, x, y, [
+            picture.curve(f"linespoints ls {look} ps 0.7*mark", load.of(loads), columns[name + ending],
+                          title="contact" if name == "spots" and n == 1 else name.replace("_", " "))
+            for name, look in names.items() if name + ending in columns], key=ABOVE)
     rows = [(part, along) for part in ("gap", "contact") for along in "yx"]
     names = ", ".join(f"'{part}, {X if along == 'x' else Y}' {place}" for place, (part, along) in enumerate(rows, 1))
-    picture.panel(picture.box(705, 865, *up), x, Axis(0.5, 4.5), [
-        curve_of_points(picture, f"points ls {31 if part == 'contact' else 32}", (
-            (at, place) for at, percolates in zip(places, columns[f"{part}_percolates_{along}"]) if percolates == 1))
+    picture.panel(2, x, Axis(0.5, 4.5), [
+        picture.curve(f"points ls {31 if part == 'contact' else 32}", load.of(loads), [
+            place if percolates == 1 else math.nan for percolates in columns[f"{part}_percolates_{along}"]])
         for place, (part, along) in enumerate(rows, 1)], "set format y '%s'", f"set ytics ({names})",
         "set label 2 'percolates along' at graph 0.5, 1.04 center font ',12'")
-    return picture
 
 
-def spot_sizes(tables, beside, choice, folder):
+def spot_sizes(picture):
     """How many spots and pools of each load have at least an area, as steps downwards."""
-    table = tables[0]
-    places = shown(table, choice.loads, MOST_CURVES)
-    areas = [area for area in table.column("area_fraction", places) if area > 0]
+    loads, kinds = picture.loads(MOST_CURVES), ([], [])
+    areas = [area for load in loads for area in load.columns["area_fraction"] if area > 0]
+    ranks = [rank for load in loads for rank in load.columns["rank"]]
     least = min(areas, default=0.1)/1.6
-    picture, kinds = Picture(folder, (600, 360), tables), ([], [])
-    names = load_names(table, places)
-    for i, place in enumerate(places):
-        columns = table.blocks[place].columns
+    picture.grid(355, 251, room=(80, 165, 67, 42))
+    for load in loads:
+        columns = load.columns
         # A pool carries no load, but its rank begins again from 1.
         sizes = list(zip(columns["rank"], columns["area_fraction"]))
         first = next((k for k in range(1, len(sizes)) if sizes[k][0] <= sizes[k - 1][0]), len(sizes))
         for curves, part, width, title in (
-                (kinds[0], sizes[:first], 1.5, names[i]), (kinds[1], sizes[first:], 0.8, None)):
+                (kinds[0], sizes[:first], 1.5, load.name), (kinds[1], sizes[first:], 0.8, None)):
             # From the largest downwards, to the edge of the picture; none lies below it.
             steps = [(area, rank) for rank, area in part if area > 0] or [(least, NONE)]
             steps = [(steps[0][0], NONE), *steps, (least, steps[-1][1])]
-            curves.append(picture.curve(f"steps {shaded(i, len(places), width)}", *zip(*steps), title=title))
-    x = Axis(least, max(areas, default=1.0)*1.6, wide=True, label=f"area {AREA}/{AREA_0}")
-    y = Axis(0.8, 1.6*max(table.column("rank", places), default=1.0), wide=True, label="number of at least this area")
-    box = picture.box(80, picture.width - 165, 67.5, picture.height - 42)
+            curves.append(picture.curve(f"steps {load.colour} lw {width}", *zip(*steps), title=title))
+    x = Axis(least, max(areas, default=1.0)*1.6, wide=True, label=f"area {AREA}")
+    y = Axis(0.8, 1.6*max(ranks, default=1.0), wide=True, label="number of at least this area")
     # Spots are blue; pools, orange and thin, have a plot of their own over this one, for its colours.
     looks = [entry("lines lc rgb blue lw 1.5", "spots"), entry("lines lc rgb red lw 0.8", "pools")]
-    picture.panel(box, x, y, kinds[0] + looks,
-                  key=f"at screen {1 - 155/picture.width}, graph 1 left top samplen 1.5")
-    picture.panel(box, x, y, kinds[1], "unset grid", "eval of_gap", "set cbrange [-0.2:1]")
-    return picture
+    picture.panel(0, x, y, kinds[0] + looks, key=RIGHT)
+    picture.panel(0, x, y, kinds[1], "unset grid", "eval of_gap", "set cbrange [-0.2:1]")
 
 
-def histogram(tables, beside, choice, folder):
+def histogram(picture):
     """Densities of pressure over the contact, and of gap over the open area, times p* and Delta."""
-    table = tables[0]
-    places = shown(table, choice.loads, MOST_CURVES)
-    names, picture = load_names(table, places), Picture(folder, (800, 320), tables)
-    for left, name, unit, over, symbol in ((82, "pressure", "p*", P_STAR, P), (387, "gap", "Delta", DELTA, GAP)):
-        found, size = Quantity(tables, name, unit, over), table.numbers.get(unit, 1.0)
-        x = found.axis(symbol, name, found.of(table.column(name, places)), may_be_wide=False)
+    loads = picture.loads(MOST_CURVES)
+    picture.grid(215, 211, 2, gaps=(98, 0), room=(98, 174, 67, 42))
+    for n, (name, unit, symbol) in enumerate((("pressure", "p*", P), ("gap", "Delta", GAP))):
+        numbers = [number for load in loads for number in load.columns[name]]
+        found, size = Quantity(picture.tables, [numbers], unit), picture.table.numbers.get(unit)
+        # Without p*, with free edges, densities are those over the numbers on the axis.
+        unit_of = found.scale.unit and f" [1/{marked_up(found.scale.unit)}]"
+        factor, over = (size, f" × {OVER[unit]}") if size else (1/found.factors[0], unit_of)
         # A bin in which nearly all of the area lies would hide the others.
-        heights = sorted(size*number for number in table.column(name + "_density", places))
+        heights = sorted(factor*number for load in loads for number in load.columns[name + "_density"])
         heights = [0.0] + [number for number in heights if number <= 3*heights[int(0.98*(len(heights) - 1))]]
-        y = Axis(*axis(heights, may_be_wide=False), f"density of {name} × {over}")
-        curves = [picture.curve("histeps " + shaded(i, len(places), 1.2), found.of(columns[name]),
-                                [size*number for number in columns[name + "_density"]], title=names[i])
-                  for i, columns in enumerate(table.blocks[place].columns for place in places)]
-        picture.panel(picture.box(left, left + 215, 67.5, picture.height - 42), x, y, curves,
-                      key="at graph 1.03, 1 left top samplen 1.5" if name == "gap" else "")
-    return picture
+        y = Axis.of(heights, f"density of {name}{over}", may_be_wide=False)
+        curves = [picture.curve(look, found.of(columns[name]), [
+            factor*number for number in columns[name + "_density"]], title=title)
+                  for load in loads for _, columns, look, title in picture.curves_of(load, "histeps", 1.2)]
+        picture.panel(n, found.axis(symbol, name, may_be_wide=False), y, curves, key=RIGHT if n else "")

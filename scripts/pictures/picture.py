@@ -1,5 +1,7 @@
-"""What all pictures are made of: quantities on axes, and panels of curves and images as commands of gnuplot."""
+"""What all pictures are made of: quantities on axes, the loads that are shown, and a grid of panels as commands of
+gnuplot."""
 import array
+import collections
 import math
 import os
 import re
@@ -10,101 +12,66 @@ from axes import Axis, Scale, axis, chosen, lines_of, quoted
 # Symbols in gnuplot's enhanced mode.
 P, P_BAR, DELTA, GAP, MEAN_GAP, X, Y, DEPTH, SLIP, TRACTION = (f"{{/:Italic {one}}}" for one in (
     "p", "p̄", "Δ", "g", "ḡ", "x", "y", "z", "s", "Q"))
-P_STAR, P_MAX, AREA_0, AREA = P + "*", P + "_{max}", "{/:Italic A}_0", "{/:Italic A}"
+P_STAR, P_MAX, AREA = P + "*", P + "_{max}", "{/:Italic A}/{/:Italic A}_0"
+# The numbers of the head by which quantities are divided if their unit has no label.
+OVER = {"p*": P_STAR, "Delta": DELTA}
 # At most so many loads are shown as panels, as curves, or as edges of contact.
 MOST_PANELS, MOST_CURVES, MOST_EDGES = 4, 8, 20
-# Points of a map along a side that a picture can show.
-MOST_PIXELS = 800
 # Sizes of the letters of titles in points, and the width of a letter over its size, about.
 LARGEST, SMALLEST, LETTER = 15.0, 10.0, 0.45
 SMALL = "font ',12'"
 KEY = f"spacing 1.15 samplen 3.2 noautotitle Left reverse {SMALL}"
-# Points that are not accurate, and that are not solved; points whose error is unknown or as large as the value.
+RIGHT = "at graph 1.03, 1 left top samplen 1.5"   # the place of a key that names loads
+# Points that are not accurate, and that are not solved.
 STYLES = ["set style line 41 lc rgb red lw 1.3 pt 2 ps mark", "set style line 42 lc rgb red lw 1.3 pt 6 ps 1.3*mark"]
-OPEN = "points lc rgb '#ffffff' pt 7 ps 0.35*mark"
-OPEN_ENTRY = "keyentry with points lc rgb blue pt 6 ps 0.7*mark title 'error unknown or as large as the value'"
+
+# A load that is shown: its place in the first table, its block of each table, what it is called, and its colour, from
+# light loads, pale, to heavy ones.
+class Load(collections.namedtuple("Load", "place blocks name colour")):
+    __slots__ = ()
+    columns = property(lambda self: self.blocks[0].columns)
 
 
 class CannotBeDrawn(ValueError):
     """There is nothing to be shown."""
 
 
-class Choice:
-    """What the command line chooses to be shown: numbers of loads and of depths, None for as many as there is room for;
-    the column of a colour map; the number of the body, None for the first.
-    """
-
-    def __init__(self, loads=None, depths=None, variable="von_mises", body=None):
-        self.loads, self.depths, self.variable, self.body = loads, depths, variable, body
-
-
 class Quantity:
     """A quantity of several tables: its scale, and the factor for each table.
 
-    column: its name, or a function that gives the numbers of a table. name: of the number of the head by which they are
-    divided if their unit has no label. over: its symbol, '' if they are not to be divided. may_be_wide: whether the
-    axis may be logarithmic, then without powers of ten in its label.
+    column: its name, or the numbers of each table. unit: the number of the head that has its unit, by which it is
+    divided if that has no label. may_be_wide: whether the axis may be logarithmic, then without powers of ten in its
+    label.
     """
 
-    def __init__(self, tables, column, name="", over="", may_be_wide=False):
-        self.tables, self.name = tables, column
-        numbers_of = column if callable(column) else lambda table: table.column(column)
-        labels = {table.label(name) for table in tables}
-        unit = labels.pop() if len(labels) == 1 else ""
-        divisors = [1.0 if unit or not name or not over else table.numbers.get(name) or 0.0 for table in tables]
+    def __init__(self, tables, column, unit="", may_be_wide=False):
+        numbers_of = [table.column(column) for table in tables] if isinstance(column, str) else column
+        labels, over = {table.label(unit) for table in tables}, OVER.get(unit, "")
+        label = labels.pop() if len(labels) == 1 else ""
+        divisors = [1.0 if label or not over else table.numbers.get(unit) or 0.0 for table in tables]
         if not all(divisors):
             over, divisors = "", [1.0]*len(tables)
-        numbers = [number/divisor for table, divisor in zip(tables, divisors) for number in numbers_of(table)]
-        most = max((abs(number) for number in numbers), default=0.0)
-        self.scale = Scale(1.0 if may_be_wide and axis(numbers)[-1] else most, unit, over, tables[0].size_of(name))
+        numbers = [number/divisor for divisor, some in zip(divisors, numbers_of) for number in some]
+        most = 1.0 if may_be_wide and axis(numbers)[-1] else max(map(abs, numbers), default=0.0)
+        self.scale = Scale(most, label, over, tables[0].size_of(unit))
         self.factors = [self.scale.factor/divisor for divisor in divisors]
+        self.numbers = [self.scale.factor*number for number in numbers]   # all of them on the axis
         self.label = self.scale.label
 
     def of(self, numbers, run=0):
         """Numbers of a table on the axis."""
         return [self.factors[run]*number for number in numbers]
 
-    def all(self, column=None):
-        """All finite numbers of a column, its own unless another is named, on the axis."""
-        return [number for run, table in enumerate(self.tables)
-                for number in self.of(table.column(column or self.name), run)]
-
     def axis(self, symbol, words="", numbers=None, **kind):
         """Its axis, for its own numbers unless others are given."""
-        return Axis(*axis(self.all() if numbers is None else numbers, **kind), self.label(symbol, words))
-
-
-def bars(value, error):
-    """The ends of an error bar, as far as the error is known and smaller than the value."""
-    reach = error if error < value else 0.0   # an error that is unknown is NaN
-    return value - reach, value + reach
-
-
-def of_loads(table):
-    """The mean pressures of the blocks."""
-    return [table.numbers.get("p*", 1.0)*block.pbar_over_pstar for block in table.blocks
-            if math.isfinite(block.pbar_over_pstar)]
-
-
-def mean_pressures(table):
-    """The mean pressure of each row of a table with a row for each load that has it over p* alone. With free edges,
-    where there is no p*, it is that of the summary of the same run."""
-    columns = table.blocks[0].columns
-    if "p*" in table.numbers:
-        return [table.numbers["p*"]*number for number in columns["pbar_over_pstar"]]
-    if not table.summary:
-        raise CannotBeDrawn("its loads are in the summary of the run, which is not beside it")
-    known = table.summary.blocks[0].columns
-    of_load = dict(zip(known["load"], known["mean_pressure"]))
-    return [of_load.get(load, math.nan) for load in columns["load"]]
+        return Axis.of(self.numbers if numbers is None else numbers, self.label(symbol, words), **kind)
 
 
 def mean_pressure_axis(tables, column="mean_pressure"):
     """The mean pressure and its axis."""
-    load = Quantity(tables, column, "p*", P_STAR, may_be_wide=True)
+    load = Quantity(tables, column, "p*", may_be_wide=True)
     full = load.factors[0]*tables[0].numbers.get("p*", 0.0) if len(tables) == 1 else 0.0
-    numbers = load.all() if isinstance(column, str) else load.of(column(tables[0]))
-    return load, load.axis(P_BAR, "mean pressure", numbers, up_to=full)
+    return load, load.axis(P_BAR, "mean pressure", up_to=full)
 
 
 def names_of(tables):
@@ -114,11 +81,6 @@ def names_of(tables):
         names = [os.path.join(*table.stem.split(os.sep)[-2:]) for table in tables]
     # Bytes that are not UTF-8 cannot be shown.
     return [name.encode("utf-8", "replace").decode("utf-8") for name in names]
-
-
-def unmarked(text):
-    """A text for gnuplot's enhanced mode that is shown as it is."""
-    return re.sub(r"([\\{}_@&~^])", r"\\\1", text)
 
 
 def fitted(case, title, width):
@@ -135,59 +97,114 @@ def fitted(case, title, width):
     return (words if len(words) <= most else words[:most - 1].rstrip() + "…"), size
 
 
-def shown(table, loads, most):
-    """The places of the blocks to be shown. What is left out is said."""
-    if loads is not None:
-        places = [i for i, block in enumerate(table.blocks) if block.load in loads]
+def shown(table, numbers, most, wanted, kind):
+    """The places to be shown of loads or depths of these numbers: those that are wanted, otherwise at most so many,
+    evenly spread. What is left out is said."""
+    if wanted is not None:
+        places = [place for place, number in enumerate(numbers) if number in wanted]
         if not places:
-            raise CannotBeDrawn(f"it has none of the loads {', '.join(str(load) for load in loads)}")
+            raise CannotBeDrawn(f"it has none of the {kind} {', '.join(map(str, wanted))}")
         return places
-    places = chosen(len(table.blocks), most)
-    if len(places) < len(table.blocks):
-        numbers = ",".join(str(table.blocks[i].load) for i in places)
-        print(f"plot: {table.path}: {len(places)} of its {len(table.blocks)} loads are shown, --loads {numbers}; "
-              "choose others with --loads", file=sys.stderr)
+    places = chosen(len(numbers), most)
+    if len(places) < len(numbers):
+        print(f"plot: {table.path}: {len(places)} of its {len(numbers)} {kind} are shown, --{kind} "
+              f"{','.join(str(numbers[place]) for place in places)}; choose others with --{kind}", file=sys.stderr)
     return places
 
 
-def load_names(table, places):
-    """What the loads are called."""
-    load = Quantity([table], of_loads, "p*", P_STAR)
-    p_star = table.numbers.get("p*", 1.0)
-    return [load.scale.value(P_BAR, load.factors[0]*p_star*table.blocks[i].pbar_over_pstar) for i in places]
-
-
-def shaded(i, count, width=1.5):
-    """The look of the curve of a load: from light loads, pale, to heavy ones."""
-    return f"lc palette cb {0.6 if count == 1 else i/(count - 1)} lw {width}"
-
-
 class Picture:
-    """A picture of panels, as commands of gnuplot that follow those of figure_style.gp. Sizes are in points."""
+    """A picture of tables of one kind: a grid of panels, as commands of gnuplot that follow those of figure_style.gp.
 
-    def __init__(self, folder, size, tables, loads=""):
-        """folder: of files for gnuplot. loads: those of runs that are compared, shown in place of a title."""
-        self.folder, (self.width, self.height) = folder, size
-        words, font = loads, SMALL
-        if len(tables) == 1:
-            words, points = fitted(names_of(tables)[0], tables[0].title, self.width)
+    tables: those to be drawn together, one unless runs are compared. beside: tables of the same run, by kind. choice:
+    what the command line chooses: numbers of `loads` and `depths`, None for as many as there is room for; `variable`,
+    the column of a colour map; the number of the `body`, None for the first. folder: of files for gnuplot. Sizes are in
+    points.
+    """
+
+    def __init__(self, tables, beside, choice, folder):
+        self.tables, self.table, self.beside, self.choice, self.folder = tables, tables[0], beside, choice, folder
+        self.alone = len(tables) == 1
+        self.compared = ""   # the loads at which runs are compared
+        self.count, self.commands = 0, []
+
+    def loads(self, most, tables=None):
+        """The loads to be shown: of runs that are compared those that all tables have, in panels' number."""
+        first, *others = tables or self.tables
+        loads = []
+        for place, block in enumerate(first.blocks):
+            found = [next((one for one in table.blocks if math.isclose(
+                one.pbar_over_pstar, block.pbar_over_pstar, rel_tol=1e-6)), None) for table in others]
+            if None not in found:
+                loads.append((place, [block, *found]))
+        if not loads:
+            raise CannotBeDrawn("the tables have no load in common")
+        if others and self.choice.loads is None:
+            places = chosen(len(loads), MOST_PANELS)
+        else:
+            places = shown(first, [blocks[0].load for _, blocks in loads], most, self.choice.loads, "loads")
+        p_star = first.numbers.get("p*", 1.0)
+        pressures = [[p_star*block.pbar_over_pstar for block in first.blocks if math.isfinite(block.pbar_over_pstar)]]
+        load = Quantity([first], pressures, "p*")
+        found = []
+        for n, (place, blocks) in enumerate(loads[one] for one in places):
+            name = load.scale.value(P_BAR, load.factors[0]*p_star*blocks[0].pbar_over_pstar)
+            colour = 0.6 if len(places) == 1 else n/(len(places) - 1)
+            found.append(Load(place, blocks, name, f"lc palette cb {colour}"))
+        self.compared = ", ".join(load.name for load in found) if others else ""
+        return found
+
+    def curves_of(self, load, kind="lines", width=1.5):
+        """What is drawn of a load, a curve for each run: the number of the run, its columns, look and title."""
+        if self.alone:
+            return [(0, load.blocks[0].columns, f"{kind} {load.colour} lw {width}", load.name)]
+        return [(run, block.columns, f"{kind} ls {31 + run}", None) for run, block in enumerate(load.blocks)]
+
+    def grid(self, wide, high, across=1, down=1, gaps=(78, 42), room=(70, 16, 67, 42), shared=""):
+        """Sets the size: panels in rows from the top, numbered from 0.
+
+        wide: of all panels, or of each column. gaps: between columns (of all, or of each) and rows. room: at the left,
+        right, lower and upper edge. shared: the axes, "x", "y" or "xy", that have a label and numbers at the left and
+        lower edge alone.
+        """
+        widths = wide if isinstance(wide, list) else [wide]*across
+        beside = gaps[0] if isinstance(gaps[0], list) else [gaps[0]]*(len(widths) - 1)
+        left, right, bottom, top = room
+        self.across, self.down, self.shared = len(widths), down, shared
+        self.width = left + sum(widths) + sum(beside) + right
+        self.height = top + down*high + (down - 1)*gaps[1] + bottom
+        lefts = [left + sum(widths[:k]) + sum(beside[:k]) for k in range(self.across)]
+        tops = [self.height - top - k*(high + gaps[1]) for k in range(down)]
+        self.boxes = [(start, start + width, upper - high, upper) for upper in tops
+                      for start, width in zip(lefts, widths)]
+        words, font = self.compared, SMALL
+        if self.alone:
+            words, points = fitted(names_of(self.tables)[0], self.table.title, self.width)
             font = f"noenhanced font ',{points:.3g}'"
-        self.count = 0
         self.commands = [*STYLES, "set border 3 lw 0.7", "set tics nomirror out",
                          "set grid lc rgb '#d9d9d9' lw 0.7 dt solid", "set cbrange [0:1]", "set multiplot",
-                         f"set label 1 {quoted(words)} at screen 0.5, screen {1 - 15/self.height} center {font}"]
+                         f"set label 1 {quoted(words)} at screen 0.5, screen {1 - 15/self.height} center {font}",
+                         *self.commands]
 
-    def curve(self, look, *columns, title=None):
-        """A curve or an image as gnuplot's plot wants it, of a look such as 'lines ls 31'; None without numbers."""
-        rows = [" ".join(map(repr, row)) for row in zip(*columns)]
-        if not rows:
+    def single(self, x, y, curves, *commands, key="", right=14):
+        """A picture of one panel. right: the room beside it."""
+        self.grid(390, 230, room=(80, right, 66, 42))
+        self.panel(0, x, y, curves, *commands, key=key)
+
+    def curve(self, look, *columns, title=None, joined=False):
+        """A curve as gnuplot's plot wants it, of a look such as 'lines ls 31'; None without numbers.
+
+        It is interrupted where a number is NaN, unless it is joined in the order of the numbers along x.
+        """
+        rows = [row for row in zip(*columns) if not (joined and any(map(math.isnan, row)))]
+        if not any(all(map(math.isfinite, row)) for row in rows):
             return entry(look, title) if title else None
         self.count += 1
-        self.commands += [f"$data{self.count} << END", *rows, "END"]
-        return f"$data{self.count} using {':'.join(map(str, range(1, len(columns) + 1)))} {with_look(look, title)}"
+        self.commands += [f"$data{self.count} << END", *(" ".join(map(repr, row)) for row in rows), "END"]
+        return f"$data{self.count} using {':'.join(map(str, range(1, len(columns) + 1)))} " \
+            f"{'smooth unique ' if joined else ''}{with_look(look, title)}"
 
     def image(self, records, across, down):
-        """A file of records of x, y and fields, which `field` draws. records: their rows."""
+        """A file of records of x, y and fields, to which ':3 with image' is added. records: their rows."""
         self.count += 1
         path = os.path.join(self.folder, f"image{self.count}")
         with open(path, "wb") as file:
@@ -196,33 +213,38 @@ class Picture:
                 fields = len(row)//across
         return f"{quoted(path)} binary record=({across}, {down}) format='{'%double'*fields}' using 1:2"
 
-    def panel(self, box, x, y, curves, *commands, key="", title=""):
-        """Draws a panel. box: its left, right, bottom and top over the picture's, None for gnuplot's margin.
-
-        commands: others before it is drawn. key: where it is; without it there is none.
-        """
-        for side, place in zip("lrbt", box):
-            self.commands.append(f"unset {side}margin" if place is None else f"set {side}margin at screen {place!r}")
-        self.commands += x.commands("x") + y.commands("y")
+    def panel(self, n, x, y, curves, *commands, key="", title=""):
+        """Draws a panel of the grid. commands: others before it. key: where it is; without it there is none."""
+        left, right, bottom, top = self.boxes[n]
+        for side, place in (("l", left/self.width), ("r", right/self.width), ("b", bottom/self.height),
+                            ("t", top/self.height)):
+            self.commands.append(f"set {side}margin at screen {place!r}")
+        self.commands += x.bare("x" in self.shared and n//self.across < self.down - 1).commands("x")
+        self.commands += y.bare("y" in self.shared and n % self.across > 0).commands("y")
         self.commands += ["set key default", f"set key {KEY} {key}"] if key else ["unset key"]
         self.commands += [f"set title {quoted(title)} offset 0, -0.6 {SMALL}" if title else "unset title", *commands]
-        self.commands += ["plot " + ", ".join(filter(None, curves or ["NaN"])), "unset label 1"]
+        self.commands += ["plot " + ", ".join(list(filter(None, curves)) or ["NaN"]), "unset label 1"]
 
-    def box(self, left, right, bottom, top):
-        """A box for `panel`, from points."""
-        return left/self.width, right/self.width, bottom/self.height, top/self.height
+    def colours(self, first, last, label):
+        """The commands of a bar of colours beside panels of a column, from the first to the last."""
+        _, left, _, top = self.boxes[first]
+        bottom, inset = self.boxes[last][2], 0.05*(self.boxes[last][3] - self.boxes[last][2])
+        high = (top - bottom - 2*inset)/self.height
+        return [f"set colorbox user origin screen {(left + 8)/self.width!r}, screen {(bottom + inset)/self.height!r} "
+                f"size screen {9/self.width!r}, screen {high!r}",
+                f"set cblabel {lines_of(label)} offset -0.5, 0 {SMALL}",
+                "set cbtics font ',11' offset -0.6, 0"]
 
-    def colours(self, box, wide, label, options="", font=""):
-        """The commands of a bar of colours in a box."""
-        return [f"set colorbox user origin screen {box[0]!r}, screen {box[2]!r} size screen {wide/self.width!r}, "
-                f"screen {box[3] - box[2]!r}", f"set cblabel {lines_of(label)} offset -0.5, 0 {font}",
-                f"set cbtics {options}"]
+    def key(self, entries, below):
+        """A key as wide as the picture, so far below its upper edge."""
+        self.boxes.append((0.02*self.width, 0.985*self.width, 0.9*self.height, 0.99*self.height))
+        where = f"at screen 0.5, {1 - below/self.height} center center horizontal maxrows 1 samplen 2 width 1"
+        self.panel(-1, Axis(0, 1), Axis(0, 1), ["NaN", *entries], "unset border", "unset tics", "unset grid", key=where)
 
-    def key(self, entries, title_high, key_high):
-        """A key as wide as the picture, below the title."""
-        where = f"at screen 0.5, {1 - (title_high + 0.5*key_high)/self.height} center center horizontal maxrows 1"
-        self.panel((0.02, 0.985, 0.9, 0.99), Axis(0, 1), Axis(0, 1), ["NaN", *entries], "unset border", "unset tics",
-                   "unset grid", key=where + " samplen 2 width 1")
+    def runs(self, kind):
+        """The entries of a key for runs that are compared."""
+        names = [] if self.alone else names_of(self.tables)
+        return [entry(f"{kind} ls {31 + run}", unmarked(name)) for run, name in enumerate(names)]
 
 
 def with_look(look, title):
@@ -234,7 +256,6 @@ def entry(look, title):
     return f"keyentry {with_look(look, title)}"
 
 
-def runs_of(tables, kind):
-    """The entries of a key for runs that are compared."""
-    names = names_of(tables) if len(tables) > 1 else []
-    return [entry(f"{kind} ls {31 + run}", unmarked(name)) for run, name in enumerate(names)]
+def unmarked(text):
+    """A text for gnuplot's enhanced mode that is shown as it is."""
+    return re.sub(r"([\\{}_@&~^])", r"\\\1", text)

@@ -157,6 +157,8 @@ class Table:
             if len(within) == 2:
                 block.body = place//within[1] % within[0] + 1
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}
+            if self.names == ["height"]:
+                block.columns.update(x=list(range(columns))*rows, y=[j for j in range(rows) for _ in range(columns)])
             self.blocks.append(block)
 
     @property
@@ -171,7 +173,12 @@ class Table:
         self.surface, self.method, self.title = summary.surface, summary.method, summary.title
         of_load = summary.column("pbar_over_pstar" if "p*" in summary.numbers else "mean_pressure")
         for block in self.blocks:
-            if self.kind != "height" and block.load <= len(of_load):
+            if self.kind == "height":
+                # Places are numbers of points until the cell is known.
+                for name, count in zip("xy", self.points):
+                    step = self.numbers.get(f"cell_{name}", count)/count
+                    block.columns[name] = [step*number for number in block.columns[name]]
+            elif block.load <= len(of_load):
                 block.pbar_over_pstar = of_load[block.load - 1]
 
     def size_of(self, name):
@@ -185,6 +192,21 @@ class Table:
                     max(self.summary.column("peak_pressure"), default=0.0)] if self.summary else [0.0]
             return math.sqrt(math.prod(ends))/3 or None
         return self.numbers.get(name, 0.0)/(3 if name == "cell_x" else 1) or None
+
+    @property
+    def columns(self):
+        """The columns of a table that is no series of blocks, or of its first block."""
+        return self.blocks[0].columns
+
+    @property
+    def cell(self):
+        """The sides of the cell, one of a profile: as in the head, otherwise from the points, of which the last is not
+        written."""
+        sides = [self.numbers[name] for name in ("cell_x", "cell_y") if name in self.numbers]
+        for name in () if sides else "xy":
+            places = sorted(set(self.blocks[0].columns[name]))
+            sides.append(len(places)*(places[1] - places[0]) if len(places) > 1 else 0.0)
+        return [side for side in sides if side > 0]
 
     def with_blocks(self, blocks):
         """The same table with some of its blocks alone."""

@@ -6,7 +6,6 @@
 !> grids, each weighted by its points over those of the last. The last line has the most iterations on a last grid.
 module bench_iteration_count
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: contact_area_counted
    use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
 
@@ -41,6 +40,7 @@ program bench_iterations
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
+   use wavycon_quantities, only: contact_area_counted
    use wavycon_self_affine, only: self_affine_spectrum, self_affine_surface
    use wavycon_surface, only: surface_type
    implicit none (type, external)

@@ -68,7 +68,7 @@ DECKS = {
             "&output map_points = 16 /",
     "free": "&scene pressure_unit = 'MPa', length_unit = 'mm' /\n&surface kind = 'ball', radius = 1, length_x = 0.2, points = 32 /\n"
             "&material e_star = 2 /\n&load force = 1e-4, 1e-3 /\n&stress nu = 0.3 /\n"
-            "&output map = t, contours = t, lines = t, spots = t /",
+            "&output map = t, contours = t, lines = t, spots = t, histograms = t /",
     "pull": "&surface kind = 'ball', radius = 1 /\n&load force = 1e-4 /\n&interface work_of_adhesion = 1e-5 /",
     "map": "&surface kind = 'file', file = 'heights.txt' /\n&load pbar_over_pstar = 0.1, 0.5 /",
 }
@@ -316,7 +316,7 @@ class Plot(ProgramTest):
         words = self.drawn("--loads", "2,19", "sweep.lines.dat")
         self.assertIn("p̄/p* = 0.1 p̄/p* = 0.95", words)
         self.assertIn("none of the loads 99", self.plot("--loads", "99", "sweep.lines.dat", status=3)[1])
-        self.assertIn("numbers of loads", self.plot("--loads", "a", "sweep.lines.dat", status=1)[1])
+        self.assertIn("--loads: needs numbers", self.plot("--loads", "a", "sweep.lines.dat", status=1)[1])
 
     def test_stresses(self):
         for kind, words in {"largest": ("von Mises stress σvM/p*", "shear stress τmax/p*", "depth z", "mean pressure p̄/p*"),
@@ -338,7 +338,7 @@ class Plot(ProgramTest):
                                  (("--body", "2", "stress.stress_line.dat"), "no stresses of body 2"),
                                  (("--body", "2", "stress.stress_largest.dat"), "no stresses of body 2")):
             self.assertIn(complaint, self.plot(*words, status=3)[1])
-        self.assertIn("--body needs", self.plot("--body", "3", "stress.stress_line.dat", status=1)[1])
+        self.assertIn("--body: invalid choice", self.plot("--body", "3", "stress.stress_line.dat", status=1)[1])
 
     def test_the_interface(self):
         for table, words in (("interface", ("contact stiffness", "resistance")),
@@ -362,6 +362,12 @@ class Plot(ProgramTest):
         self.assertIn("mean pressure", self.drawn("free.spots.dat"))
         self.assertIn("[kPa]", self.drawn("free.spots.dat"))
         self.assertNotIn("error unknown", self.drawn("free.stress_largest.dat"))
+        self.assertIn("density of pressure [1/kPa]", self.drawn("free.histogram.dat"))
+        # Each of the three quantities has a bar at both loads.
+        self.drawn("free.summary.dat")
+        text = (self.folder/"free.summary.svg").read_text(encoding="utf-8")
+        paths = " ".join(re.findall(r"<path stroke='rgb\(  0, 101, 163\)'\s+d='([^']*)'", text))
+        self.assertEqual(6, len(re.findall(r"M([\d.]+),[\d.]+ L\1,", paths)))
         self.run_deck("hertz", DECKS["free"].replace("spots = t", "theory = t") + "\n")
         self.assertIn("no loads over p*", self.plot("hertz.theory.dat", status=3)[1])
 
@@ -510,7 +516,7 @@ class Numbers(unittest.TestCase):
                                for j in range(3) for i in range(4))
                 path.write_text("# surface: file, Delta[length] = 1, cell_x[length] = 1, cell_y[length] = 2\n"
                                 "load x y pressure gap displacement undeformed_gap\n" + rows)
-                records, columns, count = fields.closed(Table(path), 0, 1.0, lambda *numbers: numbers)
+                records, columns, count = fields.closed(Table(path), 0, lambda *numbers: numbers)
                 self.assertEqual((5, 4), (columns, count))
                 numbers = [number for record in records for number in record]
                 points = [numbers[4*k:4*k + 4] for k in range(20)]
