@@ -378,7 +378,7 @@ contains
       point%energy_error = 0.0_dp
    end subroutine find_point_of_line_wave
 
-   !> By expansions with a singular edge: src/core/fitted/README.md, section 17.
+   !> By expansions with a singular edge: src/core/fitted/README.md, section 15.
    subroutine find_point_of_lattice(curve, point, start)
       type(adhesive_curve), intent(in) :: curve
       type(adhesive_point), intent(inout) :: point

@@ -172,7 +172,7 @@ contains
          end associate
          of_chord = self%node_weight
          if (self%kernel_power == 3) then
-            ! W_j(s_0) of README.md (F32), from T_0 and T_1 at the target's place s_0; (F67), from U_(-2) and U_(-1).
+            ! W_j(s_0) of README.md (F32), from T_0 and T_1 at the target's place s_0; (F68), from U_(-2) and U_(-1).
             of_chord = 0.0_dp
             t = [1.0_dp, -middle/half]
             if (self%edge_power < 1.0_dp) t = [-1.0_dp, 0.0_dp]

@@ -8,7 +8,7 @@
 !>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).   (F12)
 !>
 !> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations
-!> can only be met with the right edge. With adhesion the weight has this term, and the equations of the edge (F66) give
+!> can only be met with the right edge. With adhesion the weight has this term, and the equations of the edge (F67) give
 !> it the strength that the work of adhesion asks for. The equations are more than the unknowns, which are the
 !> coefficients, a spot's approach or, with adhesion, a pool's load, and the shape.
 module wavycon_contact_equations
@@ -150,7 +150,7 @@ contains
       if (size(self%edge) > 0) call linearise_edge(self, now)
    end subroutine linearise
 
-   !> The equations of the edge, README.md (F66), after those of the targets: sum of c_i P_i(w) = the strength that the
+   !> The equations of the edge, README.md (F67), after those of the targets: sum of c_i P_i(w) = the strength that the
    !> work of adhesion asks for. They are scaled to be as large as the others.
    subroutine linearise_edge(self, now)
       class(contact_equations), intent(inout) :: self

@@ -48,7 +48,7 @@ contains
       measures(load_measure) = now%load
       scale = measures
       if (now%work > 0.0_dp) then
-         ! The tensions of (F70) and (F71).
+         ! The tensions of (F71) and (F72).
          at_edge = sqrt(now%work/(2*sqrt(now%area/pi)))
          associate (of_load => merge(at_edge, 4*at_edge*now%area/(pi*lattice%area), now%pool))
             scale([peak_measure, load_measure, centre_measure]) = abs(measures([peak_measure, load_measure, &

@@ -176,7 +176,7 @@ contains
       if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
    end subroutine raise_degree
 
-   !> The derivatives of load and approach with respect to the area, README.md (F69).
+   !> The derivatives of load and approach with respect to the area, README.md (F70).
    subroutine set_area_slopes(answer, lattice, equations)
       type(fitted_answer), intent(inout) :: answer             !! with a solution with adhesion
       type(wave_lattice), intent(in) :: lattice

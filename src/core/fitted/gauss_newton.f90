@@ -70,7 +70,7 @@ contains
    end subroutine solve
 
    !> One step, README.md (F40): minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing
-   !> load; with adhesion subject to the area, (F68).
+   !> load; with adhesion subject to the area, (F69).
    !>
    !> The step is shortened to a change of the shape of `longest_shape_change`.
    subroutine step(self, equations, lattice, now)
@@ -164,7 +164,7 @@ contains
 
    end subroutine changes_with_load
 
-   !> The derivatives of the unknowns with respect to the area of an adhesive spot or pool, README.md (F69).
+   !> The derivatives of the unknowns with respect to the area of an adhesive spot or pool, README.md (F70).
    subroutine change_with_area(equations, lattice, now, change, finite)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice

@@ -170,7 +170,7 @@ contains
    !> An expansion of low degree over a circle or, with two-fold symmetry, an ellipse: a Hertzian spot at a crest,
    !> README.md (F41) and (23) of the paper, or the opening of a penny-shaped crack at a trough, (F42) and (24),
    !> (A4)-(A8) of the paper; elliptical where the curvatures of the crest, or of the full contact's pressure, differ.
-   !> With adhesion at a given area: (F70), (F71).
+   !> With adhesion at a given area: (F71), (F72).
    function asymptote(lattice, load, pool, work, area) result(now)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load   !! P > 0, of a crack less than the closing pressure; without adhesion

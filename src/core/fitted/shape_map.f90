@@ -228,7 +228,7 @@ contains
    end function tangent
 
    !> What 1 - |w|^2 is next to the edge over the distance from it, 2 |dz/dphi|/J, and the derivatives of its logarithm
-   !> with respect to the coefficients: README.md (F65).
+   !> with respect to the coefficients: README.md (F66).
    pure subroutine linearise_edge(self, w, ratio, log_slope)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w                   !! |w| = 1
