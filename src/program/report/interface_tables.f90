@@ -6,7 +6,7 @@
 !> <case>.adhesion.dat: the contact with adhesion. Blocks: the curve of load and approach against area; pull-off, jumps
 !> and ends of branches; the loads.
 module wavycon_interface_tables
-   use wavycon_adhesive_curve, only: adhesive_point, at_approach, at_load, closed, not_solved, &
+   use wavycon_adhesive_contact, only: adhesive_point, at_approach, at_load, closed, not_solved, &
       point_names, separated
    use wavycon_contact_status, only: no_load, status_code, status_name
    use wavycon_kinds, only: dp

@@ -3,7 +3,8 @@
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_adhesive_curve, only: add_load, at_approach, at_load, follow_curve, point_names
+   use wavycon_adhesive_contact, only: at_approach, at_load, point_names
+   use wavycon_adhesive_curve, only: add_load, follow_curve
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
