@@ -53,7 +53,7 @@ module wavycon_adhesive_contact
       type(surface_type) :: surface
       logical :: has_closed_form = .true.
       type(fitted_frame) :: frame        !! of a wave on a lattice, which has no closed form
-      real(dp) :: pull = 0.0_dp          !! F_c of a ball (I20) over p* A_0
+      real(dp) :: pull = 0.0_dp          !! F_c of a ball (I17) over p* A_0
       real(dp) :: work = 0.0_dp          !! w' > 0 [p* Delta]
       real(dp) :: accuracy = 0.0_dp      !! largest error of P [p*] and approach [Delta], > 0
    contains
@@ -100,7 +100,7 @@ contains
       if (.not. maxval(point%error) <= self%accuracy) point%status = not_accurate
    end subroutine find_point
 
-   !> By (I19), (I20), (I24): the load P1 of Hertz's contact of the same area less the tension T = 2 sqrt(F_c P1).
+   !> By (I17), (I18): the load P1 of Hertz's contact of the same area less the tension T = 2 sqrt(F_c P1).
    subroutine find_point_of_ball(self, point)
       class(adhesive_problem), intent(in) :: self
       type(adhesive_point), intent(inout) :: point
@@ -123,7 +123,7 @@ contains
       point%energy_error = 0.0_dp
    end subroutine find_point_of_ball
 
-   !> By (I21), (I24): Johnson (1995). P1 = sin^2 psi is the load of the same strip without adhesion, psi = pi area/2.
+   !> By (I16), (I18): Johnson (1995). P1 = sin^2 psi is the load of the same strip without adhesion, psi = pi area/2.
    subroutine find_point_of_line_wave(self, point)
       class(adhesive_problem), intent(in) :: self
       type(adhesive_point), intent(inout) :: point

@@ -63,7 +63,7 @@ contains
       type(adhesive_curve), intent(inout) :: curve
       real(dp), intent(in) :: largest_load
 
-      !> P1 of the first point over that of pull-off, or over w' of a wave (I18).
+      !> P1 of the first point over that of pull-off, or over w' of a wave (I21).
       real(dp), parameter :: least_over_pull = 1e-3_dp
       real(dp) :: area, least, most, p1
       integer :: i
@@ -94,8 +94,8 @@ contains
       end do
    end subroutine follow_closed_form
 
-   !> By steps of the radius, from one that is smaller than that of pull-off from spots (I22) or of the jump from pools
-   !> (I23) until spots or pools are about to touch.
+   !> By steps of the radius, from one that is smaller than that of pull-off from spots or of the jump from pools, (I20),
+   !> until the approach has its last extreme, which is before spots or pools touch.
    subroutine follow_branch(curve, pools)
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools
