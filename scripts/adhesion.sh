@@ -66,7 +66,7 @@ set bmargin at screen 0.155
 set tmargin at screen 0.915
 set xlabel load offset 0, 0.3
 set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
-set xrange [-0.42:0.78]
+set xrange [-0.42:0.98]
 set yrange [0:1]
 set xtics 0.2 format '%.1f'
 set ytics 0.2 format '%.1f'
@@ -85,7 +85,7 @@ plot for [i = 1:5] approximate using (chosen(i) ? column(P) : NaN):A with lines 
         with points pt 2 ps 0.6*mark lw 1.3 lc rgb colours[i], \
      for [i = 1:5] NaN with lines lc rgb colours[i] lw 1.9 title w.' = '.word(curves, i), \
      NaN with lines lc rgb black lw 1.1 dt (3, 2) title 'unstable under a load', \
-     NaN with points pt 2 ps 0.6*mark lw 1.3 lc rgb black title 'spots or pools touch', \
+     NaN with points pt 2 ps 0.6*mark lw 1.3 lc rgb black title 'end of a branch', \
      NaN with lines ls 5 title 'superposition'
 
 # Right: pull-off and jumps.
