@@ -31,7 +31,7 @@ for w in $all; do
       block == 2 && NF > 0 {
          print w, $place["branch"], $place["point"], $place["pbar_over_pstar"], $place["contact_area_fraction"]
       }' "outputs/adhesion_$w/adhesion_$w.adhesion.dat" >>"$points"
-   # The approximate theory's curve; its pull-off, from spots, and its jump into full contact, from pools.
+   # The approximate theory's curve; its pull-off, from spots and from pools, and its jump into full contact.
    LC_ALL=C awk -v w="$w" -v curve="$approximate" '
       FNR == 1 { found = 0; file++ }
       /^#/ { next }
@@ -40,18 +40,26 @@ for w in $all; do
       $place["mean_gap_curvature"] > 0 {
          unloaded = $place["pbar_over_pstar"]
          p = unloaded - sqrt(2*w*$place["contact_area_slope"]/$place["mean_gap_curvature"])
+         if (unloaded > 0.2286 && pools == 0) print "" >>curve
          print w, p, area[$place["load"]] >>curve
-         if (unloaded > 0.2286) { if (most == "" || p > most) most = p } else if (p < least) least = p
+         if (unloaded < 0.2286) { if (p < least) least = p; next }
+         load[++pools] = p
+         if (p > load[most]) most = pools
+         if (pools == 1) most = 1
       }
       END {
          print "" >>curve
-         print w, "superposition", "pull_off", least, "NaN"
-         print w, "superposition", "jump_to_full_contact", most, "NaN"
+         print w, "superposition_spots", "pull_off", least, "NaN"
+         print w, "superposition", "jump_to_full_contact", load[most], "NaN"
+         for (i = 2; i < most; i++) if (load[i] < load[i - 1] && load[i] < load[i + 1])
+            print w, "superposition_pools", "pull_off", load[i], "NaN"
       }' outputs/adhesion_superposition/adhesion_superposition.summary.dat \
       outputs/adhesion_superposition/adhesion_superposition.interface.dat >>"$points"
 done
 draw_figure 720 345 "curves = '$curves'" "points = '$points'" "approximate = '$approximate'" <<'END'
 set datafile columnheaders
+# Rows of the other branch do not interrupt a curve.
+set datafile missing NaN
 set multiplot
 set border 3 lw 0.7
 set tics out nomirror
@@ -66,7 +74,7 @@ set bmargin at screen 0.155
 set tmargin at screen 0.915
 set xlabel load offset 0, 0.3
 set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
-set xrange [-0.42:0.78]
+set xrange [-0.4:1.05]
 set yrange [0:1]
 set xtics 0.2 format '%.1f'
 set ytics 0.2 format '%.1f'
@@ -80,10 +88,10 @@ plot for [i = 1:5] approximate using (chosen(i) ? column(P) : NaN):A with lines 
      for [i = 1:5] for [branch in 'spots pools'] curve(i) index 2 using P:(is(branch, 0)) \
         with lines lc rgb colours[i] lw 1.1 dt (3, 2), \
      for [i = 1:5] for [branch in 'spots pools'] curve(i) index 2 using P:(is(branch, 1)) \
-        with lines lc rgb colours[i] lw 1.9, \
+        with lines lc rgb colours[i] lw 1.6, \
      for [i = 1:5] points using (chosen(i) && strcol('point') eq 'end_of_branch' ? column(P) : NaN):A \
         with points pt 2 ps 0.6*mark lw 1.3 lc rgb colours[i], \
-     for [i = 1:5] NaN with lines lc rgb colours[i] lw 1.9 title w.' = '.word(curves, i), \
+     for [i = 1:5] NaN with lines lc rgb colours[i] lw 1.6 title w.' = '.word(curves, i), \
      NaN with lines lc rgb black lw 1.1 dt (3, 2) title 'unstable under a load', \
      NaN with points pt 2 ps 0.6*mark lw 1.3 lc rgb black title 'spots or pools touch', \
      NaN with lines ls 5 title 'superposition'
@@ -99,8 +107,7 @@ set xtics 0.1
 set title 'pull-off and jumps' offset 0, -0.5
 set key top right samplen 2.2
 of(branch, point) = strcol('branch') eq branch && strcol('point') eq point ? column(P) : NaN
-set datafile missing NaN
-plot points using 'w':(of('superposition', 'pull_off')) with lines ls 5, \
+plot for [branch in 'spots pools'] points using 'w':(of('superposition_'.branch, 'pull_off')) with lines ls 5, \
      points using 'w':(of('superposition', 'jump_to_full_contact')) with lines ls 5 title 'superposition', \
      points using 'w':(of('pools', 'jump_to_full_contact')) with linespoints ls 31 dt solid title 'jump into full contact', \
      points using 'w':(of('spots', 'jump_to_pools')) with linespoints ls 33 dt solid title 'jump from spots to pools', \

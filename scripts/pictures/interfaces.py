@@ -69,6 +69,9 @@ def slip_maps(picture):
                                                                               "set cbrange [1:2.7]"], "")])
 
 
+# How stretches of a curve with adhesion are drawn, by how their contacts are stable.
+STABILITY = {"stable": ("solid", "stable"), "stable_by_approach": ("(6, 3)", "stable by approach"),
+             "unstable": ("(1.5, 2.5)", "unstable")}
 # The critical points of a curve with adhesion: their names, looks and titles.
 CRITICAL = (("pull_off", 7, "pull-off"), ("jump_to_spots", 11, "jump to spots"),
             ("jump_to_pools", 9, "jump to pools"), ("jump_to_full_contact", 5, "jump into full contact"),
@@ -119,11 +122,6 @@ def adhesion(picture):
                                    name))
         drawn.append(points_of(picture, loads, scales, (across, up), "pt 1 ps 1.1*mark lc rgb black lw 1.2"))
         picture.panel(panel, x, y, drawn + titles*panel, key=RIGHT if panel else "")
-
-
-# How stretches of a curve with adhesion are drawn, by how their contacts are stable.
-STABILITY = {"stable": ("solid", "stable"), "stable_by_approach": ("(6, 3)", "stable by approach"),
-             "unstable": ("(1.5, 2.5)", "unstable")}
 
 
 def stretches(table, branch, load):
