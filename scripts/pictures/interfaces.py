@@ -109,7 +109,7 @@ def adhesion(picture):
     titles += [entry(f"points pt {mark} ps 0.85*mark lc rgb red lw 1.2", title) for name, mark, title in CRITICAL
                if name in critical.words["point"]]
     titles += [entry("points pt 1 ps 1.1*mark lc rgb black lw 1.2", "the loads")]*bool(loads.columns[load])
-    picture.grid(240, 240, 2, gaps=(88, 0), room=(72, 168, 62, 40))
+    picture.grid(240, 250, 2, gaps=(88, 0), room=(72, 160, 62, 40))
     for panel, (across, up, x, y) in enumerate(((load, area, of_load, of_area), ("approach", load, of_approach, of_load))):
         drawn = []
         for branch, colour in (("spots", "blue"), ("pools", "green")):
@@ -121,7 +121,7 @@ def adhesion(picture):
             drawn.append(points_of(picture, critical, scales, (across, up), f"pt {mark} ps 0.85*mark lc rgb red lw 1.2",
                                    name))
         drawn.append(points_of(picture, loads, scales, (across, up), "pt 1 ps 1.1*mark lc rgb black lw 1.2"))
-        picture.panel(panel, x, y, drawn + titles*panel, key=RIGHT if panel else "")
+        picture.panel(panel, x, y, drawn + titles*panel, key=f"{RIGHT} spacing 1 font ',11'" if panel else "")
 
 
 def stretches(table, branch, load):
