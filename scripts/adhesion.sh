@@ -31,7 +31,7 @@ for w in $all; do
       block == 2 && NF > 0 {
          print w, $place["branch"], $place["point"], $place["pbar_over_pstar"], $place["contact_area_fraction"]
       }' "outputs/adhesion_$w/adhesion_$w.adhesion.dat" >>"$points"
-   # The approximate theory's curve; its pull-off, from spots, and its jump into full contact, from pools.
+   # The approximate theory's curve, and its extremes between both ends of spots and of pools.
    LC_ALL=C awk -v w="$w" -v curve="$approximate" '
       FNR == 1 { found = 0; file++ }
       /^#/ { next }
@@ -40,18 +40,30 @@ for w in $all; do
       $place["mean_gap_curvature"] > 0 {
          unloaded = $place["pbar_over_pstar"]
          p = unloaded - sqrt(2*w*$place["contact_area_slope"]/$place["mean_gap_curvature"])
+         if (unloaded > 0.2286 && pools == 0) print "" >>curve
          print w, p, area[$place["load"]] >>curve
-         if (unloaded > 0.2286) { if (most == "" || p > most) most = p } else if (p < least) least = p
+         if (unloaded < 0.2286) { of_spots[++spots] = p; next }
+         load[++pools] = p
+         if (pools == 1 || p > load[most]) most = pools
       }
       END {
          print "" >>curve
-         print w, "superposition", "pull_off", least, "NaN"
-         print w, "superposition", "jump_to_full_contact", most, "NaN"
+         for (i = 2; i < spots; i++) {
+            if (!least && of_spots[i] < of_spots[i - 1] && of_spots[i] < of_spots[i + 1]) least = i
+            if (least && of_spots[i] > of_spots[i - 1] && of_spots[i] > of_spots[i + 1]) largest = i
+         }
+         if (least) print w, "superposition_spots", "pull_off", of_spots[least], "NaN"
+         if (largest) print w, "superposition_spots", "jump_to_pools", of_spots[largest], "NaN"
+         print w, "superposition", "jump_to_full_contact", load[most], "NaN"
+         for (i = 2; i < most; i++) if (load[i] < load[i - 1] && load[i] < load[i + 1])
+            print w, "superposition_pools", "pull_off", load[i], "NaN"
       }' outputs/adhesion_superposition/adhesion_superposition.summary.dat \
       outputs/adhesion_superposition/adhesion_superposition.interface.dat >>"$points"
 done
 draw_figure 720 345 "curves = '$curves'" "points = '$points'" "approximate = '$approximate'" <<'END'
 set datafile columnheaders
+# Rows of the other branch do not interrupt a curve.
+set datafile missing NaN
 set multiplot
 set border 3 lw 0.7
 set tics out nomirror
@@ -59,14 +71,14 @@ P = 'pbar_over_pstar'
 A = 'contact_area_fraction'
 w = '{/:Italic w}/('.p_star.' '.Delta.')'
 
-# Left: area against load.
+# Left: area against load. Under the largest work of adhesion no spots are stable.
 set lmargin at screen 0.07
 set rmargin at screen 0.455
 set bmargin at screen 0.155
 set tmargin at screen 0.915
 set xlabel load offset 0, 0.3
 set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
-set xrange [-0.42:0.98]
+set xrange [-0.4:1.05]
 set yrange [0:1]
 set xtics 0.2 format '%.1f'
 set ytics 0.2 format '%.1f'
@@ -79,11 +91,11 @@ chosen(i) = column('w') == real(word(curves, i))
 plot for [i = 1:5] approximate using (chosen(i) ? column(P) : NaN):A with lines ls 5, \
      for [i = 1:5] for [branch in 'spots pools'] curve(i) index 2 using P:(is(branch, 0)) \
         with lines lc rgb colours[i] lw 1.1 dt (3, 2), \
-     for [i = 1:5] for [branch in 'spots pools'] curve(i) index 2 using P:(is(branch, 1)) \
-        with lines lc rgb colours[i] lw 1.9, \
+     for [i = 1:4] curve(i) index 2 using P:(is('spots', 1)) with lines lc rgb colours[i] lw 1.6, \
+     for [i = 1:5] curve(i) index 2 using P:(is('pools', 1)) with lines lc rgb colours[i] lw 1.6, \
      for [i = 1:5] points using (chosen(i) && strcol('point') eq 'end_of_branch' ? column(P) : NaN):A \
         with points pt 2 ps 0.6*mark lw 1.3 lc rgb colours[i], \
-     for [i = 1:5] NaN with lines lc rgb colours[i] lw 1.9 title w.' = '.word(curves, i), \
+     for [i = 1:5] NaN with lines lc rgb colours[i] lw 1.6 title w.' = '.word(curves, i), \
      NaN with lines lc rgb black lw 1.1 dt (3, 2) title 'unstable under a load', \
      NaN with points pt 2 ps 0.6*mark lw 1.3 lc rgb black title 'end of a branch', \
      NaN with lines ls 5 title 'superposition'
@@ -99,10 +111,11 @@ set xtics 0.1
 set title 'pull-off and jumps' offset 0, -0.5
 set key top right samplen 2.2
 of(branch, point) = strcol('branch') eq branch && strcol('point') eq point ? column(P) : NaN
-set datafile missing NaN
-plot points using 'w':(of('superposition', 'pull_off')) with lines ls 5, \
+plot for [branch in 'spots pools'] points using 'w':(of('superposition_'.branch, 'pull_off')) with lines ls 5, \
+     points using 'w':(of('superposition_spots', 'jump_to_pools')) with lines ls 5, \
      points using 'w':(of('superposition', 'jump_to_full_contact')) with lines ls 5 title 'superposition', \
-     points using 'w':(of('pools', 'jump_to_full_contact')) with linespoints ls 31 dt solid title 'jump into full contact', \
+     points using 'w':(of('pools', 'jump_to_full_contact')) with linespoints ls 31 dt solid \
+        title 'jump into full contact', \
      points using 'w':(of('spots', 'jump_to_pools')) with linespoints ls 33 dt solid title 'jump from spots to pools', \
      points using 'w':(of('pools', 'jump_to_spots')) with linespoints ls 35 dt solid title 'jump from pools to spots', \
      points using 'w':(of('pools', 'pull_off')) with linespoints ls 32 dt solid title 'pull-off from pools', \

@@ -69,6 +69,9 @@ def slip_maps(picture):
                                                                               "set cbrange [1:2.7]"], "")])
 
 
+# How stretches of a curve with adhesion are drawn, by how their contacts are stable.
+STABILITY = {"stable": ("solid", "stable"), "stable_by_approach": ("(6, 3)", "stable by approach"),
+             "unstable": ("(1.5, 2.5)", "unstable")}
 # The critical points of a curve with adhesion: their names, looks and titles.
 CRITICAL = (("pull_off", 7, "pull-off"), ("jump_to_spots", 11, "jump to spots"),
             ("jump_to_pools", 9, "jump to pools"), ("jump_to_full_contact", 5, "jump into full contact"),
@@ -106,7 +109,7 @@ def adhesion(picture):
     titles += [entry(f"points pt {mark} ps 0.85*mark lc rgb red lw 1.2", title) for name, mark, title in CRITICAL
                if name in critical.words["point"]]
     titles += [entry("points pt 1 ps 1.1*mark lc rgb black lw 1.2", "the loads")]*bool(loads.columns[load])
-    picture.grid(240, 240, 2, gaps=(88, 0), room=(72, 168, 62, 40))
+    picture.grid(240, 250, 2, gaps=(88, 0), room=(72, 160, 62, 40))
     for panel, (across, up, x, y) in enumerate(((load, area, of_load, of_area), ("approach", load, of_approach, of_load))):
         drawn = []
         for branch, colour in (("spots", "blue"), ("pools", "green")):
@@ -118,12 +121,7 @@ def adhesion(picture):
             drawn.append(points_of(picture, critical, scales, (across, up), f"pt {mark} ps 0.85*mark lc rgb red lw 1.2",
                                    name))
         drawn.append(points_of(picture, loads, scales, (across, up), "pt 1 ps 1.1*mark lc rgb black lw 1.2"))
-        picture.panel(panel, x, y, drawn + titles*panel, key=RIGHT if panel else "")
-
-
-# How stretches of a curve with adhesion are drawn, by how their contacts are stable.
-STABILITY = {"stable": ("solid", "stable"), "stable_by_approach": ("(6, 3)", "stable by approach"),
-             "unstable": ("(1.5, 2.5)", "unstable")}
+        picture.panel(panel, x, y, drawn + titles*panel, key=f"{RIGHT} spacing 1 font ',11'" if panel else "")
 
 
 def stretches(table, branch, load):

@@ -100,7 +100,7 @@ contains
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools
 
-      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp
+      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp
       real(dp) :: cell, full_step, open_cell, radius, ratio, step
       type(adhesive_point) :: point
       type(fitted_answer) :: start
@@ -124,7 +124,8 @@ contains
          associate (part => pi*radius**2/open_cell)
             call curve%problem%find_point(pools, merge(1.0_dp - part, part, pools), point, start)
          end associate
-         if (point%exists) then
+         ! Next to the end of a branch a solution may be far less accurate than asked for: a shorter step leads to one.
+         if (point%exists .and. maxval(point%error) <= worst_error*curve%problem%accuracy) then
             call add_point(curve, point)
             start = point%answer
             ! Past its last extreme the approach falls: nothing is stable from there on.
@@ -222,10 +223,16 @@ contains
       integer, intent(in) :: number    !! of the load
 
       integer :: i, known
-      logical :: has_stable
+      logical :: is_found   ! an area whether it is stable or not
       type(adhesive_point) :: point
 
       known = size(curve%at_loads)
+      if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
+         call curve%problem%find_point(.false., target, point)
+         point%number = number
+         curve%at_loads = [curve%at_loads, point]
+         return
+      end if
       do i = 1, size(curve%knots) - 1
          associate (here => curve%knots(i), after => curve%knots(i + 1))
             if (which > 0) then
@@ -238,9 +245,9 @@ contains
          end associate
          if (point%exists) curve%at_loads = [curve%at_loads, point]
       end do
-      has_stable = any(curve%at_loads(known + 1:)%kind == stable_point .or. &
-                       (which /= at_load .and. curve%at_loads(known + 1:)%kind == approach_stable))
-      if (.not. has_stable) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
+      is_found = any(curve%at_loads(known + 1:)%kind == stable_point .or. which == 0 .or. &
+                     (which == at_approach .and. curve%at_loads(known + 1:)%kind == approach_stable))
+      if (.not. is_found) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
 
@@ -287,24 +294,28 @@ contains
       integer, parameter :: most_steps = 60
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp
       integer :: step
-      real(dp) :: area(2), changes(2), miss(2), new, next
+      real(dp) :: area(2), before(3), changes(3), miss(2), new, next
       type(fitted_answer) :: start
 
       area = [first%area, last%area]
       miss = [first%value(which), last%value(which)] - target
       changes = 0.0_dp
+      before = 0.0_dp
       if (allocated(last%answer)) start = last%answer
       do step = 1, most_steps
          next = area(2) - miss(2)*(area(2) - area(1))/(miss(2) - miss(1))
          if (step > 1) then
             ! What the next step would change of P and of the approach; at an extreme of one the other changes more.
-            changes = abs(point%value(3:)*(next - area(2)))
-            if (abs(next - area(2)) <= rounding*next .or. &
-                all(changes <= max(part_of_error*point%error, epsilon(next)*abs(point%value(:2))))) exit
+            associate (next_changes => abs(point%value(3:)*(next - area(2))))
+               if (abs(next - area(2)) <= rounding*next .or. (maxval(changes) <= curve%problem%accuracy .and. &
+                   all(next_changes <= max(part_of_error*point%error, epsilon(next)*abs(point%value(:2)))))) exit
+            end associate
+            before = [point%value(:2), point%energy]
          end if
          call curve%problem%find_point(first%pools, next, point, start)
          if (.not. point%exists) return
          if (allocated(point%answer)) start = point%answer
+         if (step > 1) changes = abs([point%value(:2), point%energy] - before)
          new = point%value(which) - target
          if (new*miss(2) <= 0.0_dp) then
             area(1) = area(2)
@@ -318,7 +329,9 @@ contains
       if (which <= 2) then
          point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
       else
-         point%error = point%error + changes
+         ! The area is known to less than the last step: values that it changes hold to less than the step's changes.
+         point%error = point%error + changes(:2)
+         point%energy_error = point%energy_error + changes(3)
          point%area_error = merge(unknown, abs(next - area(2)), allocated(point%answer))
       end if
    end subroutine find_zero
