@@ -11,7 +11,6 @@ module wavycon_adhesive_curve
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: unknown
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -294,7 +293,7 @@ contains
       integer, parameter :: most_steps = 60
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp
       integer :: step
-      real(dp) :: area(2), before(3), changes(3), miss(2), new, next
+      real(dp) :: area(2), before(4), changes(4), miss(2), new, next
       type(fitted_answer) :: start
 
       area = [first%area, last%area]
@@ -307,15 +306,15 @@ contains
          if (step > 1) then
             ! What the next step would change of P and of the approach; at an extreme of one the other changes more.
             associate (next_changes => abs(point%value(3:)*(next - area(2))))
-               if (abs(next - area(2)) <= rounding*next .or. (maxval(changes) <= curve%problem%accuracy .and. &
+               if (abs(next - area(2)) <= rounding*next .or. (maxval(changes(:2)) <= curve%problem%accuracy .and. &
                    all(next_changes <= max(part_of_error*point%error, epsilon(next)*abs(point%value(:2)))))) exit
             end associate
-            before = [point%value(:2), point%energy]
+            before = [point%value(:2), point%energy, point%area]
          end if
          call curve%problem%find_point(first%pools, next, point, start)
          if (.not. point%exists) return
          if (allocated(point%answer)) start = point%answer
-         if (step > 1) changes = abs([point%value(:2), point%energy] - before)
+         if (step > 1) changes = abs([point%value(:2), point%energy, point%area] - before)
          new = point%value(which) - target
          if (new*miss(2) <= 0.0_dp) then
             area(1) = area(2)
@@ -329,10 +328,10 @@ contains
       if (which <= 2) then
          point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
       else
-         ! The area is known to less than the last step: values that it changes hold to less than the step's changes.
+         ! The area is known better than by the last step, and so are the values that it changes.
          point%error = point%error + changes(:2)
          point%energy_error = point%energy_error + changes(3)
-         point%area_error = merge(unknown, abs(next - area(2)), allocated(point%answer))
+         point%area_error = changes(4)
       end if
    end subroutine find_zero
 
