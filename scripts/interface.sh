@@ -81,23 +81,22 @@ set lmargin at screen 0.48
 set rmargin at screen 0.965
 set xlabel load offset 0, 0.3
 set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
-set xrange [-0.2:0.6]
+set xrange [-0.1:0.5]
 set yrange [0:1]
-set xtics 0.2 format '%.1f'
+set xtics 0.1 format '%.1f'
 set ytics 0.2 format '%.1f'
 set title 'area with adhesion' offset 0, -0.5
 set key bottom right samplen 2.2 font ',12'
 curve = table('pull_off', 'adhesion')
-is(kind) = strcol('point') eq kind
-sure(kind) = is(kind) && column('most_release_over_w') < 1.3
 P = 'pbar_over_pstar'
 A = 'contact_area_fraction'
-plot curve index 0 using P:A with lines ls 4 title 'not reliable', \
-     curve index 0 using (column(P)):(sure('stable') ? column(A) : NaN) with lines ls 31 title 'stable', \
-     curve index 0 using (column(P)):(sure('unstable') ? column(A) : NaN) with lines ls 32 title 'unstable', \
-     curve index 0 using 'pbar1_over_pstar':A with lines ls 5 dt (3, 3) title 'without adhesion', \
-     curve index 1 using (is('pull_off') ? column(P) : NaN):A with points ls 11 title 'pull-off', \
-     curve index 1 using (is('jump_to_full_contact') ? column(P) : NaN):A with points ls 12 \
-        title 'jump to full contact'
+of(branch, point) = strcol('branch') eq branch && (point eq 'any' || strcol('point') eq point) ? column(A) : NaN
+plot for [branch in 'spots pools'] curve index 0 using P:(of(branch, 'any')) with lines ls 32, \
+     for [branch in 'spots pools'] curve index 0 using P:(of(branch, 'stable')) with lines ls 31, \
+     NaN with lines ls 31 title 'stable', NaN with lines ls 32 title 'unstable', \
+     for [branch in 'spots pools'] curve index 1 using P:(of(branch, 'pull_off')) with points ls 11 \
+        title branch eq 'spots' ? 'pull-off' : '', \
+     curve index 1 using P:(of('spots', 'jump_to_pools')) with points ls 13 title 'jump to pools', \
+     curve index 1 using P:(of('pools', 'jump_to_full_contact')) with points ls 12 title 'jump to full contact'
 unset multiplot
 EOF

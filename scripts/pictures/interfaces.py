@@ -3,8 +3,9 @@ import math
 
 from axes import Axis, label_of_unit
 from fields import cells, closed
-from picture import AREA, MOST_CURVES, MOST_PANELS, P_BAR, P_STAR, SLIP, TRACTION, CannotBeDrawn, Quantity, \
-    mean_pressure_axis
+from picture import APPROACH, AREA, MOST_CURVES, MOST_PANELS, P_BAR, P_STAR, RIGHT, SLIP, TRACTION, CannotBeDrawn, \
+    Quantity, entry, mean_pressure_axis
+from table import Block
 
 
 def interface(picture):
@@ -68,29 +69,109 @@ def slip_maps(picture):
                                                                               "set cbrange [1:2.7]"], "")])
 
 
+# How stretches of a curve with adhesion are drawn, by how their contacts are stable.
+STABILITY = {"stable": ("solid", "stable"), "stable_by_approach": ("(6, 3)", "stable by approach"),
+             "unstable": ("(1.5, 2.5)", "unstable")}
+# The critical points of a curve with adhesion: their names, looks and titles.
+CRITICAL = (("pull_off", 7, "pull-off"), ("jump_to_spots", 11, "jump to spots"),
+            ("jump_to_pools", 9, "jump to pools"), ("jump_to_full_contact", 5, "jump into full contact"),
+            ("pull_off_by_approach", 6, "pull-off by approach"), ("jump_by_approach", 4, "jump by approach"),
+            ("end_of_branch", 2, "spots or pools touch"))
+
+
 def adhesion(picture):
-    """Contact area against the load with adhesion: the curve, pull-off, jump, and the loads."""
+    """Contact area against the load with adhesion, and the load against the approach: the branches, their critical
+    points and the contacts of the loads."""
     table = picture.table
+    curve, critical, loads = (table.blocks + [Block(table.names)]*2)[:3]
     free = not table.column("pbar_over_pstar")
-    column, area, most = ("force", "contact_area", None) if free else ("pbar_over_pstar", "contact_area_fraction", 1.0)
-    numbers = [number for number in table.column(column) if not free or number < 1.02*max(table.column(column))]
-    least = min(numbers, default=0.0)
-    if not free:
-        # Towards full contact the tension grows without bound.
-        stable = [row for block in table.blocks[1:] for row in block.columns[column]]
-        least = min([-0.1] + [2*number for number in stable if number < 0])
-    x = Axis(least, max(numbers, default=1.0), label="force" if free else f"{P_BAR}/{P_STAR}")
-    y = Axis.of(table.column(area), "contact area" if free else AREA, may_be_wide=False, up_to=most)
-    curves = []
-    for place, kind, look, title in (
-            (0, None, "lines ls 4", "not reliable"), (0, "stable", "lines ls 31", "stable"),
-            (0, "unstable", "lines ls 32", "unstable"), (1, "pull_off", "points ls 11", "pull-off"),
-            (1, "jump_to_full_contact", "points ls 12", "jump into full contact"),
-            (2, "stable", "points ls 13", "loads")):
-        for block in table.blocks[place:place + 1]:
-            # Where the release rate differs much along the edge the model fails.
-            shown = [kind is None or one == kind and release < 1.3
-                     for one, release in zip(block.words["point"], block.columns["most_release_over_w"])]
-            curves.append(picture.curve(look, block.columns[column], [
-                number if is_shown else math.nan for number, is_shown in zip(block.columns[area], shown)], title=title))
-    picture.single(x, y, curves, key="bottom right")
+    load, area = ("force", "contact_area") if free else ("pbar_over_pstar", "contact_area_fraction")
+    gap = Quantity([table], "approach", "Delta")
+    scales = {load: Quantity([table], load), area: Quantity([table], area), "approach": gap}
+    # Towards full contact the tension grows without bound, and the load of a ball with its contact.
+    seen = [number for block in (critical, loads) for number, branch in zip(block.columns[load], block.words["branch"])
+            if branch != "none"] or [0.0]
+    most = max(curve.columns[load]) if free else max(seen)
+    low, high = min(0.0, *seen) - 0.12*(most - min(seen)), most + 0.06*(most - min(seen))
+    shown = [place for place, number in enumerate(curve.columns[load]) if low <= number <= high]
+    ranges = {name: scales[name].of([curve.columns[name][place] for place in shown] + [
+        number for block in (critical, loads) for number in block.columns[name]]) for name in (area, "approach")}
+    of_load = Axis(*(scales[load].factors[0]*end for end in (low, high)), label=scales[load].label("force") if free else
+                   f"{P_BAR}/{P_STAR}")
+    of_area = Axis.of(ranges[area], scales[area].label("contact area") if free else AREA, may_be_wide=False,
+                      up_to=None if free else 1.0)
+    closing = [number for number in ranges["approach"] if math.isfinite(number)]
+    margin = 0.05*(max(closing) - min(closing))
+    of_approach = Axis(min(closing) - margin, max(closing) + margin, label=gap.label(APPROACH, "approach"))
+    both = {"spots", "pools"} <= set(curve.words["branch"])
+    titles = [entry("lines ls 31", "separate spots"), entry("lines ls 33 dt solid", "separate pools")]*both
+    titles += [entry(f"lines lc rgb black lw 1.3 dt {dash}", title) for dash, title in STABILITY.values()]
+    titles += [entry(f"points pt {mark} ps 0.85*mark lc rgb red lw 1.2", title) for name, mark, title in CRITICAL
+               if name in critical.words["point"]]
+    titles += [entry("points pt 1 ps 1.1*mark lc rgb black lw 1.2", "the loads")]*bool(loads.columns[load])
+    picture.grid(240, 250, 2, gaps=(88, 0), room=(72, 160, 62, 40))
+    for panel, (across, up, x, y) in enumerate(((load, area, of_load, of_area), ("approach", load, of_approach, of_load))):
+        drawn = []
+        for branch, colour in (("spots", "blue"), ("pools", "green")):
+            for kind, pieces in stretches(table, branch, load).items():
+                drawn.append(picture.curve(
+                    f"lines lc rgb {colour} lw 1.5 dt {STABILITY[kind][0]}",
+                    *(scales[name].of([point[name] for point in pieces]) for name in (across, up))))
+        for name, mark, _ in CRITICAL:
+            drawn.append(points_of(picture, critical, scales, (across, up), f"pt {mark} ps 0.85*mark lc rgb red lw 1.2",
+                                   name))
+        drawn.append(points_of(picture, loads, scales, (across, up), "pt 1 ps 1.1*mark lc rgb black lw 1.2"))
+        picture.panel(panel, x, y, drawn + titles*panel, key=f"{RIGHT} spacing 1 font ',11'" if panel else "")
+
+
+def stretches(table, branch, load):
+    """The points of a branch by their stability, in the order of the area and with the extremes between them; NaN
+    between stretches."""
+    points = [{name: block.columns[name][place] for name in (load, "contact_area_fraction", "contact_area", "approach")}
+              for block in table.blocks[:2] for place, word in enumerate(block.words["branch"])
+              if word == branch and (block is table.blocks[0] or block.words["point"][place] != "end_of_branch")]
+    points = smoothed(sorted(points, key=lambda point: point["contact_area"]), by="contact_area")
+    found = {kind: [] for kind in STABILITY}
+    for here, after in zip(points, points[1:]):
+        kind = "stable" if after[load] > here[load] else \
+            "stable_by_approach" if after["approach"] > here["approach"] else "unstable"
+        if not found[kind] or found[kind][-1] is not here:
+            found[kind] += [dict.fromkeys(here, math.nan), here]
+        found[kind].append(after)
+    return found
+
+
+def smoothed(points, by, parts=8):
+    """Points with others between them, by Hermite's cubics with the slopes of parabolas through three points."""
+    places = range(len(points))
+    slopes = [slope_of(*points[max(place - 1, 0):place + 2], by=by) if 0 < place < len(points) - 1 else None
+              for place in places]
+    found = points[:1]
+    for place, after in zip(places, points[1:]):
+        here, step = points[place], after[by] - points[place][by]
+        for part in range(1, parts):
+            t = part/parts
+            point = {}
+            for name in here:
+                chord = (after[name] - here[name])/step if step > 0 else 0.0
+                first, last = (slope[name] if slope else chord for slope in (slopes[place], slopes[place + 1]))
+                point[name] = here[name] + step*t*(chord + (1 - t)*((1 - t)*(first - chord) - t*(last - chord)))
+            found.append(point)
+        found.append(after)
+    return found
+
+
+def slope_of(before, here, after, by):
+    """The derivatives of a point's numbers, by the parabolas through it and its neighbours."""
+    first, last = here[by] - before[by], after[by] - here[by]
+    if min(first, last) <= 0:
+        return None
+    return {name: (last*(here[name] - before[name])/first + first*(after[name] - here[name])/last)/(first + last)
+            for name in here}
+
+
+def points_of(picture, block, scales, names, look, kind=None):
+    """The points of a block, or those of a kind."""
+    places = [place for place, word in enumerate(block.words["point"]) if kind in (None, word)]
+    return picture.curve(f"points {look}", *(scales[name].of([block.columns[name][place] for place in places])
+                                             for name in names))

@@ -10,8 +10,8 @@ import sys
 from axes import Axis, Scale, axis, chosen, lines_of, quoted
 
 # Symbols in gnuplot's enhanced mode.
-P, P_BAR, DELTA, GAP, MEAN_GAP, X, Y, DEPTH, SLIP, TRACTION = (f"{{/:Italic {one}}}" for one in (
-    "p", "p̄", "Δ", "g", "ḡ", "x", "y", "z", "s", "Q"))
+P, P_BAR, DELTA, GAP, MEAN_GAP, X, Y, DEPTH, SLIP, TRACTION, APPROACH = (f"{{/:Italic {one}}}" for one in (
+    "p", "p̄", "Δ", "g", "ḡ", "x", "y", "z", "s", "Q", "δ"))
 P_STAR, P_MAX, AREA = P + "*", P + "_{max}", "{/:Italic A}/{/:Italic A}_0"
 # The numbers of the head by which quantities are divided if their unit has no label.
 OVER = {"p*": P_STAR, "Delta": DELTA}

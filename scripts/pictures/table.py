@@ -28,7 +28,7 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "partial_slip": ("tangential_over_limit", "stick_area_fraction"),
          "slip_loop": ("branch", "tangential_load", "displacement"),
          "slip_map": ("x", "y", "traction", "slip_state"),
-         "adhesion": ("pbar1_over_pstar", "point")}
+         "adhesion": ("contact_area_fraction", "approach", "branch", "point")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
 HEAD_NUMBER = re.compile(r"(Delta|p\*|e_star|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")

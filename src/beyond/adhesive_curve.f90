@@ -1,291 +1,347 @@
-!> The contact with adhesion in the limit of Johnson, Kendall & Roberts, by Ciavarella's superposition: a contact
-!> without adhesion at a mean pressure P1, less the field of a rigid punch of the contact's shape under a tension T.
-!>
-!> The curve is followed by P1, through its turning points. Equations (I..) are those of README.md in this directory.
+!> The contact with adhesion in the limit of Johnson, Kendall & Roberts: its curve of load, approach and area, which is
+!> followed by the area of contact, so that it has no turning points on the way. Pull-off, jumps and the contacts of
+!> given loads are zeros along it. Equations (I..) are those of README.md in this directory.
 module wavycon_adhesive_curve
-   use, intrinsic :: iso_c_binding, only: c_size_t
+   use wavycon_adhesive_contact, only: adhesive_point, adhesive_problem, approach_jump, approach_pull_off, &
+      approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_full, jump_to_pools, jump_to_spots, &
+      not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
    use wavycon_constants, only: pi
-   use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver
+   use wavycon_contact_status, only: not_found
+   use wavycon_fitted_answer, only: fitted_answer
    use wavycon_free_edges, only: ball_radii, is_ball
-   use wavycon_gsl, only: gsl_sort_index
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: approach, area_slope, contact_area, gap_curvature, gap_slope, is_known, &
-      least_intensity, mean_gap, most_intensity, quantities, scaled
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: adhesive_point, adhesive_curve, follow_curve, add_load
-
-   !> Points of the curve; of a wave without its ends.
-   integer, parameter :: curve_points = 95
-   !> Of the parameter t, 0 < t < 1, from one point to the next.
-   real(dp), parameter :: t_step = 1.0_dp/(curve_points + 1)
-
-   !> What a point is.
-   integer, parameter, public :: unstable_point = 0, stable_point = 1, pull_off_point = 2, jump_point = 3, &
-      separated = 4, closed = 5, not_reliable = 6
-   character(20), parameter, public :: point_names(0:6) = [character(20) :: 'unstable', 'stable', 'pull_off', &
-      'jump_to_full_contact', 'separated', 'full_contact', 'not_reliable']
-   !> Extremes of a wave this number of points from one whose energy release rate exceeds this part of w are artefacts:
-   !> there spots are about to merge, and the superposition fails.
-   integer, parameter :: near = 3
-   real(dp), parameter :: most_release = 1.5_dp
-
-   type :: adhesive_point
-      logical :: exists = .false.             !! otherwise there is no solution at P1 with its derivatives
-      integer :: kind = unstable_point        !! stable: where P rises with P1
-      integer :: number = 0                   !! of the load asked for, from 1
-      real(dp) :: p1 = 0.0_dp                 !! P1 [p*]
-      real(dp) :: load = 0.0_dp, load_error = 0.0_dp           !! P = P1 - T (I16), < 0 is a tension [p*]
-      real(dp) :: approach = 0.0_dp, approach_error = 0.0_dp   !! (I17) [Delta]
-      real(dp) :: area = 0.0_dp, area_error = 0.0_dp           !! the contact area fraction
-      !> Least and largest energy release rate along the edge over w: 1 where the superposition is exact.
-      real(dp) :: release_range(2) = 1.0_dp
-      real(dp) :: t = 0.0_dp                  !! the parameter of a wave's curve
-   end type adhesive_point
+   public :: adhesive_curve, add_load, follow_curve
 
    type :: adhesive_curve
-      type(adhesive_point), allocatable :: points(:)     !! by rising P1
-      type(adhesive_point), allocatable :: critical(:)   !! extremes of P: pull-off and jumps into full contact
-      type(adhesive_point), allocatable :: at_loads(:)   !! the stable and the unstable points of loads asked for
-      !> Of a wave, points that exist and extremes that are reliable, by rising P1: P is monotonic between them.
+      type(adhesive_point), allocatable :: points(:)     !! of spots by rising area, then of pools by falling area
+      type(adhesive_point), allocatable :: critical(:)   !! pull-off, jumps, and where a branch ends
+      type(adhesive_point), allocatable :: at_loads(:)   !! the contacts of the loads asked for
+      !> Points and extremes in their order along the branches: P and approach are monotonic between two of a branch.
       type(adhesive_point), allocatable, private :: knots(:)
-      real(dp), private :: least = 0.0_dp     !! P1 at the ends of a wave's curve, from 0 and from 1
-      real(dp), private :: pull = 0.0_dp      !! F_c of a ball (I20) over p* A_0
-      real(dp), private :: work = 0.0_dp      !! w' > 0 [p* Delta]
+      type(adhesive_problem), private :: problem
    end type adhesive_curve
+
+   !> Points of a curve in closed form.
+   integer, parameter :: closed_form_points = 95
+   !> Largest step of a spot's or pool's radius over that of a circle as large as its cell, and over itself.
+   real(dp), parameter :: radius_step = 0.025_dp, radius_growth = 0.2_dp
+   !> Largest growth of the merging ratio in a step, over what is left of it, and the ratio from which a branch ends
+   !> once the approach falls: the last extremes are at .83 and more. Otherwise it ends where a step is this part of the
+   !> largest one.
+   real(dp), parameter :: ratio_growth = 0.1_dp, ratio_of_extremes = 0.6_dp, least_step = 0.02_dp
 
 contains
 
-   !> Follows the curve of a wave to P1 = 1, that of a ball to the largest load or, if that is light, beyond zero load.
-   subroutine follow_curve(solver, work, largest_load, curve)
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: work           !! w' > 0 [p* Delta]
-      real(dp), intent(in) :: largest_load   !! P of the loads that will be asked for [p*]
+   !> Follows the curve of a wave to full contact, that of a ball to the largest load or, if that is light, beyond zero
+   !> load.
+   subroutine follow_curve(surface, accuracy, work, largest_load, curve)
+      type(surface_type), intent(in) :: surface   !! a wave of one dimension, a round ball or one with a frame
+      real(dp), intent(in) :: accuracy            !! > 0, of P [p*] and approach [Delta]
+      real(dp), intent(in) :: work                !! w' > 0 [p* Delta]
+      real(dp), intent(in) :: largest_load        !! P of the loads that will be asked for [p*]
       type(adhesive_curve), intent(out) :: curve
 
-      type(adhesive_point) :: point
-      integer :: i
-      integer(c_size_t), allocatable :: places(:)
-
-      curve%work = work
-      allocate (curve%points(curve_points), curve%critical(0), curve%at_loads(0), curve%knots(0))
-      if (is_ball(solver%surface)) then
-         call follow_ball(curve, solver%surface, largest_load)
-         return
+      allocate (curve%points(0), curve%critical(0), curve%at_loads(0), curve%knots(0))
+      call start_adhesive_problem(curve%problem, surface, work, accuracy)
+      if (curve%problem%has_closed_form) then
+         call follow_closed_form(curve, largest_load)
+      else
+         call follow_branch(curve, .false.)
+         call follow_branch(curve, .true.)
       end if
-      ! Pull-off lies at P1 = (3/(4 pi)) w' or above (I18).
-      curve%least = min(2e-3_dp*curve%work, 1e-4_dp)
-      do i = 1, curve_points
-         call solve_point(curve, solver, i*t_step, curve%points(i))
-      end do
-      do i = 2, curve_points
-         associate (before => curve%points(i - 1), here => curve%points(i), &
-                    after => curve%points(min(i + 1, curve_points)))
-            if (.not. (before%exists .and. here%exists .and. after%exists)) cycle
-            if (after%load > before%load) curve%points(i)%kind = stable_point
-            if (i == curve_points .or. (here%load - before%load)*(after%load - here%load) > 0.0_dp) cycle
-            point = here
-            point%kind = not_reliable
-            if (all(curve%points(max(1, i - near):min(i + near, curve_points))%release_range(2) <= most_release)) &
-               call find_extreme(curve, solver, before, after, point)
-            curve%critical = [curve%critical, point]
-         end associate
-      end do
-      curve%knots = [pack(curve%points, curve%points%exists), pack(curve%critical, curve%critical%kind /= not_reliable)]
-      allocate (places(size(curve%knots)))
-      call gsl_sort_index(places, curve%knots%p1, 1_c_size_t, size(places, kind=c_size_t))
-      curve%knots = curve%knots(places + 1)
+      call name_jumps(curve)
    end subroutine follow_curve
 
-   !> By equal steps of ln P1.
-   subroutine follow_ball(curve, surface, largest_load)
+   !> By equal steps of ln P1, P1 the load of the same contact without adhesion; of a wave of ln(P1/(1 - P1)).
+   subroutine follow_closed_form(curve, largest_load)
       type(adhesive_curve), intent(inout) :: curve
-      type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: largest_load
 
+      !> P1 of the first point over that of pull-off, or over w' of a wave (I21).
       real(dp), parameter :: least_over_pull = 1e-3_dp
-      real(dp) :: ratio   ! the largest P1 over the least
+      real(dp) :: area, least, most, p1
       integer :: i
-
-      curve%pull = 1.5_dp*pi*curve%work*surface%amplitude*maxval(ball_radii(surface))/surface%nominal_area()
-      ratio = (1.0_dp + sqrt(1.0_dp + max(largest_load/curve%pull, 4.0_dp)))**2/least_over_pull
-      do i = 1, curve_points
-         curve%points(i) = point_of_ball(curve%pull, surface, &
-            least_over_pull*curve%pull*ratio**(real(i - 1, dp)/(curve_points - 1)))
-      end do
-      curve%critical = [point_of_ball(curve%pull, surface, curve%pull)]
-      curve%critical%kind = pull_off_point
-   end subroutine follow_ball
-
-   !> Adds the points of the curve at a load, by rising P1; where it is not reliable, a point near by. Beyond pull-off
-   !> and jump none of them is stable: the bodies are separated, or in full contact.
-   subroutine add_load(curve, solver, load, number)
-      type(adhesive_curve), intent(inout) :: curve
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: load    !! P [p*]
-      integer, intent(in) :: number   !! of the load
-
+      type(hertz_ball) :: contact
       type(adhesive_point) :: point
-      integer :: i, known
-      logical :: has_stable   ! whether P rises through the load, if only where that is not reliable
-      real(dp) :: root
 
-      known = size(curve%at_loads)
-      has_stable = .false.
-      do i = 1, size(curve%knots) - 1
-         associate (here => curve%knots(i), after => curve%knots(i + 1))
-            if ((here%load < load) .eqv. (after%load < load)) cycle
-            has_stable = has_stable .or. after%load > here%load
-            point = adhesive_point()
-            if (max(here%release_range(2), after%release_range(2)) <= most_release) &
-               call find_crossing(curve, solver, load, here, after, point)
-            point%kind = merge(stable_point, unstable_point, after%load > here%load)
-            if (.not. point%exists) then
-               point = here
-               point%kind = not_reliable
+      if (is_ball(curve%problem%surface)) then
+         least = least_over_pull*curve%problem%pull
+         ! Twice the largest load's: at the approach of Hertz's contact under it adhesion makes P1 larger.
+         most = 2*curve%problem%pull*(1.0_dp + sqrt(1.0_dp + max(largest_load/curve%problem%pull, 4.0_dp)))**2
+      else
+         least = min(2*least_over_pull*curve%problem%work, 1e-4_dp)
+         most = 1.0_dp/least - 1.0_dp
+      end if
+      do i = 1, closed_form_points
+         associate (t => real(i - 1, dp)/(closed_form_points - 1))
+            p1 = least*(most/least)**t
+            if (curve%problem%surface%dimension == 1) then
+               p1 = p1/(1.0_dp + p1)
+               area = 2/pi*asin(sqrt(p1))
+            else
+               contact = hertz_of_ball(curve%problem%surface, load=p1)
+               area = contact%contact_area()/curve%problem%surface%nominal_area()
             end if
          end associate
-         curve%at_loads = [curve%at_loads, point]
+         call curve%problem%find_point(.false., area, point)
+         call add_point(curve, point)
       end do
-      associate (pull => curve%pull, surface => solver%surface, critical => curve%critical)
-         if (is_ball(surface) .and. load >= -pull) then
-            ! sqrt(P1) = sqrt(F_c) +- sqrt(F_c + P), by (I20).
-            has_stable = .true.
-            root = sqrt(pull) + sqrt(pull + load)
-            if (load < 0.0_dp .and. load > -pull) &
-               curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, (load/root)**2)]
-            curve%at_loads = [curve%at_loads, point_of_ball(pull, surface, root**2)]
-         end if
-         if (.not. has_stable) then
-            point = adhesive_point(exists=.true., kind=closed, p1=load, load=load, approach=1.0_dp, area=1.0_dp)
-            if (any(critical%kind == pull_off_point)) then
-               if (load <= minval(critical%load, critical%kind == pull_off_point)) &
-                  point = adhesive_point(exists=.true., kind=separated, p1=load, load=load)
+   end subroutine follow_closed_form
+
+   !> By steps of the radius, from one that is smaller than that of pull-off from spots or of the jump from pools, (I20),
+   !> until the approach has its last extreme, which is before spots or pools touch.
+   subroutine follow_branch(curve, pools)
+      type(adhesive_curve), intent(inout) :: curve
+      logical, intent(in) :: pools
+
+      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp
+      real(dp) :: cell, full_step, open_cell, radius, ratio, step
+      type(adhesive_point) :: point
+      type(fitted_answer) :: start
+
+      associate (lattice => curve%problem%frame%lattice, work => curve%problem%work/curve%problem%frame%pressure_unit)
+         open_cell = lattice%area/merge(lattice%troughs, 1, pools)
+         cell = sqrt(open_cell/pi)
+         associate (curvature => sqrt(product(lattice%curvatures(pools))))
+            if (pools) then
+               radius = (0.75_dp*sqrt(0.5_dp*work)/curvature)**0.4_dp
+            else
+               radius = (9*pi**2*work/(8*curvature**2))**(1.0_dp/3)
             end if
-            curve%at_loads = [curve%at_loads, point]
-         end if
+         end associate
+         radius = min(first_over_critical*radius, largest_first*cell)
       end associate
+      ratio = 0.0_dp
+      step = radius
+      full_step = radius
+      do
+         associate (part => pi*radius**2/open_cell)
+            call curve%problem%find_point(pools, merge(1.0_dp - part, part, pools), point, start)
+         end associate
+         ! Next to the end of a branch a solution may be far less accurate than asked for: a shorter step leads to one.
+         if (point%exists .and. maxval(point%error) <= worst_error*curve%problem%accuracy) then
+            call add_point(curve, point)
+            start = point%answer
+            ! Past its last extreme the approach falls: nothing is stable from there on.
+            if (start%merging_ratio > ratio_of_extremes .and. .not. point%value(2 + at_approach) > 0.0_dp) exit
+            full_step = min(radius_step*cell, radius_growth*radius)
+            associate (growth => max(start%merging_ratio - ratio, epsilon(ratio)))
+               step = min(full_step, step*ratio_growth*(1.0_dp - start%merging_ratio)/growth)
+            end associate
+            ratio = start%merging_ratio
+         else
+            radius = radius - step
+            step = 0.5_dp*step
+         end if
+         if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
+         radius = radius + step
+      end do
+      if (ratio <= 0.0_dp) return
+      point = curve%points(size(curve%points))
+      point%kind = end_of_branch
+      curve%critical = [curve%critical, point]
+   end subroutine follow_branch
+
+   !> Adds a point at the end of its branch, and the extremes of load and approach between it and the one before.
+   subroutine add_point(curve, point)
+      type(adhesive_curve), intent(inout) :: curve
+      type(adhesive_point), intent(in) :: point
+
+      !> Of a minimum and of a maximum, for load and approach.
+      integer, parameter :: kinds(2, 2) = reshape([pull_off_point, jump_to_full, approach_pull_off, approach_jump], [2, 2])
+      integer :: n, which
+      type(adhesive_point) :: before, extreme(2)
+
+      n = size(curve%points)
+      if (n > 0) before = curve%points(n)
+      if (before%exists .and. (before%pools .eqv. point%pools)) then
+         do which = 1, 2
+            associate (slope => [before%value(2 + which), point%value(2 + which)])
+               if (slope(1)*slope(2) >= 0.0_dp) cycle
+               call find_zero(curve, 2 + which, 0.0_dp, before, point, extreme(which))
+               ! A maximum has the rise at the smaller area.
+               extreme(which)%kind = kinds(merge(2, 1, (slope(1) > 0.0_dp) .neqv. point%pools), which)
+            end associate
+         end do
+         if (all(extreme%exists)) then
+            if (extreme(1)%area > extreme(2)%area .neqv. point%pools) extreme = extreme([2, 1])
+         end if
+         curve%critical = [curve%critical, pack(extreme, extreme%exists)]
+         curve%knots = [curve%knots, pack(extreme, extreme%exists)]
+      end if
+      curve%points = [curve%points, point]
+      curve%knots = [curve%knots, point]
+   end subroutine add_point
+
+   !> Names the extremes of the load by the stable contact that the bodies jump to under this load: at a maximum the one
+   !> with the next larger area, at a minimum with the next smaller one.
+   subroutine name_jumps(curve)
+      type(adhesive_curve), intent(inout) :: curve
+
+      integer :: i, k
+
+      do i = 1, size(curve%critical)
+         associate (point => curve%critical(i))
+            if (all(point%kind /= [pull_off_point, jump_to_full])) cycle
+            do k = 1, size(curve%knots) - 1
+               associate (here => curve%knots(k), after => curve%knots(k + 1))
+                  if (.not. is_between(here, after, at_load, point%value(at_load)) .or. &
+                      .not. (after%value(at_load) > here%value(at_load) .neqv. after%area < here%area)) cycle
+                  ! The knots next to an extreme meet its load at the extreme itself.
+                  if (min(abs(here%area - point%area), abs(after%area - point%area)) <= 0.0_dp) cycle
+                  if (here%area > point%area .neqv. point%kind == pull_off_point) &
+                     point%kind = merge(jump_to_pools, jump_to_spots, here%pools)
+               end associate
+               if (all(point%kind /= [pull_off_point, jump_to_full])) exit
+            end do
+         end associate
+      end do
+   end subroutine name_jumps
+
+   !> Whether two knots are of one branch and a value lies between theirs.
+   pure logical function is_between(here, after, which, target)
+      type(adhesive_point), intent(in) :: here, after
+      integer, intent(in) :: which
+      real(dp), intent(in) :: target
+
+      is_between = (here%pools .eqv. after%pools) .and. &
+                   ((here%value(which) < target) .neqv. (after%value(which) < target))
+   end function is_between
+
+   !> Adds the contacts of a load, an approach or an area: spots by rising area, then pools by falling area. If none of
+   !> them is stable, the bodies are separated or in full contact.
+   subroutine add_load(curve, which, target, number)
+      type(adhesive_curve), intent(inout) :: curve
+      integer, intent(in) :: which     !! at_load, at_approach, or 0 for the contact area fraction
+      real(dp), intent(in) :: target   !! P [p*], approach [Delta] or area fraction
+      integer, intent(in) :: number    !! of the load
+
+      integer :: i, known
+      logical :: is_found   ! an area whether it is stable or not
+      type(adhesive_point) :: point
+
+      known = size(curve%at_loads)
+      if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
+         call curve%problem%find_point(.false., target, point)
+         point%number = number
+         curve%at_loads = [curve%at_loads, point]
+         return
+      end if
+      do i = 1, size(curve%knots) - 1
+         associate (here => curve%knots(i), after => curve%knots(i + 1))
+            if (which > 0) then
+               if (.not. is_between(here, after, which, target)) cycle
+               call find_zero(curve, which, target, here, after, point)
+            else
+               if ((here%pools .neqv. after%pools) .or. ((here%area < target) .eqv. (after%area < target))) cycle
+               call curve%problem%find_point(here%pools, target, point, here%answer)
+            end if
+         end associate
+         if (point%exists) curve%at_loads = [curve%at_loads, point]
+      end do
+      is_found = any(curve%at_loads(known + 1:)%kind == stable_point .or. which == 0 .or. &
+                     (which == at_approach .and. curve%at_loads(known + 1:)%kind == approach_stable))
+      if (.not. is_found) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
 
-   !> The point of a round ball at P1 = T^2/(4 F_c), to rounding: (I20), and (I17) with Hertz's contact (I19).
-   type(adhesive_point) function point_of_ball(pull, surface, p1) result(point)
-      real(dp), intent(in) :: pull                !! F_c [p* A_0]
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: p1
-
-      type(hertz_ball) :: contact
-
-      ! Over p* and Delta the modulus does not matter.
-      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
-                              force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
-      point = adhesive_point(exists=.true., kind=merge(stable_point, unstable_point, p1 >= pull), p1=p1, &
-                             load=p1 - 2*sqrt(pull*p1), area=contact%contact_area()/surface%nominal_area(), &
-                             approach=contact%approach/surface%amplitude)
-      if (p1 > 0.0_dp) point%approach = point%approach*(1.0_dp - 4*sqrt(pull/p1)/3)
-   end function point_of_ball
-
-   !> The point of a parameter t of a wave's curve, 0 < t < 1, which goes in equal steps of ln(P1/(1 - P1)): (I15) to
-   !> (I17).
-   subroutine solve_point(curve, solver, t, point)
+   !> What the bodies are where no partial contact is stable.
+   pure type(adhesive_point) function beyond_extremes(curve, which, target) result(point)
       type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: t
-      type(adhesive_point), intent(out) :: point
+      integer, intent(in) :: which
+      real(dp), intent(in) :: target
 
-      type(contact_solution) :: solution
-      type(quantities) :: slopes
-      real(dp) :: p1, tension, tension_error
+      real(dp), allocatable :: stable(:)   ! the values of stable contacts
 
-      p1 = 1.0_dp/(1.0_dp + (1.0_dp/curve%least - 1.0_dp)**(1.0_dp - 2*t))
-      call solver%solve(p1, solution)
-      if (solution%is_good()) call solution%derivatives(solver%surface, slopes)
-      point%t = t
-      point%p1 = p1
-      point%exists = is_known(slopes%value(area_slope)) .and. is_known(slopes%value(gap_curvature)) &
-         .and. min(slopes%value(area_slope), slopes%value(gap_curvature)) > 0.0_dp
+      point%kind = not_solved
+      point%status = not_found
+      if (which == 0) return
+      stable = pack(curve%knots%value(which), curve%knots%value(2 + which) >= 0.0_dp)
+      if (size(stable) > 0) then
+         if (target < minval(stable)) point = adhesive_point(exists=.true., kind=separated)
+      end if
+      if (point%kind == not_solved .and. .not. is_ball(curve%problem%surface)) then
+         if (target > maxval([stable, merge(1.0_dp, -huge(1.0_dp), which == at_approach)])) &
+            point = adhesive_point(exists=.true., kind=closed, area=1.0_dp)
+      end if
       if (.not. point%exists) return
-      tension = sqrt(2*curve%work*slopes%value(area_slope)/slopes%value(gap_curvature))
-      tension_error = scaled(slopes%error(area_slope), 0.5_dp*tension/slopes%value(area_slope)) &
-                      + scaled(slopes%error(gap_curvature), 0.5_dp*tension/slopes%value(gap_curvature))
-      point%load = p1 - tension
-      point%load_error = tension_error
-      point%approach = solution%value(approach) + slopes%value(gap_slope)*tension
-      point%approach_error = solution%error(mean_gap) + scaled(slopes%error(gap_slope), tension) &
-                             + scaled(tension_error, -slopes%value(gap_slope))
-      point%area = solution%value(contact_area)
-      point%area_error = solution%error(contact_area)
-      point%release_range = slopes%value([least_intensity, most_intensity])
-   end subroutine solve_point
+      point%value(which) = target
+      point%error = 0.0_dp
+      if (point%kind == closed) then
+         point%value(at_approach) = 1.0_dp
+      else
+         if (which == at_approach) point%value(at_load) = 0.0_dp
+         point%energy = 0.0_dp
+         point%energy_error = 0.0_dp
+      end if
+   end function beyond_extremes
 
-   !> An extreme of P between two points, by parabolas through three points that come closer. It is not reliable
-   !> unless it lies between them and its P beyond theirs.
-   subroutine find_extreme(curve, solver, first, last, point)
+   !> The point between two of a branch at which one of the numbers has a value, by the secant method in a bracket of
+   !> the area (Anderson and Bjorck). Where there is no solution on the way it does not exist.
+   subroutine find_zero(curve, which, target, first, last, point)
       type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(inout) :: solver
-      type(adhesive_point), intent(in) :: first, last
-      type(adhesive_point), intent(inout) :: point   !! between them, its P beyond theirs; then the extreme
-
-      integer, parameter :: steps = 5
-      real(dp), parameter :: narrowing = 0.2_dp
-      type(adhesive_point) :: after, before, here
-      real(dp) :: bend, sense, width
-      integer :: i
-
-      sense = sign(1.0_dp, 2*point%load - first%load - last%load)
-      before = first
-      here = point
-      after = last
-      width = t_step
-      do i = 1, steps
-         bend = before%load - 2*here%load + after%load
-         if (.not. sense*bend < 0.0_dp) exit
-         call solve_point(curve, solver, &
-                          here%t + width*min(max(0.5_dp*(before%load - after%load)/bend, -1.0_dp), 1.0_dp), here)
-         width = narrowing*width
-         call solve_point(curve, solver, here%t - width, before)
-         call solve_point(curve, solver, here%t + width, after)
-         if (.not. (before%exists .and. here%exists .and. after%exists)) return
-      end do
-      if (here%t <= first%t .or. here%t >= last%t .or. sense*(here%load - point%load) < 0.0_dp &
-          .or. here%release_range(2) > most_release) return
-      point = here
-      point%kind = merge(jump_point, pull_off_point, sense > 0.0_dp)
-   end subroutine find_extreme
-
-   !> The point of a load between two knots of a wave's curve, by the secant method in a bracket (Illinois).
-   subroutine find_crossing(curve, solver, load, first, last, point)
-      type(adhesive_curve), intent(in) :: curve
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: load
+      integer, intent(in) :: which                 !! of point%value
+      real(dp), intent(in) :: target               !! between those of both points
       type(adhesive_point), intent(in) :: first, last
       type(adhesive_point), intent(out) :: point
 
-      integer, parameter :: most_steps = 30
-      real(dp), parameter :: rounding = 1e-13_dp
-      real(dp) :: miss(2), t(2), t_new
+      integer, parameter :: most_steps = 60
+      real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp
       integer :: step
+      real(dp) :: area(2), before(4), changes(4), miss(2), new, next
+      type(fitted_answer) :: start
 
-      t = [first%t, last%t]
-      miss = [first%load, last%load] - load
+      area = [first%area, last%area]
+      miss = [first%value(which), last%value(which)] - target
+      changes = 0.0_dp
+      before = 0.0_dp
+      if (allocated(last%answer)) start = last%answer
       do step = 1, most_steps
-         t_new = t(2) - miss(2)*(t(2) - t(1))/(miss(2) - miss(1))
-         call solve_point(curve, solver, t_new, point)
-         if (.not. point%exists .or. abs(t_new - t(2)) <= rounding) return
-         if ((point%load - load)*miss(2) <= 0.0_dp) then
-            t(1) = t(2)
+         next = area(2) - miss(2)*(area(2) - area(1))/(miss(2) - miss(1))
+         if (step > 1) then
+            ! What the next step would change of P and of the approach; at an extreme of one the other changes more.
+            associate (next_changes => abs(point%value(3:)*(next - area(2))))
+               if (abs(next - area(2)) <= rounding*next .or. (maxval(changes(:2)) <= curve%problem%accuracy .and. &
+                   all(next_changes <= max(part_of_error*point%error, epsilon(next)*abs(point%value(:2)))))) exit
+            end associate
+            before = [point%value(:2), point%energy, point%area]
+         end if
+         call curve%problem%find_point(first%pools, next, point, start)
+         if (.not. point%exists) return
+         if (allocated(point%answer)) start = point%answer
+         if (step > 1) changes = abs([point%value(:2), point%energy, point%area] - before)
+         new = point%value(which) - target
+         if (new*miss(2) <= 0.0_dp) then
+            area(1) = area(2)
             miss(1) = miss(2)
          else
-            miss(1) = 0.5_dp*miss(1)
+            miss(1) = miss(1)*merge(1.0_dp - new/miss(2), 0.5_dp, abs(new) < abs(miss(2)))
          end if
-         t(2) = t_new
-         miss(2) = point%load - load
-         if (abs(miss(2)) <= rounding) return
+         area(2) = next
+         miss(2) = new
       end do
-   end subroutine find_crossing
+      if (which <= 2) then
+         point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
+      else
+         ! The area is known better than by the last step, and so are the values that it changes.
+         point%error = point%error + changes(:2)
+         point%energy_error = point%energy_error + changes(3)
+         point%area_error = changes(4)
+      end if
+   end subroutine find_zero
+
+   !> Hertz's contact of a ball under a load [p*]; over p* and Delta the modulus does not matter.
+   pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: load
+
+      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
+                              force=load*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+   end function hertz_of_ball
 
 end module wavycon_adhesive_curve

@@ -164,6 +164,7 @@ contains
       call keys(1)%check_relations()
       call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)
       if (values%problems%number == 0) call take_loads(values, self%results%solver%surface, self%scale%p_star, &
+                                                       self%results%scene%interface%work_of_adhesion%is_given, &
                                                        loads_by, target, mean_pressure)
       if (values%problems%number > 0) then
          call fatal_error(error, exit_bad_input, '&load: '//values%problems%items(1)%words)

@@ -344,7 +344,7 @@ class Plot(ProgramTest):
         for table, words in (("interface", ("contact stiffness", "resistance")),
                              ("partial_slip", ("stick area", "displacement", "load 2", "load 3")),
                              ("slip_loop", ("tangential load", "displacement")), ("slip_map", ("1", "0.5")),
-                             ("adhesion", ("pull-off", "jump into full contact", "unstable"))):
+                             ("adhesion", ("pull-off", "jump to spots", "unstable", "separate pools"))):
             shown = self.drawn(f"slip.{table}.dat")
             for word in words:
                 self.assertIn(word, shown, table)

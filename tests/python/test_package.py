@@ -184,7 +184,8 @@ class Digits(PackageTest):
         results = wc.solve(wc.wave_1d(), pbar_over_pstar=[0.1, 0.6], interface=interface)
         for name in "interface", "partial_slip":
             self.assert_same_rows(f"line.{name}.dat", results.table(name))
-        self.assertEqual(["stable", "unstable"], results[0].table("adhesion")["point"][-2:].tolist())
+        self.assertEqual(["stable_by_approach", "full_contact"],
+                         results[0].table("adhesion")["point"][-2:].tolist())
         with self.assertRaisesRegex(ValueError, "no group &interface that asks for it"):
             results.table("slip_loop")
 

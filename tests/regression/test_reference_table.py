@@ -277,6 +277,68 @@ class Challenge(ProgramTest):
         self.assertLessEqual(abs(float(record["mean_gap"]) - gap), error + self.of_pairs*gap)
 
 
+class Adhesion(ProgramTest):
+    """Contacts with adhesion: errors, and recomputed. exact.adhesion has the balance of energy."""
+    p_star = {"wave_2d": math.sqrt(2)*math.pi, "hexagonal": math.pi/2}
+    works = 0.01, 0.02, 0.05, 0.1, 0.2, 0.5
+    names = "pbar_over_pstar", "mean_gap_over_amplitude", "elastic_energy_over_pstar_amplitude"
+    extremes = "pull_off", "jump"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.table = Table(REFERENCE / "adhesion.dat").records()
+
+    def solve(self, surface, work, areas, accuracy):
+        """{(branch, area): ((value, error) of each of names)} of the areas, and the critical points' records."""
+        self.run_deck("case", DECK.replace("pbar_over_pstar", "contact_area_fraction").format(
+            surface, ", ".join(map(repr, areas)), "auto", accuracy,
+            f"&interface work_of_adhesion = {work*self.p_star[surface]!r} /"), statuses=(0, 2))
+        records = Table(self.folder/"case.adhesion.dat").records()
+        found = {}
+        for record in records:
+            energy = [number/self.p_star[surface] for number in pair(record, "elastic_energy")]
+            if float(record["load"]) > 0:
+                found[record["branch"], float(record["contact_area_fraction"])] = (
+                    pair(record, self.names[0]), pair(record, self.names[1]), energy)
+        return found, [record for record in records if record["point"].startswith(self.extremes)]
+
+    def test_rows_and_bounds(self):
+        for surface in self.p_star:
+            for work in self.works:
+                rows = [row for row in self.table if row["surface"] == surface
+                        and float(row["w_over_pstar_amplitude"]) == work]
+                self.assertEqual({"spots", "pools"}, {row["branch"] for row in rows})
+                points = [row["point"] for row in rows]
+                self.assertEqual(2, points.count("end_of_branch"))
+                for row in rows:
+                    given = row["point"] in ("stable", "stable_by_approach", "unstable")
+                    if given:
+                        self.assertEqual("0", row["contact_area_fraction_error"])
+                    for name in self.names:
+                        self.assertTrue(0.0 < pair(row, name)[1] < (1.4e-8 if given else 1e-7), row)
+
+    def test_recomputed(self):
+        for surface, work, areas in (("wave_2d", 0.05, (0.1, 0.3, 0.5, 0.9)), ("hexagonal", 0.2, (0.05, 0.4, 0.65, 0.9))):
+            rows = [row for row in self.table if row["surface"] == surface
+                    and float(row["w_over_pstar_amplitude"]) == work]
+            found, critical = self.solve(surface, work, areas, 1e-5)
+            self.assertEqual(len(areas), len(found))
+            for (branch, area), values in found.items():
+                row = next(row for row in rows
+                           if row["branch"] == branch and float(row["contact_area_fraction"]) == area)
+                for name, (value, error) in zip(self.names, values):
+                    expected, bound = pair(row, name)
+                    self.assertLessEqual(abs(value - expected), error + bound, (surface, branch, area, name))
+            published_points = [row for row in rows if row["point"].startswith(self.extremes)]
+            self.assertEqual([row["point"] for row in published_points], [record["point"] for record in critical])
+            for row, record in zip(published_points, critical):
+                name = self.names[row["point"].endswith("by_approach")]
+                expected, bound = pair(row, name)
+                value, error = pair(record, name)
+                self.assertLessEqual(abs(value - expected), error + bound, row)
+
+
 def simpson(values, step):
     return step/3*(values[0] + values[-1] + 4*sum(values[1:-1:2]) + 2*sum(values[2:-1:2]))
 

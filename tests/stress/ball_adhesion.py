@@ -43,8 +43,9 @@ def campaign(settings, work_folder):
                        complaints, f"a force {given!r} has the contact radius {a!r}")
             part.limit("approach", abs(float(row["approach"]) - parts[0] + parts[1])/sum(parts), ROUNDING, complaints,
                        f"at a force {given!r} the approach is {row['approach']}")
-            # On the stable branch the force rises with the radius.
-            if (a**3 >= 9*math.pi*work*radius**2/(8*e_star)) != (row["point"] == "stable"):
+            # On the stable branch the force rises with the radius; on the next one the approach does.
+            known = math.pi*work*radius**2/(8*e_star)
+            if row["point"] != ("stable" if a**3 >= 9*known else "stable_by_approach" if a**3 >= known else "unstable"):
                 complaints.append(f"a radius {a!r} under {given!r} is {row['point']}")
         part.count(name, complaints[:SHOWN], files)
     return part

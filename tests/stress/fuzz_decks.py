@@ -48,6 +48,10 @@ LARGE = SMALL + [
     "&load pbar_over_pstar = 0.1 /\n&method grid_points = 16, 32 /\n",
     "&surface kind = 'ball', radius_x = 1, radius_y = 2 /\n&load force = 0.001, 0.1 /\n&method accuracy = 0.1 /\n",
     "&surface kind = 'ball', radius = 1 /\n&load force = -1e-4, 1e-3 /\n&interface work_of_adhesion = 1e-4 /\n",
+    "&surface kind = 'wave_1d' /\n&load approach = -0.05, 0.4 /\n&interface work_of_adhesion = 0.1 /\n",
+    "&surface kind = 'wave_2d' /\n&load mean_gap = 1.1, 0.3 /\n&interface work_of_adhesion = 0.1 /\n&method accuracy = 1e-2 /\n",
+    "&surface kind = 'hexagonal' /\n&load contact_area_fraction = 0.2, 0.8 /\n&interface work_of_adhesion = 0.1 /\n"
+    "&method solver = 'grid', accuracy = 1e-2 /\n",
     "&surface kind = 'ball', radius = 1, length_x = 0.5, points = 16 /\n&load approach = 0.01 /\n&material hardness = 0.1 /\n",
     "&surface kind = 'self_affine', rms_slope = 0.1, points = 16, short_wavelength = 0.3, edges = 'free',\n"
     "   form_radius = 3 /\n&load contact_area = 0.1 /\n&stress nu = 0.3, section = 'x' /\n",

@@ -87,7 +87,6 @@ contains
          return
       end if
       call self%first%solve(pbar_over_pstar, solution)
-      if (self%without_grids) return
       of_grids = self%grid_contact%traits()
       call slab%start(of_grids%finest_grid)
       if (.not. slab%any(.not. solution%is_good())) return

@@ -13,7 +13,7 @@ module wavycon_closed_form_contact
    use wavycon_kinds, only: dp
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
-      least_intensity, mean_gap, most_intensity, peak_pressure, quantities
+      mean_gap, peak_pressure, quantities
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
@@ -195,7 +195,6 @@ contains
          answer%value(gap_slope) = log(p)
          answer%value(area_slope) = 1.0_dp/(pi*sqrt(p*(1.0_dp - p)))
          answer%value(gap_curvature) = 1.0_dp/p
-         answer%value([least_intensity, most_intensity]) = 1.0_dp
          answer%error([gap_slope, area_slope, gap_curvature]) = 0.0_dp
       end associate
    end subroutine derivatives

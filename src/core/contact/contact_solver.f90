@@ -44,8 +44,6 @@ module wavycon_contact_solver
       !> The level at which the next loads are solved: 0, the accuracy requested, to traits%coarser_levels, the
       !> coarsest.
       integer :: level = 0
-      !> Whether the next loads are of use only if they are solved with their edge of contact: without grids.
-      logical :: without_grids = .false.
       class(solver_progress), pointer :: progress => null()   !! called within each load, if associated
    contains
       procedure :: solve

@@ -40,8 +40,8 @@ contains
    subroutine solve_for(solver, quantity, target, solution)
       class(contact_solver), intent(inout) :: solver    !! started
       integer, intent(in) :: quantity                   !! contact_area, mean_gap or approach
-      !> Of the area fraction or G 0 .. 1, of the approach [Delta] >= 0: no load at an area or approach of 0 and at G =
-      !> 1, P = 1 at an area of 1 and at G = 0.
+      !> The area fraction or G, 0 .. 1, or the approach [Delta]: no load at an area or approach of 0 or less and at G of
+      !> 1 or more, P = 1 at an area of 1 and at G = 0.
       real(dp), intent(in) :: target
       type(contact_solution), intent(out) :: solution   !! of the load found
 
@@ -56,7 +56,7 @@ contains
          if (.not. surface%has_free_edges) search%most = min(1.0_dp, surface%hardness)
          if (quantity == approach) search%is_bounded = .not. (surface%has_free_edges .or. surface%has_hardness())
          if (target <= 0.0_dp .or. (target >= 1.0_dp .and. search%is_bounded .and. .not. surface%has_free_edges)) then
-            call solver%solve(merge(1.0_dp - target, target, quantity == mean_gap), solution)
+            call solver%solve(max(merge(1.0_dp - target, target, quantity == mean_gap), 0.0_dp), solution)
             return
          end if
       end associate

@@ -12,8 +12,8 @@ module wavycon_fitted_source
    use wavycon_fitted_stress_fields, only: fitted_stress_fields
    use wavycon_kinds, only: dp
    use wavycon_load_slopes, only: find_load_slopes
-   use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, least_intensity, most_intensity, &
-      perimeter, quantities, saddle_gap, saddle_pressure, trough_gap, unknown
+   use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, perimeter, quantities, &
+      saddle_gap, saddle_pressure, trough_gap, unknown
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -157,10 +157,10 @@ contains
       type(quantities), intent(out) :: answer
 
       logical :: found
-      real(dp) :: errors(3), intensities(2), slopes(3)
+      real(dp) :: errors(3), slopes(3)
 
       associate (unused => surface); end associate
-      call find_load_slopes(self%frame%lattice, self%answer, slopes, errors, intensities, found)
+      call find_load_slopes(self%frame%lattice, self%answer, slopes, errors, found)
       if (.not. found) return
       associate (units => self%frame%pressure_unit**[1, 1, 2])
          slopes = slopes/units
@@ -173,7 +173,6 @@ contains
       end where
       answer%value([gap_slope, area_slope, gap_curvature]) = slopes
       answer%error([gap_slope, area_slope, gap_curvature]) = errors
-      answer%value([least_intensity, most_intensity]) = intensities
    end subroutine derivatives
 
 end module wavycon_fitted_source

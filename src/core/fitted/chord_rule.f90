@@ -32,6 +32,7 @@ module wavycon_chord_rule
    type :: chord_rule
       private
       integer :: kernel_power = 1                         !! of 1/|z - z'|: 1 or 3
+      real(dp) :: edge_power = 0.5_dp                     !! of the weight
       real(dp), allocatable :: node(:), node_weight(:)    !! Gauss's rule along a chord, -1 to 1, shape (n)
       real(dp), allocatable :: gegenbauer(:, :)           !! what C_m weighs at the nodes, shape (n, 0:n-1), or none
       complex(dp), allocatable :: direction(:)            !! e^(i phi) of each chord, shape (m)
@@ -50,18 +51,19 @@ contains
 
    !> Prepares for a basis, a number of shape terms, and a number of chords and of points on each.
    !>
-   !> The weight determines the kernel: the power 1/2, of a spot's pressure, has 1/|z - z'|, the power 3/2, of an
-   !> pool's gap, 1/|z - z'|^3.
-   subroutine start_chord_rule(rule, basis, shape_terms, angles, points)
+   !> A spot's pressure has the kernel 1/|z - z'|, a pool's gap 1/|z - z'|^3.
+   subroutine start_chord_rule(rule, pool, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
-      type(disc_polynomials), intent(in) :: basis      !! of the weight's power 1/2 or 3/2
+      logical, intent(in) :: pool
+      type(disc_polynomials), intent(in) :: basis      !! with the power of wavycon_expansion, edge_power
       integer, intent(in) :: shape_terms  !! K >= 1
       integer, intent(in) :: angles       !! number of chords, >= 1
       integer, intent(in) :: points       !! n, on a chord, >= 2
 
       integer :: m
 
-      rule%kernel_power = nint(2*basis%power)
+      rule%kernel_power = merge(3, 1, pool)
+      rule%edge_power = basis%power
       rule%direction = [(exp(cmplx(0.0_dp, pi*(m - 0.5_dp)/angles, dp)), m=1, angles)]
       associate (n => points*angles)
          allocate (rule%node(points), rule%node_weight(points), rule%turn(n, 2), rule%values(n, basis%terms), &
@@ -74,10 +76,21 @@ contains
       allocate (rule%gegenbauer(points, 0:points - 1))
       associate (g => rule%gegenbauer, s => rule%node)
          g(:, 0) = rule%node_weight
-         g(:, 1) = 4*s*g(:, 0)
-         do m = 2, points - 1
-            g(:, m) = (2*(m + 1)*s*g(:, m - 1) - (m + 2)*g(:, m - 2))/m
-         end do
+         if (rule%edge_power > 1.0_dp) then
+            g(:, 1) = 4*s*g(:, 0)
+            do m = 2, points - 1
+               g(:, m) = (2*(m + 1)*s*g(:, m - 1) - (m + 2)*g(:, m - 2))/m
+            end do
+            g = 4*g
+         else
+            g(:, 1) = 2*s*g(:, 0)
+            do m = 2, points - 1
+               g(:, m) = 2*s*g(:, m - 1) - g(:, m - 2)
+            end do
+            do m = 0, points - 1
+               g(:, m) = -2*(m + 1)*g(:, m)
+            end do
+         end if
       end associate
    end subroutine start_chord_rule
 
@@ -143,7 +156,7 @@ contains
       complex(dp), intent(out) :: w(points)
       real(dp), intent(out) :: weight(points)
 
-      real(dp) :: half, middle, of_chord(size(self%node)), t(2)
+      real(dp) :: factor, half, middle, of_chord(size(self%node)), t(2)
       integer :: i, j, k, n
 
       n = size(self%node)
@@ -159,15 +172,19 @@ contains
          end associate
          of_chord = self%node_weight
          if (self%kernel_power == 3) then
-            ! W_j(s_0) of README.md (F32), with T_0 and T_1 at the target's place s_0.
+            ! W_j(s_0) of README.md (F32), from T_0 and T_1 at the target's place s_0; (F68), from U_(-2) and U_(-1).
             of_chord = 0.0_dp
             t = [1.0_dp, -middle/half]
+            if (self%edge_power < 1.0_dp) t = [-1.0_dp, 0.0_dp]
             do j = 0, n - 1
                t = [t(2), -2*middle/half*t(2) - t(1)]
-               of_chord = of_chord + 4*t(2)*self%gegenbauer(:, j)
+               of_chord = of_chord + t(2)*self%gegenbauer(:, j)
             end do
          end if
-         weight(k + 1:k + n) = pi/size(self%direction)*half**2*of_chord
+         ! The chord's half length to the power 2a+1, for the finite part 2a-1: 2 without adhesion, 0 with it.
+         factor = pi/size(self%direction)
+         if (nint(2*self%edge_power) == self%kernel_power) factor = factor*half**2
+         weight(k + 1:k + n) = factor*of_chord
       end do
    end subroutine place_points
 

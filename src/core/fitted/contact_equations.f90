@@ -8,9 +8,11 @@
 !>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).   (F12)
 !>
 !> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations
-!> can only be met with the right edge. They are more than the unknowns, which are the coefficients, a spot's approach
-!> and the shape.
+!> can only be met with the right edge. With adhesion the weight has this term, and the equations of the edge (F67) give
+!> it the strength that the work of adhesion asks for. The equations are more than the unknowns, which are the
+!> coefficients, a spot's approach or, with adhesion, a pool's load, and the shape.
 module wavycon_contact_equations
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
@@ -28,14 +30,18 @@ module wavycon_contact_equations
    public :: contact_equations, start_equations
 
    type :: contact_equations
-      integer :: unknowns = 0                    !! N coefficients, a spot's approach, 1+K of the shape
+      integer :: unknowns = 0
+         !! N coefficients, a spot's approach or an adhesive pool's load, 1+K of the shape
       integer :: before_shape = 0                !! unknowns before those of the shape
+      integer :: constraints = 0                 !! 1: the load of a spot or, with adhesion, the area; 0 of a pool without
       type(chord_rule) :: chords                 !! for the spot or pool itself
       type(disc_rule) :: rule                    !! for its images and for integrals over it
       complex(dp), allocatable :: target(:)      !! points of collocation in the disc, shape (m)
+      complex(dp), allocatable :: edge(:)        !! points of the edge, |w| = 1, shape (e); e = 0 without adhesion
       real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
-      real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m, unknowns)
-      real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m) [Delta], a pool's [p*]
+      real(dp), allocatable :: edge_values(:, :) !! of the basis at the edge's points, shape (e, N)
+      real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m + e, unknowns)
+      real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m + e) [Delta], a pool's [p*]
       !> Derivatives of the integral of p, the left side of README.md (F9), or of g, shape (unknowns).
       real(dp), allocatable :: load_row(:)
       type(lattice_images) :: images             !! kept by start_equations: prepared for the shape, or sums only
@@ -59,7 +65,10 @@ contains
       new%images = equations%images
       equations = new
       fold = like%basis%fold
-      equations%before_shape = like%basis%terms + merge(0, 1, like%pool)
+      associate (adhesive => like%work > 0.0_dp)
+         equations%constraints = merge(0, 1, like%pool .and. .not. adhesive)
+      end associate
+      equations%before_shape = like%basis%terms + equations%constraints
       equations%unknowns = equations%before_shape + size(like%shape%b)
       ! The rule of chords for the singular integral and the rule over the disc for the images.
       associate (degree => like%basis%degree, b => like%shape%b)
@@ -68,7 +77,8 @@ contains
          if (merging_ratio > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + min(20, degree)
          ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
          if (fold == 2) angles = angles + ceiling(-log(epsilon(1.0_dp))/log(b(0)/max(abs(b(1)), epsilon(1.0_dp))))
-         call start_chord_rule(equations%chords, like%basis, ubound(b, 1), angles, degree/2 + extra_chord_points)
+         call start_chord_rule(equations%chords, like%pool, like%basis, ubound(b, 1), angles, &
+                               merge(degree + 1, degree/2 + extra_chord_points, like%pool .and. like%work > 0.0_dp))
          finer = merge(1, 0, merging_ratio > sharp_quadrature_ratio)
          ! Low degrees are not accurate enough to need many more.
          if (merging_ratio > near_images_ratio) finer = min(6, degree/4)
@@ -88,8 +98,12 @@ contains
       ! them.
       angles = max(angles, ubound(like%shape%b, 1) + 1)
       n = radii*angles
-      allocate (equations%target(n), equations%matrix(n, equations%unknowns), equations%residual(n), &
-                equations%load_row(equations%unknowns))
+      associate (e => merge(angles, 0, like%work > 0.0_dp))
+         allocate (equations%target(n), equations%matrix(n + e, equations%unknowns), equations%residual(n + e), &
+                   equations%load_row(equations%unknowns), equations%edge_values(e, like%basis%terms))
+         equations%edge = [(exp(cmplx(0.0_dp, pi*(j - 0.5_dp)/(fold*angles), dp)), j=1, e)]
+         call like%basis%evaluate(e, equations%edge, equations%edge_values)
+      end associate
       do j = 1, angles
          phi = pi*(j - 0.5_dp)/(fold*angles)
          equations%target((j - 1)*radii + 1:j*radii) = &
@@ -98,10 +112,9 @@ contains
    end subroutine start_equations
 
    !> Sets the matrix, the residual, README.md (F37) or (F38), and the load's derivatives at an expansion.
-   subroutine linearise(self, lattice, load, now)
+   subroutine linearise(self, lattice, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load            !! P
       type(expansion), intent(in) :: now      !! like the one the equations were started for
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
@@ -110,21 +123,22 @@ contains
 
       m = size(self%target)
       associate (terms => now%basis%terms, first => self%before_shape + 1)
+         self%matrix = 0.0_dp
          do i = 1, m
             call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, shape_row)
             self%matrix(i, :terms) = row
             self%matrix(i, first:) = shape_row
          end do
          self%load_row = 0.0_dp
-         call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:, :terms), &
-                                   self%matrix(:, first:), self%load_row(:terms), self%load_row(first:))
+         call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:m, :terms), &
+                                   self%matrix(:m, first:), self%load_row(:terms), self%load_row(first:))
          if (now%pool) self%matrix = self%matrix/(4*pi**2)
-         call dgemv('N', m, terms, -1.0_dp, self%matrix, m, now%c, 1, 0.0_dp, self%residual, 1)
+         call dgemv('N', m, terms, -1.0_dp, self%matrix, size(self%residual), now%c, 1, 0.0_dp, self%residual, 1)
          ! What does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that a pool
          ! would have in full contact; and how they change with the targets' places.
          known = now%approach
-         if (now%pool) known = load - lattice%closing_pressure
-         if (.not. now%pool) self%matrix(:, self%before_shape) = -1.0_dp
+         if (now%pool) known = now%load - lattice%closing_pressure
+         if (self%constraints == 1) self%matrix(:m, self%before_shape) = -1.0_dp
          do i = 1, m
             z = now%shape%place(self%target(i))
             self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
@@ -133,7 +147,39 @@ contains
             self%matrix(i, first:) = self%matrix(i, first:) + slope%re*place_slope%re + slope%im*place_slope%im
          end do
       end associate
+      if (size(self%edge) > 0) call linearise_edge(self, now)
    end subroutine linearise
+
+   !> The equations of the edge, README.md (F67), after those of the targets: sum of c_i P_i(w) = the strength that the
+   !> work of adhesion asks for. They are scaled to be as large as the others.
+   subroutine linearise_edge(self, now)
+      class(contact_equations), intent(inout) :: self
+      type(expansion), intent(in) :: now
+
+      real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, scale, strength
+      integer :: i, row
+
+      scale = pi**2*now%shape%b(0)
+      if (now%pool) scale = 0.25_dp/now%shape%b(0)
+      do i = 1, size(self%edge)
+         row = size(self%target) + i
+         call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
+         if (.not. ratio > 0.0_dp) then
+            ! The map folds: there is no step.
+            self%residual(row) = ieee_value(ratio, ieee_quiet_nan)
+            return
+         else if (now%pool) then
+            strength = 4*sqrt(now%work/ratio)
+            log_slope = -0.5_dp*log_slope
+         else
+            strength = -sqrt(now%work*ratio)/pi
+            log_slope = 0.5_dp*log_slope
+         end if
+         self%matrix(row, :now%basis%terms) = scale*self%edge_values(i, :)
+         self%matrix(row, self%before_shape + 1:) = -scale*strength*log_slope
+         self%residual(row) = scale*(strength - dot_product(self%edge_values(i, :), now%c))
+      end do
+   end subroutine linearise_edge
 
    !> Integral over the spot or pool of an expansion, p or g, times a function of the place.
    real(dp) function integral(self, now, factor)

@@ -2,7 +2,7 @@
 module wavycon_degree_history
    use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
-   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, peak_measure, perimeter_measure
+   use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, load_measure, perimeter_measure
    use wavycon_fitted_tuning, only: error_safety, fastest_decay, fastest_decay_at_point, first_error_factor, &
       least_relative_share, previous_difference_share
    use wavycon_kinds, only: dp
@@ -14,6 +14,7 @@ module wavycon_degree_history
    type :: degree_history
       integer :: solutions = 0                                     !! pushed so far
       real(dp) :: measures(all_measures, 0:most_previous) = 0.0_dp !! of the newest solutions, the newest first
+      real(dp) :: scale(all_measures) = 0.0_dp                     !! what errors are relative to, of the newest
       real(dp) :: error(all_measures) = huge(1.0_dp)               !! their estimated errors
       real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! those of the best solution
       logical :: newest_is_best = .false.
@@ -34,10 +35,11 @@ module wavycon_degree_history
 contains
 
    !> Adds the solution of the next degree. From the second one on its errors are estimated.
-   pure subroutine push(self, now, measures, misfit, remaining)
+   pure subroutine push(self, now, measures, scale, misfit, remaining)
       class(degree_history), intent(inout) :: self
       type(expansion), intent(in) :: now
-      real(dp), intent(in) :: measures(all_measures)   !! > 0, of the solution
+      real(dp), intent(in) :: measures(all_measures)   !! of the solution
+      real(dp), intent(in) :: scale(all_measures)      !! > 0, what errors are relative to
       real(dp), intent(in) :: misfit                   !! >= 0, what the solution leaves of the equations, as a mean
       real(dp), intent(in) :: remaining                !! that Newton's method leaves of the shape, relative to its size
 
@@ -46,25 +48,26 @@ contains
       self%solutions = self%solutions + 1
       self%measures(:, 1:) = self%measures(:, :most_previous - 1)
       self%measures(:, 0) = measures
+      self%scale = scale
       self%newest_is_best = self%solutions == least_solutions
       if (self%solutions >= least_solutions) then
          self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
          ! A pool's gap at its trough converges as fields do, later than integrals of them, and energy and perimeter
          ! converge at rates of their own: their errors are estimated apart from the rest.
          associate (values => self%measures(:, :min(self%solutions - 1, most_previous)), error => self%error)
-            error = [error_estimate(values(:peak_measure, :), self%decay, measures(:peak_measure)), &
+            error = [error_estimate(values(:load_measure, :), self%decay, scale(:load_measure)), &
                      error_estimate(values([centre_measure], :), max(self%decay, fastest_decay_at_point), &
-                                    measures([centre_measure])), &
-                     error_estimate(values(energy_measure:, :), self%decay, measures(energy_measure:))]
+                                    scale([centre_measure])), &
+                     error_estimate(values(energy_measure:, :), self%decay, scale(energy_measure:))]
             ! The perimeter converges no faster than the area, and its differences are small by chance more often.
             error(perimeter_measure) = max(error(perimeter_measure), measures(perimeter_measure) &
-                                           *maxval(error(:peak_measure)/measures(:peak_measure)))
+                                           *maxval(error(:load_measure)/scale(:load_measure)))
             ! The last term of README.md (F44).
-            error = max(error, error_per_remainder*remaining*measures)
+            error = max(error, error_per_remainder*remaining*scale)
          end associate
          ! Close to merging a higher degree may be worse.
-         if (.not. self%newest_is_best) self%newest_is_best = sum(self%error(:peak_measure)/measures(:peak_measure)) &
-            < sum(self%best_error(:peak_measure)/measures(:peak_measure))
+         if (.not. self%newest_is_best) self%newest_is_best = sum(self%error(:load_measure)/scale(:load_measure)) &
+            < sum(self%best_error(:load_measure)/scale(:load_measure))
          if (self%newest_is_best) self%best_error = self%error
       end if
       self%misfit = misfit
@@ -81,7 +84,7 @@ contains
       integer, intent(in) :: required       !! number of measures, in their order, that have to be as accurate
 
       best_meets = self%solutions >= least_solutions &
-         .and. all(self%best_error(:required) <= accuracy*self%measures(:required, 0))
+         .and. all(self%best_error(:required) <= accuracy*self%scale(:required))
    end function best_meets
 
    !> Errors of values from those of the lower degrees: README.md (F43) and, but for its last term, (F44).

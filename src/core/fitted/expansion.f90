@@ -4,9 +4,11 @@
 !>
 !>     (1 - |w|^2)^power times the sum over i of c_i P_i(w),
 !>
-!> README.md (F23), power 1/2 or 3/2, with the disc polynomials P_i orthonormal with this weight, and the disc mapped to
-!> the spot or pool. Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or
-!> pool.
+!> README.md (F23), with the disc polynomials P_i orthonormal with this weight, and the disc mapped to the spot or pool.
+!> The power is 1/2 of a spot and 3/2 of a pool; with adhesion it is less by 1, as pressures and slopes are singular at
+!> the edge (F65). Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or pool.
+!>
+!> Without adhesion the load is given and the size follows; with adhesion the area is given and the load follows.
 module wavycon_expansion
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
@@ -14,7 +16,7 @@ module wavycon_expansion
    implicit none (type, external)
    private
 
-   public :: expansion
+   public :: edge_power, expansion
 
    type :: expansion
       logical :: pool = .false.            !! the gap over a pool; otherwise the pressure on a spot
@@ -22,12 +24,24 @@ module wavycon_expansion
       type(shape_map) :: shape
       real(dp), allocatable :: c(:)          !! coefficients of the basis, shape (N)
       real(dp) :: approach = 0.0_dp          !! delta of a spot, u + h = delta in contact [Delta]
+      real(dp) :: load = 0.0_dp              !! P, the mean pressure; < 0 is a tension [pi E* Delta/s]
+      real(dp) :: work = 0.0_dp              !! W, the work of adhesion, >= 0 [pi E* Delta^2/s]
+      real(dp) :: area = 0.0_dp              !! given with adhesion: of the spot or pool [s^2]
    contains
       procedure :: resized
       procedure :: at
    end type expansion
 
 contains
+
+   !> The power of 1 - |w|^2: of a spot's pressure or a pool's gap at the edge, without or with adhesion.
+   pure real(dp) function edge_power(pool, adhesive)
+      logical, intent(in) :: pool, adhesive
+
+      edge_power = 0.5_dp
+      if (pool) edge_power = edge_power + 1.0_dp
+      if (adhesive) edge_power = edge_power - 1.0_dp
+   end function edge_power
 
    !> The same function in a basis of another degree and with another number of shape terms. New coefficients are 0;
    !> what has no place in a smaller basis is dropped. With another clustering the function changes a little.
@@ -57,6 +71,9 @@ contains
       ! README.md (F18): on a circle both changes sum to -2 i tau b_0 w sin(fold phi), which is along the edge.
       copy%shape%b(1) = copy%shape%b(1) + (clustering - self%shape%clustering)*copy%shape%b(0)
       copy%approach = self%approach
+      copy%load = self%load
+      copy%work = self%work
+      copy%area = self%area
    end function resized
 
    !> The value at a point of the disc, 0 outside; at the centre a spot's peak pressure, or a pool's gap at the trough.

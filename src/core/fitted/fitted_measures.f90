@@ -16,21 +16,26 @@ module wavycon_fitted_measures
    integer, parameter, public :: gap_measure = 1        !! mean gap G [Delta]
    integer, parameter, public :: area_measure = 2       !! area of one spot or pool [s^2]
    integer, parameter, public :: peak_measure = 3       !! pressure at a crest [pi E* Delta/s]
-   integer, parameter, public :: centre_measure = 4     !! a spot's peak pressure; a pool's gap at its trough [Delta]
-   integer, parameter, public :: energy_measure = 5     !! half the integral of p u over a cell [Delta s^2]
-   integer, parameter, public :: perimeter_measure = 6  !! of one spot or pool [s]
-   integer, parameter, public :: all_measures = 6
+   integer, parameter, public :: load_measure = 4       !! P, given or found [pi E* Delta/s]
+   integer, parameter, public :: centre_measure = 5     !! a spot's peak pressure; a pool's gap at its trough [Delta]
+   integer, parameter, public :: energy_measure = 6     !! half the integral of p u over a cell [Delta s^2]
+   integer, parameter, public :: perimeter_measure = 7  !! of one spot or pool [s]
+   integer, parameter, public :: all_measures = 7
 
 contains
 
    !> All measures of a solution.
-   subroutine measure_expansion(equations, lattice, load, now, measures)
+   subroutine measure_expansion(equations, lattice, now, measures, scale)
       type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load                         !! P
-      type(expansion), intent(in) :: now
+      type(expansion), intent(inout) :: now                !! a load of a spot that is found is set
       real(dp), intent(out) :: measures(all_measures)
+      real(dp), intent(out) :: scale(all_measures)
+         !! what errors are relative to: the measure, with adhesion in the load and in pressures also its part at the edge
 
+      real(dp) :: at_edge
+
+      if (now%work > 0.0_dp .and. .not. now%pool) now%load = equations%integral(now)/lattice%area
       ! G: 1 - delta of a spot, README.md (F5), the mean of a pool's gap.
       measures(gap_measure) = 1.0_dp - now%approach
       if (now%pool) measures(gap_measure) = lattice%troughs*equations%integral(now)/lattice%area
@@ -40,6 +45,16 @@ contains
       if (now%pool) measures(peak_measure) = pressure_between_pools()
       measures(energy_measure) = strain_energy(measures(gap_measure))
       measures(perimeter_measure) = now%shape%perimeter()
+      measures(load_measure) = now%load
+      scale = measures
+      if (now%work > 0.0_dp) then
+         ! The tensions of (F71) and (F72).
+         at_edge = sqrt(now%work/(2*sqrt(now%area/pi)))
+         associate (of_load => merge(at_edge, 4*at_edge*now%area/(pi*lattice%area), now%pool))
+            scale([peak_measure, load_measure, centre_measure]) = abs(measures([peak_measure, load_measure, &
+               centre_measure])) + [at_edge, of_load, at_edge]
+         end associate
+      end if
 
    contains
 
@@ -57,7 +72,7 @@ contains
          call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
          ! The rule's points are those of one sector: the mean over their copies is taken.
          mean = sum(reshape(value, [size(mean), 2*now%basis%fold]), 2)/(2*now%basis%fold)
-         pressure_between_pools = load - lattice%closing_pressure + lattice%rise(.true., -lattice%trough) &
+         pressure_between_pools = now%load - lattice%closing_pressure + lattice%rise(.true., -lattice%trough) &
             - lattice%troughs*equations%integral(now, mean)/(4*pi**2)
       end function pressure_between_pools
 
@@ -74,10 +89,10 @@ contains
          if (now%pool) then
             associate (rise => lattice%rise(.true., z) - lattice%closing_pressure, &
                        full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
-               energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) - load*mean_gap*lattice%area)
+               energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) - now%load*mean_gap*lattice%area)
             end associate
          else
-            energy = 0.5_dp*(now%approach*load*lattice%area + equations%integral(now, lattice%rise(.false., z)))
+            energy = 0.5_dp*(now%approach*now%load*lattice%area + equations%integral(now, lattice%rise(.false., z)))
          end if
       end function strain_energy
 

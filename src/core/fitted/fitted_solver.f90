@@ -7,18 +7,18 @@ module wavycon_fitted_solver
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
       fitted_solved, most_previous
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
-      measure_expansion, peak_measure, perimeter_measure
+      load_measure, measure_expansion, peak_measure, perimeter_measure
    use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
-   use wavycon_gauss_newton, only: newton_steps
+   use wavycon_gauss_newton, only: change_with_area, newton_steps
    use wavycon_kinds, only: dp
-   use wavycon_load_continuation, only: is_start, start_at_load
+   use wavycon_load_continuation, only: is_start, start_at_area, start_at_load
    use wavycon_quantities, only: approach, contact_area, elastic_energy, mean_gap, peak_pressure, perimeter, &
       polynomial_degree
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: solve_fitted
+   public :: solve_adhesive, solve_fitted
 
    !> Guard: degrees in a row at which Newton's method does not converge, before the regime is
    !> given up. Next to merging, and beyond it, it may fail at every degree, and the last ones take seconds each.
@@ -78,24 +78,63 @@ contains
       type(fitted_answer), intent(in), optional :: start
       logical, intent(in), optional :: fields
 
-      type(contact_equations) :: equations
-      type(degree_history) :: history
       type(expansion) :: now
-      type(newton_steps) :: newton
-      real(dp) :: clustering, measures(all_measures), ratio, tolerance
-      integer :: degree, failed, required
+      integer :: degree, required
       logical :: merged, valid
 
       answer%pool = pool
       answer%status = fitted_failed
       answer%iterations = 0
-      required = peak_measure
-      if (present(fields)) required = merge(centre_measure, peak_measure, fields .and. pool)
-      ! Tolerance of the shape: a smaller one is rounding, a larger one shows in the differences between degrees.
-      tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
+      required = load_measure
+      if (present(fields)) required = merge(centre_measure, load_measure, fields .and. pool)
       call start_at_load(lattice, answer%pbar_over_pstar, pool, now, degree, answer%iterations, valid, merged, start)
       if (merged) answer%status = fitted_merged
-      if (.not. valid) return
+      if (valid) call raise_degree(lattice, accuracy, now, degree, required, answer)
+   end subroutine solve_regime
+
+   !> Solves with adhesion for a spot or a pool of a given area: the load is found.
+   !>
+   !> The accuracy is relative to the mean gap, to the peak pressure, and to the load with its tension along the edge, as
+   !> loads vanish on the way to tensions. Status: fitted_solved, fitted_less_exact, fitted_merged, where the shape
+   !> touches its neighbours, or fitted_failed.
+   subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start)
+      type(wave_lattice), intent(in) :: lattice
+      logical, intent(in) :: pool            !! whether it is the open pool; otherwise the contact spot
+      real(dp), intent(in) :: work           !! W > 0, the work of adhesion [pi E* Delta^2/s]
+      real(dp), intent(in) :: area           !! of the spot or pool, between 0 and that of its cell [s^2]
+      real(dp), intent(in) :: accuracy       !! > 0
+      type(fitted_answer), intent(out) :: answer
+      type(fitted_answer), intent(in), optional :: start
+         !! of another area of the same lattice and work, not the same variable as `answer`; saves time
+
+      type(expansion) :: now
+      integer :: degree
+      logical :: valid
+
+      answer%pool = pool
+      call start_at_area(lattice, pool, work, area, now, degree, answer%iterations, valid, start)
+      if (valid) call raise_degree(lattice, accuracy, now, degree, load_measure, answer)
+   end subroutine solve_adhesive
+
+   !> Raises the degree from an approximation on until the estimated errors are within the accuracy.
+   subroutine raise_degree(lattice, accuracy, now, first, required, answer)
+      type(wave_lattice), intent(in) :: lattice
+      real(dp), intent(in) :: accuracy
+      type(expansion), intent(inout) :: now          !! the approximation
+      integer, intent(in) :: first                   !! degree to start with
+      integer, intent(in) :: required                !! measures, in their order, that have to be as accurate
+      type(fitted_answer), intent(inout) :: answer   !! failed so far
+
+      type(contact_equations) :: equations
+      type(degree_history) :: history
+      type(newton_steps) :: newton
+      real(dp) :: clustering, measures(all_measures), ratio, scale(all_measures), tolerance
+      integer :: degree, failed
+      logical :: merged
+
+      degree = first
+      ! Tolerance of the shape: a smaller one is rounding, a larger one shows in the differences between degrees.
+      tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
       ratio = merging_ratio(lattice, now)
       ! A lower degree gives the estimates of round shapes one more difference; it cannot represent sharp ones.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
@@ -104,13 +143,13 @@ contains
       newton%contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
       do
          clustering = now%shape%clustering
-         if (lattice%square) clustering = next_clustering(clustering, ratio, pool)
+         if (lattice%square) clustering = next_clustering(clustering, ratio, now%pool)
          now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
          ! Looser series are hardly quicker.
          call equations%images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
          ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio)
-         call newton%solve(equations, lattice, answer%pbar_over_pstar, now, tolerance)
+         call newton%solve(equations, lattice, now, tolerance)
          ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
          if (.not. newton%valid .or. merged) exit
@@ -118,9 +157,9 @@ contains
          failed = failed + 1
          if (newton%change <= 1e-4_dp .or. newton%remaining <= tolerance) then
             failed = 0
-            call measure_expansion(equations, lattice, answer%pbar_over_pstar, now, measures)
-            if (.not. all(measures(:peak_measure) > 0.0_dp)) exit
-            call history%push(now, measures, newton%misfit, newton%remaining)
+            call measure_expansion(equations, lattice, now, measures, scale)
+            if (.not. all(scale(:load_measure) > 0.0_dp)) exit
+            call history%push(now, measures, scale, newton%misfit, newton%remaining)
             if (history%newest_is_best) &
                call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
             if (history%best_meets(accuracy, required)) then
@@ -128,13 +167,37 @@ contains
                exit
             end if
          end if
-         if (degree >= last_degree .or. failed == most_failed_degrees) exit
+         if (degree >= last_degree .or. failed == merge(1, most_failed_degrees, now%work > 0.0_dp)) exit
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
       answer%iterations = answer%iterations + newton%iterations
+      if (now%work > 0.0_dp .and. answer%status <= fitted_less_exact) call set_area_slopes(answer, lattice, equations)
       ! On the square lattice a solution of a lower degree is kept although a higher one has merged: it is nearly right.
       if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
-   end subroutine solve_regime
+   end subroutine raise_degree
+
+   !> The derivatives of load and approach with respect to the area, README.md (F70).
+   subroutine set_area_slopes(answer, lattice, equations)
+      type(fitted_answer), intent(inout) :: answer             !! with a solution with adhesion
+      type(wave_lattice), intent(in) :: lattice
+      type(contact_equations), intent(inout) :: equations      !! with images for its shape
+
+      logical :: finite
+      real(dp), allocatable :: change(:)
+
+      associate (now => answer%solution)
+         call start_equations(equations, now, answer%merging_ratio)
+         allocate (change(equations%unknowns))
+         call change_with_area(equations, lattice, now, change, finite)
+         if (.not. finite) answer%status = fitted_failed
+         if (.not. finite) return
+         ! Solving overwrote the matrix, not the load's row.
+         associate (of_integral => dot_product(equations%load_row, change)/lattice%area)
+            answer%area_slopes = [of_integral, change(now%basis%terms + 1)]
+            if (now%pool) answer%area_slopes = [change(now%basis%terms + 1), -lattice%troughs*of_integral]
+         end associate
+      end associate
+   end subroutine set_area_slopes
 
    !> Writes the newest solution to the answer.
    subroutine set_answer(answer, lattice, history, now, residual, ratio, images_tolerance)
@@ -152,7 +215,9 @@ contains
       answer%residual = residual
       answer%merging_ratio = ratio
       ! All degrees share the error of the images: it does not count in which of them is best.
-      error = max(history%error, images_tolerance*history%measures(:, 0))
+      error = max(history%error, images_tolerance*history%scale)
+      answer%pbar_over_pstar = history%measures(load_measure, 0)
+      answer%load_error = error(load_measure)
       answer%value(measured) = history%measures(shown_measures, 0)
       answer%error(measured) = error(shown_measures)
       answer%value(approach) = 1.0_dp - answer%value(mean_gap)

@@ -10,7 +10,7 @@ module wavycon_gauss_newton
    implicit none (type, external)
    private
 
-   public :: changes_with_load, newton_steps
+   public :: change_with_area, changes_with_load, newton_steps
 
    !> Steps, and what is known of the last one.
    type :: newton_steps
@@ -44,11 +44,10 @@ contains
    !>
    !> A step leaves about its own change times the contraction, the ratio of the changes of two successive steps. After
    !> a first step the contraction is that of the last degree. It is at least what quadratic convergence has.
-   subroutine solve(self, equations, lattice, load, now, tolerance)
+   subroutine solve(self, equations, lattice, now, tolerance)
       class(newton_steps), intent(inout) :: self
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load                         !! P
       type(expansion), intent(inout) :: now
       real(dp), intent(in) :: tolerance                    !! of what remains, relative to the shape's size, > 0
 
@@ -58,7 +57,7 @@ contains
       self%change = huge(1.0_dp)
       do i = 1, most_newton_steps
          change_before = self%change
-         call self%step(equations, lattice, load, now)
+         call self%step(equations, lattice, now)
          self%iterations = self%iterations + 1
          self%remaining = huge(1.0_dp)
          if (.not. self%valid) return
@@ -71,20 +70,19 @@ contains
    end subroutine solve
 
    !> One step, README.md (F40): minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing
-   !> load.
+   !> load; with adhesion subject to the area, (F69).
    !>
    !> The step is shortened to a change of the shape of `longest_shape_change`.
-   subroutine step(self, equations, lattice, load, now)
+   subroutine step(self, equations, lattice, now)
       class(newton_steps), intent(inout) :: self
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load                         !! P
       type(expansion), intent(inout) :: now                !! as before if the step is not finite
 
-      real(dp) :: missing_load, whole(equations%unknowns)
+      real(dp) :: missing, whole(equations%unknowns)
       logical :: finite
 
-      call equations%linearise(lattice, load, now)
+      call equations%linearise(lattice, now)
       self%residual = huge(1.0_dp)
       self%misfit = huge(1.0_dp)
       self%change = huge(1.0_dp)
@@ -92,8 +90,12 @@ contains
       ! LAPACK may loop for ever on NaN or infinity.
       if (.not. (all(ieee_is_finite(equations%residual)) .and. all(ieee_is_finite(equations%matrix)))) return
       self%residual = maxval(abs(equations%residual))
-      missing_load = load*lattice%area - equations%integral(now)
-      call least_squares_step(equations, now%pool, missing_load, whole, self%misfit, finite)
+      if (now%work > 0.0_dp) then
+         missing = now%area - now%shape%area()
+      else
+         missing = now%load*lattice%area - equations%integral(now)
+      end if
+      call least_squares_step(equations, now, missing, whole, self%misfit, finite)
       if (.not. finite) return
       self%change = maxval(abs(whole(equations%before_shape + 1:)))/now%shape%b(0)
       call add_step(now, min(1.0_dp, longest_shape_change/max(self%change, tiny(1.0_dp)))*whole, equations)
@@ -103,11 +105,10 @@ contains
 
    !> The first and second derivatives of the unknowns with respect to the load, at a solution: (I7a), (I7b) of
    !> src/beyond/README.md.
-   subroutine changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, finite)
+   subroutine changes_with_load(equations, lattice, now, change, change_of_change, load_change, finite)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load                         !! P
-      type(expansion), intent(in) :: now                   !! the solution
+      type(expansion), intent(in) :: now                   !! the solution, without adhesion
       real(dp), intent(out) :: change(:), change_of_change(:)   !! per P and P^2, shape (unknowns)
       real(dp), intent(out) :: load_change(2)   !! of the integral of p or g, per P and P^2
       logical, intent(out) :: finite            !! otherwise the changes are of no use
@@ -127,9 +128,9 @@ contains
       finite = all(ieee_is_finite(matrix))
       if (.not. finite) return
       equations%residual = merge(1.0_dp, 0.0_dp, now%pool)
-      call least_squares_step(equations, now%pool, lattice%area, change, misfit, finite)
+      call least_squares_step(equations, now, lattice%area, change, misfit, finite)
       if (.not. finite) return
-      step = part*min(load, lattice%closing_pressure - load)
+      step = part*min(now%load, lattice%closing_pressure - now%load)
       right = 0.0_dp
       row_change = 0.0_dp
       do i = -2, 2
@@ -145,7 +146,7 @@ contains
       equations%matrix = matrix
       equations%residual = right
       equations%load_row = load_row
-      call least_squares_step(equations, now%pool, -row_change, change_of_change, misfit, finite)
+      call least_squares_step(equations, now, -row_change, change_of_change, misfit, finite)
       load_change = [dot_product(load_row, change), dot_product(load_row, change_of_change) + row_change]
 
    contains
@@ -158,12 +159,29 @@ contains
 
          other = now
          if (steps /= 0) call add_step(other, steps*step*change, equations)
-         call equations%linearise(lattice, load, other)
+         call equations%linearise(lattice, other)
       end subroutine linearise_at
 
    end subroutine changes_with_load
 
-   !> Adds a step to coefficients, approach and shape.
+   !> The derivatives of the unknowns with respect to the area of an adhesive spot or pool, README.md (F70).
+   subroutine change_with_area(equations, lattice, now, change, finite)
+      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(wave_lattice), intent(in) :: lattice
+      type(expansion), intent(in) :: now                   !! the solution, with adhesion
+      real(dp), intent(out) :: change(:)                   !! shape (unknowns)
+      logical, intent(out) :: finite                       !! otherwise the change is of no use
+
+      real(dp) :: misfit
+
+      call equations%linearise(lattice, now)
+      finite = all(ieee_is_finite(equations%matrix))
+      if (.not. finite) return
+      equations%residual = 0.0_dp
+      call least_squares_step(equations, now, 1.0_dp, change, misfit, finite)
+   end subroutine change_with_area
+
+   !> Adds a step to coefficients, approach or load, and shape.
    subroutine add_step(now, step, equations)
       type(expansion), intent(inout) :: now
       real(dp), intent(in) :: step(:)                      !! shape (unknowns)
@@ -172,15 +190,17 @@ contains
       associate (terms => now%basis%terms)
          now%c = now%c + step(:terms)
          if (.not. now%pool) now%approach = now%approach + step(terms + 1)
+         if (now%pool .and. equations%constraints == 1) now%load = now%load + step(terms + 1)
          now%shape%b = now%shape%b + step(equations%before_shape + 1:)
       end associate
    end subroutine add_step
 
    !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
-   subroutine least_squares_step(equations, pool, missing_load, step, misfit, finite)
+   subroutine least_squares_step(equations, now, missing, step, misfit, finite)
       type(contact_equations), intent(inout) :: equations
-      logical, intent(in) :: pool                !! a spot's load is a constraint
-      real(dp), intent(in) :: missing_load       !! that the step must add to a spot, times the cell's area
+      type(expansion), intent(in) :: now
+      real(dp), intent(in) :: missing
+         !! what the step must add: to the load of a spot, times the cell's area, or to the area with adhesion
       real(dp), intent(out) :: step(:)           !! shape (unknowns)
       real(dp), intent(out) :: misfit
          !! root of the sum of squares that the step leaves, over the equations beyond the unknowns [Delta, p*]
@@ -190,16 +210,19 @@ contains
       integer, parameter :: block = 64
       real(dp) :: constraint(1, size(step)), right(1)
       real(dp) :: work(block*(size(equations%residual) + size(step) + 1))
-      integer :: beyond, constraints, info, m, n
+      integer :: beyond, info, m, n
 
       m = size(equations%residual)
       n = size(step)
-      constraints = merge(0, 1, pool)
-      beyond = m - n + constraints
+      beyond = m - n + equations%constraints
       constraint(1, :) = equations%load_row
-      right = missing_load
-      call dgglse(m, n, constraints, equations%matrix, m, constraint, 1, equations%residual, right, step, work, &
-                  size(work), info)
+      if (now%work > 0.0_dp) then
+         constraint = 0.0_dp
+         call now%shape%linearise_area(constraint(1, equations%before_shape + 1:))
+      end if
+      right = missing
+      call dgglse(m, n, equations%constraints, equations%matrix, m, constraint, 1, equations%residual, right, step, &
+                  work, size(work), info)
       ! LAPACK leaves the components that no step can remove at the end of the right side.
       misfit = norm2(equations%residual(m - beyond + 1:))/sqrt(real(beyond, dp))
       finite = info == 0

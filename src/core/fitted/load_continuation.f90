@@ -4,10 +4,11 @@ module wavycon_load_continuation
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_disc_polynomials, only: start_disc_polynomials
-   use wavycon_expansion, only: expansion
+   use wavycon_expansion, only: edge_power, expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
    use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, start_degree
    use wavycon_gauss_newton, only: change_per_square, newton_steps
+   use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_kinds, only: dp
    use wavycon_expansion_size, only: merging_ratio
    use wavycon_quantities, only: polynomial_degree
@@ -15,11 +16,13 @@ module wavycon_load_continuation
    implicit none (type, external)
    private
 
-   public :: asymptote, is_start, start_at_load
+   public :: asymptote, is_start, start_at_area, start_at_load
 
    !> Relative change of the shape at which Newton's method stops during continuation: the next load makes smaller ones
    !> useless.
    real(dp), parameter :: start_shape_change = 1e-2_dp
+   !> Area fraction up to which a spot or pool with adhesion starts from an asymptote.
+   real(dp), parameter :: small_area = 0.03_dp
 
 contains
 
@@ -63,7 +66,7 @@ contains
          call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp)
          newton%contraction = 0.0_dp
-         call newton%solve(equations, lattice, at, now, change_per_square*start_shape_change**2)
+         call newton%solve(equations, lattice, now, change_per_square*start_shape_change**2)
          found = newton%valid
          if (.not. found) exit
          ! The start of a load that was solved has come to a ratio of 0.92 at most, of many next to merging.
@@ -81,6 +84,61 @@ contains
       end do
       iterations = iterations + newton%iterations
    end subroutine start_at_load
+
+   !> An approximation at an area with adhesion, and the degree to go on with.
+   !>
+   !> A solution of an area that is within one step is scaled to the area. Otherwise the asymptotes of small spots or
+   !> pools are followed in steps of the area.
+   subroutine start_at_area(lattice, pool, work, area, now, degree, iterations, found, start)
+      type(wave_lattice), intent(in) :: lattice
+      logical, intent(in) :: pool                     !! the regime
+      real(dp), intent(in) :: work                    !! W > 0
+      real(dp), intent(in) :: area                    !! of the spot or pool [s^2]
+      type(expansion), intent(out) :: now
+      integer, intent(out) :: degree
+      integer, intent(inout) :: iterations            !! Gauss-Newton steps are added
+      logical, intent(out) :: found
+      type(fitted_answer), intent(in), optional :: start   !! a solution of the same lattice and work
+
+      type(contact_equations) :: equations
+      type(newton_steps) :: newton
+      real(dp) :: at
+
+      degree = first_degree
+      found = present(start)
+      if (found) found = start%status <= fitted_less_exact .and. (start%pool .eqv. pool)
+      if (found) found = abs(log(area/start%solution%area)) <= log(load_step_ratio)
+      if (found) then
+         now = scaled_to_area(start%solution, area)
+         found = merging_ratio(lattice, now) < 1.0_dp
+         degree = max(first_degree, nint(start%value(polynomial_degree)) - 2*degree_step)
+         return
+      end if
+      at = min(area, small_area*lattice%area)
+      now = asymptote(lattice, 0.0_dp, pool, work, at)
+      do
+         call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
+         call start_equations(equations, now, 0.0_dp)
+         newton%contraction = 0.0_dp
+         call newton%solve(equations, lattice, now, change_per_square*start_shape_change**2)
+         found = newton%valid
+         if (.not. found .or. at >= area) exit
+         at = min(load_step_ratio*at, area)
+         now = scaled_to_area(now, at)
+      end do
+      iterations = iterations + newton%iterations
+   end subroutine start_at_area
+
+   !> A spot or pool with adhesion at another area, with the same pressures and gaps.
+   pure function scaled_to_area(from, area) result(scaled)
+      type(expansion), intent(in) :: from
+      real(dp), intent(in) :: area      !! [s^2]
+      type(expansion) :: scaled
+
+      scaled = from
+      scaled%shape%b = from%shape%b*sqrt(area/from%shape%area())
+      scaled%area = area
+   end function scaled_to_area
 
    !> Whether a solution of another load is a start: in the same regime, within one step, and still apart from its
    !> neighbours when it is scaled to the load.
@@ -112,18 +170,19 @@ contains
    !> An expansion of low degree over a circle or, with two-fold symmetry, an ellipse: a Hertzian spot at a crest,
    !> README.md (F41) and (23) of the paper, or the opening of a penny-shaped crack at a trough, (F42) and (24),
    !> (A4)-(A8) of the paper; elliptical where the curvatures of the crest, or of the full contact's pressure, differ.
-   function asymptote(lattice, load, pool) result(now)
+   !> With adhesion at a given area: (F71), (F72).
+   function asymptote(lattice, load, pool, work, area) result(now)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load   !! P > 0, of a crack less than the closing pressure
+      real(dp), intent(in) :: load   !! P > 0, of a crack less than the closing pressure; without adhesion
       logical, intent(in) :: pool
+      real(dp), intent(in), optional :: work, area   !! with adhesion: W > 0, and the area of the spot or pool [s^2]
       type(expansion) :: now
 
-      real(dp) :: curvature(2), mean, missing, radius, ratio   ! of the axes along y and x
-      integer :: i
+      real(dp), allocatable :: inside(:), values(:, :)
+      real(dp) :: curvature(2), mean, missing, radius, ratio   ! ratio: of the axes along y and x
+      type(disc_rule) :: rule
 
-      associate (wave_height => merge(-lattice%pressure*lattice%phase%re, lattice%amplitude, pool))
-         curvature = 4*pi**2*[(sum(lattice%wave(i, :)**2*wave_height), i=1, 2)]
-      end associate
+      curvature = lattice%curvatures(pool)
       mean = sqrt(product(curvature))
       missing = lattice%closing_pressure - load
       if (pool) then
@@ -135,14 +194,34 @@ contains
          ! About the exact relation, which has elliptic integrals.
          ratio = (curvature(1)/curvature(2))**0.6_dp
       end if
+      if (present(area)) then
+         now%work = work
+         now%area = area
+         radius = sqrt(area/pi)
+      end if
       now%pool = pool
       now%shape%fold = merge(lattice%trough_fold, lattice%fold, pool)
       allocate (now%shape%b(0:1))
       now%shape%b(:) = [radius, 0.0_dp]
       if (now%shape%fold == 2) now%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
-      call start_disc_polynomials(now%basis, now%shape%fold, start_degree, merge(1.5_dp, 0.5_dp, pool))
+      call start_disc_polynomials(now%basis, now%shape%fold, start_degree, edge_power(pool, present(area)))
       allocate (now%c(now%basis%terms), source=0.0_dp)
-      if (pool) then
+      now%load = load
+      if (present(area)) then
+         now%shape%b = now%shape%b*sqrt(area/now%shape%area())
+         call start_disc_rule(rule, now%basis%power, now%shape%fold, start_degree, start_degree)
+         allocate (inside(size(rule%point)), values(size(rule%point), now%basis%terms))
+         call now%basis%evaluate(size(rule%point), rule%point, values)
+         inside = (1.0_dp - abs(rule%point))*(1.0_dp + abs(rule%point))
+         if (pool) then
+            now%load = lattice%closing_pressure - mean*radius**2/3 - sqrt(work/(2*radius))
+            inside = 8*mean*radius**3/9*inside + 4*sqrt(0.5_dp*work*radius)
+         else
+            now%approach = mean*radius**2 - pi*sqrt(2*work*radius)
+            inside = 2*mean*radius/pi**2*inside - sqrt(2*work/radius)/pi
+         end if
+         now%c = matmul(rule%weight*inside, values)
+      else if (pool) then
          ! The opening is g_0 (1 - rho^2)^(3/2), g_0 = (8/3) b (closing pressure - P), b the radius.
          now%c(1) = 8*missing*radius/3*sqrt(0.4_dp*pi)
       else
@@ -162,6 +241,7 @@ contains
       real(dp) :: factor
 
       scaled = from
+      scaled%load = new_load
       if (from%pool) then
          factor = sqrt((lattice%closing_pressure - new_load)/(lattice%closing_pressure - old_load))
          scaled%c = from%c*factor**3

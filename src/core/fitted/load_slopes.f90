@@ -1,5 +1,4 @@
-!> How an expansion changes with the load: the derivatives of mean gap and contact area, and the stress intensity of the
-!> change along the edge. Equations (I..) are those of src/beyond/README.md.
+!> How an expansion changes with the load: the derivatives of mean gap and contact area. Equations (I..) are those of src/beyond/README.md.
 module wavycon_load_slopes
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
@@ -24,25 +23,24 @@ module wavycon_load_slopes
 contains
 
    !> The derivatives of a solution, with errors estimated from those of the lower degrees.
-   subroutine find_load_slopes(lattice, answer, slopes, errors, intensity_range, found)
+   subroutine find_load_slopes(lattice, answer, slopes, errors, found)
       type(wave_lattice), intent(in) :: lattice    !! the answer's
       type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
       real(dp), intent(out) :: slopes(number_of_slopes)
          !! G', A', G'' [Delta, 1, Delta over the pressure, for G'' its square; pressures in pi E* Delta/s]
       real(dp), intent(out) :: errors(number_of_slopes)   !! estimates of their errors
-      real(dp), intent(out) :: intensity_range(2)         !! as of `least_intensity`
       logical, intent(out) :: found                       !! otherwise the equations have no finite solution
 
       !> Relative error of the differences of Newton's matrix.
       real(dp), parameter :: of_differences = 1e-10_dp
-      real(dp) :: at(number_of_slopes, 0:size(answer%previous)), range(2)
+      real(dp) :: at(number_of_slopes, 0:size(answer%previous))
       logical :: found_too
       integer :: k
 
-      call slopes_of(lattice, answer%pbar_over_pstar, answer%solution, slopes, intensity_range, found)
+      call slopes_of(lattice, answer%solution, slopes, found)
       at(:, 0) = slopes
       do k = 1, size(answer%previous)
-         call slopes_of(lattice, answer%pbar_over_pstar, answer%previous(k), at(:, k), range, found_too)
+         call slopes_of(lattice, answer%previous(k), at(:, k), found_too)
          found = found .and. found_too
       end do
       if (.not. found) return
@@ -50,49 +48,40 @@ contains
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 
-   !> The derivatives of one expansion, and the least and the largest k^2 along its edge: (I4) to (I7).
-   subroutine slopes_of(lattice, load, now, slopes, intensity_range, found)
+   !> The derivatives of one expansion: (I4) to (I7b).
+   subroutine slopes_of(lattice, now, slopes, found)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load            !! P
       type(expansion), intent(in) :: now
-      real(dp), intent(out) :: slopes(number_of_slopes), intensity_range(2)
+      real(dp), intent(out) :: slopes(number_of_slopes)
       logical, intent(out) :: found
 
       type(contact_equations) :: equations
-      complex(dp), allocatable :: w(:)
+      complex(dp) :: w
       complex(dp) :: normal, place_change(0:ubound(now%shape%b, 1))
       real(dp), allocatable :: change(:), change_of_change(:)
-      real(dp), allocatable :: intensity(:), values(:, :), velocity(:)   ! k, and the edge's velocity times ds/dphi
-      real(dp) :: load_change(2), root
+      real(dp) :: load_change(2), total   ! total: the integral of the edge's velocity along the edge
       integer :: i, n
 
       call equations%images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
       call start_equations(equations, now, merging_ratio(lattice, now))
       allocate (change(equations%unknowns), change_of_change(equations%unknowns))
-      call changes_with_load(equations, lattice, load, now, change, change_of_change, load_change, found)
+      call changes_with_load(equations, lattice, now, change, change_of_change, load_change, found)
       if (.not. found) return
       n = least_edge_points + edge_points_per_degree*now%basis%degree
-      allocate (intensity(n), values(n, now%basis%terms), velocity(n), w(n))
-      w = exp(cmplx(0.0_dp, [(pi*(i - 0.5_dp)/(now%basis%fold*n), i=1, n)], dp))
-      call now%basis%evaluate(n, w, values)
+      total = 0.0_dp
       do i = 1, n
-         normal = now%shape%tangent(w(i))
-         call now%shape%linearise_place(w(i), place_change)
-         velocity(i) = real(conjg(normal)*dot_product(change(equations%before_shape + 1:), place_change), dp)
-         ! 1 - |w|^2 = root^2 times the distance from the edge, next to it.
-         root = sqrt(2*abs(normal)/now%shape%jacobian(w(i)))
-         intensity(i) = dot_product(values(i, :), now%c)*root*velocity(i)/(2*abs(normal))
-         if (now%pool) intensity(i) = 3/(4*pi)*intensity(i)*root**2
+         w = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(now%basis%fold*n), dp))
+         normal = now%shape%tangent(w)
+         call now%shape%linearise_place(w, place_change)
+         total = total + real(conjg(normal)*dot_product(change(equations%before_shape + 1:), place_change), dp)
       end do
-      slopes(2) = 2*pi/n*sum(velocity)/lattice%area
+      slopes(2) = 2*pi/n*total/lattice%area
       if (now%pool) then
          slopes([1, 3]) = lattice%troughs*load_change/lattice%area
          slopes(2) = -lattice%troughs*slopes(2)
       else
          slopes([1, 3]) = -[change(now%basis%terms + 1), change_of_change(now%basis%terms + 1)]
       end if
-      ! (I5) is its mean.
-      intensity_range = [minval(intensity**2), maxval(intensity**2)]*2*pi**2*slopes(2)/slopes(3)
    end subroutine slopes_of
 
 end module wavycon_load_slopes

@@ -36,7 +36,9 @@ module wavycon_shape_map
       procedure :: slopes
       procedure :: jacobian
       procedure :: tangent
+      procedure :: linearise_edge
       procedure :: area
+      procedure :: linearise_area
       procedure :: radius
       procedure :: place_outside
       procedure :: linearise_outside
@@ -225,6 +227,30 @@ contains
       tangent = w*slope(1) - conjg(w)*conjugate_slope(1)
    end function tangent
 
+   !> What 1 - |w|^2 is next to the edge over the distance from it, 2 |dz/dphi|/J, and the derivatives of its logarithm
+   !> with respect to the coefficients: README.md (F66).
+   pure subroutine linearise_edge(self, w, ratio, log_slope)
+      class(shape_map), intent(in) :: self
+      complex(dp), intent(in) :: w                   !! |w| = 1
+      real(dp), intent(out) :: ratio                 !! [1/s]
+      real(dp), intent(out) :: log_slope(0:)         !! shape (0:K) [1/s]
+
+      complex(dp) :: conjugate_slope(1), normal, of_normal(0:ubound(log_slope, 1)), slope(1)
+      integer :: k
+
+      call self%slopes(1, [w], slope, conjugate_slope)
+      normal = w*slope(1) - conjg(w)*conjugate_slope(1)
+      ratio = 2*abs(normal)/self%jacobian(w)
+      ! Derivatives of the normal; conj(w) dz/d conj(w) changes with b_k, k > 0, by their negatives.
+      of_normal(0) = w*slope(1)/self%b(0)
+      do k = 1, ubound(log_slope, 1)
+         of_normal(k) = -(self%fold*k - 1)*conjg(w)**(self%fold*k - 1)
+      end do
+      log_slope = real(conjg(normal)*of_normal, dp)/abs(normal)**2
+      log_slope(0) = log_slope(0) - 2*abs(slope(1))**2/(self%b(0)*self%jacobian(w))
+      log_slope(1:) = log_slope(1:) - 2*real(conjg(conjg(w)*conjugate_slope(1))*of_normal(1:), dp)/self%jacobian(w)
+   end subroutine linearise_edge
+
    !> z(v) [s] outside of the disc, README.md (F48):
    !>
    !>     z(v) = b_0 v (1 - tau/conj(v)^fold) + sum over k = 1..K of b_k v^(1 - fold k),   |v| >= 1.
@@ -277,6 +303,17 @@ contains
       area = pi*(self%b(0)**2*(1.0_dp + (self%fold + 1)*self%clustering**2) &
                  - sum([((self%fold*k - 1)*self%b(k)**2, k=1, ubound(self%b, 1))]))
    end function area
+
+   !> Derivatives of the area with respect to the coefficients.
+   pure subroutine linearise_area(self, derivative)
+      class(shape_map), intent(in) :: self
+      real(dp), intent(out) :: derivative(0:)   !! shape (0:K) [s]
+
+      integer :: k
+
+      derivative = 2*pi*[self%b(0)*(1.0_dp + (self%fold + 1)*self%clustering**2), &
+                         [(-(self%fold*k - 1)*self%b(k), k=1, ubound(self%b, 1))]]
+   end subroutine linearise_area
 
    !> Largest distance from the centre of some points of the edge [s], from one axis of symmetry to the next. The
    !> farthest point is an axis' or one of a broad tip, so that little is missed.

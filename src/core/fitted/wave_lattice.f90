@@ -52,6 +52,7 @@ module wavycon_wave_lattice
       type(periodic_kernel) :: kernel(2)
    contains
       procedure :: rise
+      procedure :: curvatures
       procedure :: rise_slope
    end type wave_lattice
 
@@ -164,6 +165,19 @@ contains
          rise = rise - 2*sin(half)*(wave%re*sin(half) + wave%im*cos(half))
       end do
    end function rise
+
+   !> The curvatures along x and y of h at a crest [Delta/s^2] or of R at a trough, README.md (F41), (F42).
+   pure function curvatures(self, pool)
+      class(wave_lattice), intent(in) :: self
+      logical, intent(in) :: pool   !! whether they are those of R
+      real(dp) :: curvatures(2)
+
+      integer :: i
+
+      associate (height => merge(-self%pressure*self%phase%re, self%amplitude, pool))
+         curvatures = 4*pi**2*[(sum(self%wave(i, :)**2*height), i=1, 2)]
+      end associate
+   end function curvatures
 
    !> Its gradient [1/s], as a complex number.
    elemental complex(dp) function rise_slope(self, pool, z) result(slope)

@@ -38,12 +38,8 @@ module wavycon_quantities
    integer, parameter, public :: concentrated_load = 16, border_load = 17
    !> How a solution changes with the load, of `contact_solution%derivatives`: G'(P) <= 0 [Delta/p*], A'(P) of the area
    !> fraction [1/p*], G''(P) >= 0 [Delta/p*^2]. src/beyond/README.md derives what follows from them.
-   !>
-   !> At fixed contact a change of load is that of a rigid punch of the contact's shape, whose pressure is k/sqrt(rho)
-   !> at a distance rho from the edge: least and largest k^2 along it over its mean, weighted with the edge's velocity.
-   integer, parameter, public :: gap_slope = 18, area_slope = 19, gap_curvature = 20, least_intensity = 21, &
-      most_intensity = 22
-   integer, parameter, public :: number_of_quantities = 22
+   integer, parameter, public :: gap_slope = 18, area_slope = 19, gap_curvature = 20
+   integer, parameter, public :: number_of_quantities = 20
 
    !> Kinds of quantities: a column of tables has the quantity's name and what is below, and no unit, or its name alone,
    !> and the unit.

@@ -10,7 +10,7 @@ module wavycon_interface_group
    use wavycon_partial_slip, only: dundurs_beta, shear_factors
    use wavycon_plain_text, only: short_number
    use wavycon_scene, only: interface_setting
-   use wavycon_scene_groups, only: interface_group, material_group, method_group
+   use wavycon_scene_groups, only: interface_group, material_group
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -61,10 +61,9 @@ contains
 
    !> Reports what is missing, contradicts, or does not exist on the surface; if there is nothing of this, makes what
    !> the group asks for.
-   subroutine check_interface_group(values, material, method, surface, p_star, setting)
+   subroutine check_interface_group(values, material, surface, p_star, setting)
       type(interface_group), intent(inout) :: values
       type(material_group), intent(in) :: material
-      type(method_group), intent(in) :: method      !! after its check
       type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
       real(dp), intent(in) :: p_star                !! p* [pressure]; 0 if the surface is flat or &material is bad
       type(interface_setting), allocatable, intent(out) :: setting   !! not allocated without the group
@@ -100,13 +99,9 @@ contains
          values%shear_direction%in_effect = .false.
       end if
       if (values%work_of_adhesion%is_given) then
-         if (.not. has_adhesion(surface)) then
-            call values%complain(values%work_of_adhesion, 'adhesion is computed for wave_1d, for the 2-D waves '// &
-               "that solver = 'fitted' takes and for a round ball: on other surfaces the superposition does not hold")
-         else if (any(method%solver%text == ['grid  ', 'beale ', 'series']) .and. .not. is_ball(surface)) then
-            call values%complain(values%work_of_adhesion, "adhesion needs solver = 'auto', 'fitted' or "// &
-                                 "'closed_form', which tell how the edge of contact moves with the load")
-         end if
+         if (.not. has_adhesion(surface)) call values%complain( &
+            values%work_of_adhesion, 'adhesion is computed for wave_1d, for the 2-D waves that solver = '// &
+            "'fitted' takes and for a round ball: leave work_of_adhesion out")
       end if
       if (values%problems%number > 0 .or. values%any_bad .or. p_star <= 0.0_dp) return
       allocate (setting)
@@ -126,7 +121,7 @@ contains
       if (surface%dimension == 1) setting%kappa = kappa(merge(2, 1, values%shear_direction%text == 'y'))
    end subroutine check_interface_group
 
-   !> Whether the superposition (I15) holds, if only roughly: one shape of contact for all spots.
+   !> Whether a surface has exact solutions with adhesion: in closed form, or by expansions of spots of one shape.
    logical function has_adhesion(surface)
       type(surface_type), intent(in) :: surface
 

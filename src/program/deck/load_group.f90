@@ -45,7 +45,7 @@ contains
          'Mean pressures, over the nominal area.', most_values=most_loads, way=11))
       call keys%add(values%mean_gap_over_amplitude, key_type(real_value, 'mean_gap_over_amplitude', '', '-', &
          'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
-         'loads.', least=0, most=1, most_values=most_loads, way=12))
+         'loads. Above 1 they need work_of_adhesion of &interface.', least=0, most_values=most_loads, way=12))
       call keys%add(values%mean_gap, key_type(real_value, 'mean_gap', '', 'length', &
          'Mean gaps; the program finds their loads.', least=0, most_values=most_loads, way=13))
       call keys%add(values%contact_area_fraction, key_type(real_value, 'contact_area_fraction', '', '-', &
@@ -57,8 +57,8 @@ contains
       call keys%add(values%force, key_type(real_value, 'force', '', 'unit of e_star times length^2', &
          'Forces on the nominal area; of a profile per depth.', most_values=most_loads, way=16))
       call keys%add(values%approach, key_type(real_value, 'approach', '', 'length', &
-         'Approaches of the bodies from first touch; the program finds their loads.', least=0, &
-         most_values=most_loads, way=17))
+         'Approaches of the bodies from first touch; the program finds their loads. Below 0 they need '// &
+         'work_of_adhesion of &interface.', most_values=most_loads, way=17))
       call keys%add(values%contact_area, key_type(real_value, 'contact_area', '', 'length^2', &
          'Areas in contact, of a profile lengths; the program finds their loads.', least=0, &
          most_values=most_loads, way=18))
@@ -73,10 +73,10 @@ contains
          needs='sweep_from'))
    end subroutine list_load_keys
 
-   !> Checks the keys, and reports tensions without adhesion.
+   !> Checks the keys, and reports tensions and separations without adhesion.
    subroutine check_load_group(values, with_adhesion)
       type(load_group), intent(inout) :: values
-      logical, intent(in) :: with_adhesion   !! whether loads may be tensions
+      logical, intent(in) :: with_adhesion   !! whether loads may be tensions, and approaches separations
 
       character(:), allocatable :: key
       integer :: loads_by, place
@@ -86,9 +86,10 @@ contains
       call given_loads(values, key, place, loads_by, loads)
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(place, &
          key//' = '//short_number(minval(loads))// &
-         ' is a tension: without work_of_adhesion of &interface loads are >= 0')
-      if (with_adhesion .and. loads_by /= by_pressure) call values%problems%add(place, key// &
-         ' is found without adhesion: with work_of_adhesion of &interface give force, mean_pressure or pbar_over_pstar')
+         ' is a '//trim(merge('separation', 'tension   ', loads_by == by_approach))// &
+         ': without work_of_adhesion of &interface it is >= 0')
+      if (with_adhesion .and. loads_by == by_yield) call values%problems%add(place, &
+         'the load of yield is found without adhesion: leave yield or work_of_adhesion of &interface out')
       if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &
          call values%complain(values%sweep_steps, &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
@@ -97,10 +98,11 @@ contains
    !> Converts loads to the program's normalisation, and reports those that the surface cannot have: a mean gap above
    !> that before load, an area above the nominal one, a pressure of more than largest_pbar_over_pstar p*, a gap or an
    !> area on a flat surface, with free edges what needs p*. The largest gap, approach or area may be rounded up.
-   subroutine take_loads(values, surface, p_star, loads_by, target, mean_pressure)
+   subroutine take_loads(values, surface, p_star, with_adhesion, loads_by, target, mean_pressure)
       type(load_group), intent(inout) :: values                  !! without problems
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
+      logical, intent(in) :: with_adhesion                       !! as of check_load_group
       integer, intent(out) :: loads_by                           !! a name of wavycon_scene
       real(dp), allocatable, intent(out) :: target(:)            !! as of scene_type
       real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
@@ -137,8 +139,10 @@ contains
          if (surface%has_free_edges) limit = short_number(largest_pbar_over_pstar)//' times what presses the map flat'
       case ('mean_gap', 'approach')
          most = surface%amplitude
-         limit = 'the mean gap before load, '//short_number(most)
-         if (key == 'approach') limit = 'that of full contact, '//limit
+         if (.not. with_adhesion) limit = 'the mean gap before load, '//short_number(most)
+         if (key == 'approach') limit = 'that of full contact, the mean gap before load, '//short_number(most)
+      case ('mean_gap_over_amplitude')
+         if (.not. with_adhesion) limit = '1, the mean gap before load'
       case ('contact_area')
          most = surface%nominal_area()
          limit = 'the nominal area, '//short_number(most)
@@ -156,7 +160,8 @@ contains
          key//' = '//short_number(maxval(target))//' is more than '//limit//'. Do the units agree?')
       if (loads_by /= by_pressure) then
          target = target/most
-         if (loads_by /= by_yield) target = min(target, 1.0_dp)
+         if (loads_by /= by_yield .and. .not. (loads_by == by_mean_gap .and. with_adhesion)) &
+            target = min(target, 1.0_dp)
       else if (limit /= '') then
          target = mean_pressure/p_star
       end if

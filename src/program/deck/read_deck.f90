@@ -93,13 +93,13 @@ contains
       call check_load_group(scene%load, scene%interface%work_of_adhesion%is_given)
       if (scene%material%problems%number + scene%load%problems%number == 0 .and. &
           .not. (scene%material%any_bad .or. scene%load%any_bad) .and. scene%load%place > 0 .and. &
-          allocated(scene%surface)) call take_loads(scene%load, scene%surface, scene%p_star, scene%loads_by, &
+          allocated(scene%surface)) call take_loads(scene%load, scene%surface, scene%p_star, &
+                                                    scene%interface%work_of_adhesion%is_given, scene%loads_by, &
                                                     scene%target, scene%mean_pressure)
       call check_stress_group(scene%stress, scene%material, scene%load, scene%surface, scene%p_star, &
                               scene%stress_setting)
       call check_method_group(scene%method, scene%surface)
-      call check_interface_group(scene%interface, scene%material, scene%method, scene%surface, scene%p_star, &
-                                 scene%interface_setting)
+      call check_interface_group(scene%interface, scene%material, scene%surface, scene%p_star, scene%interface_setting)
       call check_output_group(scene%output, scene%scene_values%case%text, scene%method, scene%surface)
       do i = 1, size(lists)
          call problems%join(lists(i)%group%problems)

@@ -3,10 +3,11 @@
 !> <case>.interface.dat: contact stiffness and resistance, and how mean gap and contact area change with the load.
 !> <case>.partial_slip.dat: stick area, displacement and energy a cycle of each load and tangential load.
 !> <case>.slip_loop.dat: a block of each with the tangential load against the displacement.
-!> <case>.adhesion.dat: the contact with adhesion. Blocks: the curve of pressure against area and approach; pull-off and
-!> jump into full contact; the loads.
+!> <case>.adhesion.dat: the contact with adhesion. Blocks: the curve of load and approach against area; pull-off, jumps
+!> and ends of branches; the loads.
 module wavycon_interface_tables
-   use wavycon_adhesive_curve, only: adhesive_point, point_names
+   use wavycon_adhesive_contact, only: adhesive_point, at_approach, at_load, closed, not_solved, &
+      point_names, separated
    use wavycon_contact_status, only: no_load, status_code, status_name
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -44,10 +45,11 @@ contains
          columns='load[#] tangential[#] branch[#] tangential_load[pressure] displacement[length]')
       tables(4) = table_type('adhesion', group='interface', asked_by=[character(16) :: 'work_of_adhesion', &
          ''], needs_fields=.true., blocks=3, put_load=put_adhesion, &
-         columns='load[#] pbar1_over_pstar[-] pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] '// &
-         'force[force] mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
-         'contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] least_release_over_w[-] '// &
-         'most_release_over_w[-] point[word]')
+         columns='load[#] contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] '// &
+         'pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] force[force] '// &
+         'mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
+         'elastic_energy[pressure*length] elastic_energy_error[pressure*length] '// &
+         'surface_energy[pressure*length] branch[word] point[word] status_code[#] status[word]')
    end function interface_tables
 
    !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
@@ -166,29 +168,34 @@ contains
       type(output_file), intent(inout) :: file
 
       character(*), parameter :: titles(3) = &
-         [character(64) :: 'the curve, by the pressure P1 of the contact without adhesion', &
-          'pull-off and jump into full contact', 'the loads: stable and unstable points']
+         [character(64) :: 'the curve, by the contact area', 'pull-off, jumps, and where a branch ends', &
+          'the loads: stable and unstable contacts']
       type(adhesive_point), allocatable :: points(:)
+      character(len(point_names)) :: words(3)
       integer :: i
-      real(dp) :: mean_pressure, numbers(12)
+      real(dp) :: mean_pressure
 
       call file%begin_block(trim(titles(block)))
       allocate (points, source=results%adhesion%at_loads)
       if (block == 1) points = results%adhesion%points
       if (block == 2) points = results%adhesion%critical
-      associate (surface => results%solver%surface)
+      associate (surface => results%solver%surface, p_star => results%scene%p_star)
          do i = 1, size(points)
             associate (point => points(i))
-               mean_pressure = results%scene%p_star*point%load
-               numbers = not_a_number()
-               if (point%exists) numbers = &
-                  [results%in_p_star([point%load, or_nan(point%load_error)]), mean_pressure, &
+               mean_pressure = p_star*or_nan(point%value(at_load))
+               words = [character(len(words)) :: 'spots', point_names(point%kind), status_name(point%status)]
+               if (point%pools) words(1) = 'pools'
+               if (any(point%kind == [separated, closed, not_solved])) words(1) = 'none'
+               call file%put_row( &
+                  [real(dp) :: point%number, point%area, or_nan(point%area_error), surface%nominal_area()*point%area, &
+                   results%in_p_star(or_nan([point%value(at_load), point%error(at_load)])), mean_pressure, &
                    mean_pressure*surface%nominal_area(), &
-                   results%in_p_star([1.0_dp - point%approach, or_nan(point%approach_error)]), &
-                   surface%amplitude*point%approach, point%area, or_nan(point%area_error), &
-                   surface%nominal_area()*point%area, point%release_range]
-               call file%put_row([real(dp) :: point%number, results%in_p_star(point%p1), numbers], &
-                                 [merge(point_names(point%kind), 'none                ', point%exists)])
+                   results%in_p_star([1.0_dp - or_nan(point%value(at_approach)), or_nan(point%error(at_approach))]), &
+                   surface%amplitude*[or_nan(point%value(at_approach)), &
+                                      p_star*or_nan([point%energy, point%energy_error]), &
+                                      -p_star*results%scene%interface_setting%work*point%area], &
+                   status_code(point%status)], &
+                  words)
             end associate
          end do
       end associate

@@ -3,7 +3,8 @@
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_adhesive_curve, only: add_load, follow_curve, point_names
+   use wavycon_adhesive_contact, only: at_approach, at_load, point_names
+   use wavycon_adhesive_curve, only: add_load, follow_curve
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
@@ -18,7 +19,7 @@ module wavycon_solve_loads
    use wavycon_quantities, only: approach, contact_area, mean_gap
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_mean_gap, by_yield
+   use wavycon_scene, only: by_approach, by_mean_gap, by_pressure, by_yield
    use wavycon_solution_record, only: record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
@@ -219,26 +220,30 @@ contains
       type(run_log), intent(inout) :: log
 
       character(:), allocatable :: words   ! the load, with free edges as a force, and the area
-      integer :: i
+      integer :: bad, i, which
       real(dp) :: mean_pressure
+      real(dp), allocatable :: loads(:)
 
       allocate (results%adhesion)
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
-                 loads => results%loads%pbar_over_pstar)
-         ! Derivatives on grids take long, and their errors look like extremes.
-         results%solver%without_grids = .true.
-         call follow_curve(results%solver, work, maxval(loads), curve)
+                 surface => results%solver%surface, accuracy => results%scene%method%accuracy%number)
+         loads = results%scene%target
+         which = findloc([by_pressure, by_approach, by_mean_gap], results%scene%loads_by, dim=1)
+         if (which == 3) then
+            which = at_approach
+            loads = 1.0_dp - loads
+         end if
+         call follow_curve(surface, accuracy, work, maxval(results%loads%pbar_over_pstar), curve)
          do i = 1, size(loads)
-            call add_load(curve, results%solver, loads(i), i)
+            call add_load(curve, which, loads(i), i)
          end do
-         results%solver%without_grids = .false.
-         if (.not. all(curve%points%exists)) call log%note( &
-            integer_text(count(.not. curve%points%exists))//' of '//integer_text(size(curve%points))// &
-            ' points of the curve have no solution')
+         bad = count(.not. is_good_status(curve%at_loads%status))
+         if (bad > 0) call log%note('adhesion is NOT solved as requested at '//integer_text(bad)//' of '// &
+            integer_text(size(curve%at_loads))//' contacts of the loads, see the status column')
          do i = 1, size(curve%critical)
-            associate (point => curve%critical(i), surface => results%solver%surface)
-               mean_pressure = results%scene%p_star*point%load
-               words = ', pbar/p* = '//short_number(point%load)//', pbar = '//short_number(mean_pressure)// &
+            associate (point => curve%critical(i))
+               mean_pressure = results%scene%p_star*point%value(at_load)
+               words = ', pbar/p* = '//short_number(point%value(at_load))//', pbar = '//short_number(mean_pressure)// &
                        ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
                if (surface%has_free_edges) words = ', force = '// &
                   short_number(mean_pressure*surface%nominal_area())//', area = '// &

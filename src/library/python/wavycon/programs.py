@@ -42,6 +42,9 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
     command = [program(), os.fspath(deck)]
     started: list = []
     with tempfile.TemporaryDirectory() as own:
+        # From version 3 on pandas reads numbers exactly by itself, and warns of the argument.
+        exact = {"float_precision": "round_trip"} if int(pandas.__version__.split(".")[0]) < 3 else {}
+
         def run(number):
             settings, table = combinations[number], Path(own, f"{number}.dat")
             sets = [f"--set={key}={value_text(value)}" for key, value in settings.items()]
@@ -54,8 +57,7 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             if table.exists():
                 # The head of a deck that did not fail: version, units.
-                rows = pandas.read_csv(table, sep=r"\s+", skiprows=2, quoting=csv.QUOTE_NONE,
-                                       float_precision="round_trip").loc[:, "load":]
+                rows = pandas.read_csv(table, sep=r"\s+", skiprows=2, quoting=csv.QUOTE_NONE, **exact).loc[:, "load":]
             else:
                 rows = pandas.DataFrame({"status": ["failed"]})
                 message = message or f"the program ended with the status {process.returncode}"

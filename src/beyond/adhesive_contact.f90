@@ -1,0 +1,169 @@
+!> One contact with adhesion in the limit of Johnson, Kendall & Roberts, of a given area. Equations (I..) are those of
+!> README.md in this directory.
+!>
+!> The 1-D wave and the round ball have closed forms. Waves on a lattice have exact solutions by expansions with a
+!> singular edge, one branch of separate spots and one of separate pools.
+module wavycon_adhesive_contact
+   use wavycon_constants, only: pi
+   use wavycon_contact_status, only: converged, not_accurate
+   use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
+   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_fitted_solver, only: solve_adhesive
+   use wavycon_free_edges, only: ball_radii, is_ball
+   use wavycon_hertz_ball, only: hertz_ball, hertz_contact
+   use wavycon_kinds, only: dp
+   use wavycon_quantities, only: approach, elastic_energy, mean_gap, unknown
+   use wavycon_surface, only: surface_type
+   implicit none (type, external)
+   private
+
+   public :: adhesive_point, adhesive_problem, start_adhesive_problem
+
+   !> What a point is. Under a given load a contact is stable where P rises with its area, at a given approach where the
+   !> approach does.
+   integer, parameter, public :: unstable_point = 0, stable_point = 1, approach_stable = 2, pull_off_point = 3, &
+      jump_to_spots = 4, jump_to_pools = 5, jump_to_full = 6, approach_pull_off = 7, approach_jump = 8, &
+      end_of_branch = 9, separated = 10, closed = 11, not_solved = 12
+   character(22), parameter, public :: point_names(0:12) = [character(22) :: 'unstable', 'stable', &
+      'stable_by_approach', 'pull_off', 'jump_to_spots', 'jump_to_pools', 'jump_to_full_contact', &
+      'pull_off_by_approach', 'jump_by_approach', 'end_of_branch', 'separated', 'full_contact', 'not_solved']
+
+   !> The numbers of a point that have zeros along the curve: P [p*], the approach [Delta], and their derivatives with
+   !> respect to the area fraction.
+   integer, parameter, public :: at_load = 1, at_approach = 2
+   integer, parameter :: load_slope = 3, approach_slope = 4
+
+   type :: adhesive_point
+      logical :: exists = .false.
+      integer :: kind = unstable_point
+      integer :: number = 0                   !! of the load asked for, from 1
+      logical :: pools = .false.              !! of the branch of separate pools
+      real(dp) :: area = 0.0_dp               !! the contact area fraction, by which the curve is followed
+      real(dp) :: area_error = 0.0_dp
+      real(dp) :: value(4) = unknown          !! P, approach and their slopes
+      real(dp) :: error(2) = unknown          !! of P and approach
+      real(dp) :: energy = unknown            !! elastic [p* Delta]: the mean of p u/2
+      real(dp) :: energy_error = unknown
+      integer :: status = converged           !! a name of wavycon_contact_status
+      type(fitted_answer), allocatable :: answer   !! of a lattice, from which other points start
+   end type adhesive_point
+
+   !> A surface with a work of adhesion.
+   type :: adhesive_problem
+      type(surface_type) :: surface
+      logical :: has_closed_form = .true.
+      type(fitted_frame) :: frame        !! of a wave on a lattice, which has no closed form
+      real(dp) :: pull = 0.0_dp          !! F_c of a ball (I17) over p* A_0
+      real(dp) :: work = 0.0_dp          !! w' > 0 [p* Delta]
+      real(dp) :: accuracy = 0.0_dp      !! largest error of P [p*] and approach [Delta], > 0
+   contains
+      procedure :: find_point
+   end type adhesive_problem
+
+contains
+
+   subroutine start_adhesive_problem(problem, surface, work, accuracy)
+      type(adhesive_problem), intent(out) :: problem
+      type(surface_type), intent(in) :: surface   !! a wave of one dimension, a round ball or one with a frame
+      real(dp), intent(in) :: work                !! w' > 0 [p* Delta]
+      real(dp), intent(in) :: accuracy            !! > 0, of P [p*] and approach [Delta]
+
+      problem%surface = surface
+      problem%work = work
+      problem%accuracy = accuracy
+      problem%has_closed_form = is_ball(surface) .or. surface%dimension == 1
+      if (.not. problem%has_closed_form) call find_frame(surface, problem%frame)
+      if (is_ball(surface)) &
+         problem%pull = 1.5_dp*pi*work*surface%amplitude*maxval(ball_radii(surface))/surface%nominal_area()
+   end subroutine start_adhesive_problem
+
+   !> The point of a branch at a contact area fraction.
+   subroutine find_point(self, pools, area, point, start)
+      class(adhesive_problem), intent(in) :: self
+      logical, intent(in) :: pools
+      real(dp), intent(in) :: area                          !! 0 < area < 1
+      type(adhesive_point), intent(out) :: point
+      type(fitted_answer), intent(in), optional :: start    !! of another area of the branch
+
+      point%pools = pools
+      point%area = area
+      if (is_ball(self%surface)) then
+         call find_point_of_ball(self, point)
+      else if (self%surface%dimension == 1) then
+         call find_point_of_line_wave(self, point)
+      else
+         call find_point_of_lattice(self, point, start)
+      end if
+      if (.not. point%exists) return
+      if (point%value(approach_slope) > 0.0_dp) point%kind = approach_stable
+      if (point%value(load_slope) > 0.0_dp) point%kind = stable_point
+      if (.not. maxval(point%error) <= self%accuracy) point%status = not_accurate
+   end subroutine find_point
+
+   !> By (I17), (I18): the load P1 of Hertz's contact of the same area less the tension T = 2 sqrt(F_c P1).
+   subroutine find_point_of_ball(self, point)
+      class(adhesive_problem), intent(in) :: self
+      type(adhesive_point), intent(inout) :: point
+
+      real(dp) :: delta, p1, tension
+      type(hertz_ball) :: contact
+
+      associate (surface => self%surface)
+         contact = hertz_contact(ball_radii(surface), 1.0_dp, area=point%area*surface%nominal_area())
+         p1 = contact%force/(surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+         delta = contact%approach/surface%amplitude
+      end associate
+      tension = 2*sqrt(self%pull*p1)
+      point%exists = .true.
+      ! P1 goes with the power 3/2 of the area, T with 3/4, Hertz's approach with 1.
+      point%value = [p1 - tension, delta*(1.0_dp - 2*tension/(3*p1)), (1.5_dp*p1 - 0.75_dp*tension)/point%area, &
+                     delta*(1.0_dp - tension/(6*p1))/point%area]
+      point%error = 0.0_dp
+      point%energy = delta*(0.4_dp*p1 - 2*tension*(p1 - 0.5_dp*tension)/(3*p1))
+      point%energy_error = 0.0_dp
+   end subroutine find_point_of_ball
+
+   !> By (I16), (I18): Johnson (1995). P1 = sin^2 psi is the load of the same strip without adhesion, psi = pi area/2.
+   subroutine find_point_of_line_wave(self, point)
+      class(adhesive_problem), intent(in) :: self
+      type(adhesive_point), intent(inout) :: point
+
+      real(dp) :: p1, slope, tension
+
+      associate (s => sin(0.5_dp*pi*point%area), c => cos(0.5_dp*pi*point%area))
+         p1 = s**2
+         tension = sqrt(2*self%work*s/(pi*c))
+         slope = 2*s*c - tension/(2*s*c)
+         point%exists = .true.
+         point%value(:2) = [p1 - tension, p1 - (p1 - tension)*log(p1)]
+         point%value(3:) = 0.5_dp*pi*[slope, 2*s*c - slope*log(p1) - 2*(p1 - tension)*c/s]
+         point%energy = 0.25_dp*p1**2 + log(p1)*(tension*(p1 - 0.5_dp*tension) - 0.5_dp*p1**2)
+      end associate
+      point%error = 0.0_dp
+      point%energy_error = 0.0_dp
+   end subroutine find_point_of_line_wave
+
+   !> By expansions with a singular edge: src/core/fitted/README.md, section 15.
+   subroutine find_point_of_lattice(self, point, start)
+      class(adhesive_problem), intent(in) :: self
+      type(adhesive_point), intent(inout) :: point
+      type(fitted_answer), intent(in), optional :: start
+
+      real(dp) :: cell   ! of one spot or pool, with the sign of d(contact area)
+
+      allocate (point%answer)
+      associate (lattice => self%frame%lattice, unit => self%frame%pressure_unit, answer => point%answer)
+         cell = lattice%area
+         if (point%pools) cell = -lattice%area/lattice%troughs
+         call solve_adhesive(lattice, point%pools, self%work/unit, merge(point%area - 1.0_dp, point%area, point%pools) &
+                             *cell, self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, start)
+         if (answer%status > fitted_less_exact) return
+         point%exists = .true.
+         point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]
+         point%error = [unit*answer%load_error, answer%error(mean_gap)]
+         point%energy = answer%value(elastic_energy)*unit/lattice%area
+         point%energy_error = answer%error(elastic_energy)*unit/lattice%area
+      end associate
+   end subroutine find_point_of_lattice
+
+end module wavycon_adhesive_contact
