@@ -26,7 +26,8 @@ module wavycon_adhesive_contact
       end_of_branch = 9, separated = 10, closed = 11, not_solved = 12, jump_to_bands = 13
    character(22), parameter, public :: point_names(0:13) = [character(22) :: 'unstable', 'stable', &
       'stable_by_approach', 'pull_off', 'jump_to_spots', 'jump_to_pools', 'jump_to_full_contact', &
-      'pull_off_by_approach', 'jump_by_approach', 'end_of_branch', 'separated', 'full_contact', 'not_solved', 'jump_to_bands']
+      'pull_off_by_approach', 'jump_by_approach', 'end_of_branch', 'separated', 'full_contact', 'not_solved', &
+      'jump_to_bands']
 
    !> The numbers of a point that have zeros along the curve: P [p*], the approach [Delta], and their derivatives with
    !> respect to the area fraction.

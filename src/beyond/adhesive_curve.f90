@@ -93,8 +93,8 @@ contains
       end do
    end subroutine follow_closed_form
 
-   !> By steps of the radius, from one that is smaller than that of pull-off from spots or of the jump from pools, (I20),
-   !> until the approach has its last extreme, which is before spots or pools touch.
+   !> By steps of the radius, from one smaller than that of pull-off from spots or of the jump from pools, (I20), until
+   !> the approach has its last extreme, which is before spots or pools touch.
    subroutine follow_branch(curve, pools)
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools
@@ -153,7 +153,8 @@ contains
       type(adhesive_point), intent(in) :: point
 
       !> Of a minimum and of a maximum, for load and approach.
-      integer, parameter :: kinds(2, 2) = reshape([pull_off_point, jump_to_full, approach_pull_off, approach_jump], [2, 2])
+      integer, parameter :: kinds(2, 2) = reshape([pull_off_point, jump_to_full, approach_pull_off, &
+                                                   approach_jump], [2, 2])
       integer :: n, which
       type(adhesive_point) :: before, extreme(2)
 
