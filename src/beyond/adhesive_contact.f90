@@ -23,10 +23,11 @@ module wavycon_adhesive_contact
    !> approach does.
    integer, parameter, public :: unstable_point = 0, stable_point = 1, approach_stable = 2, pull_off_point = 3, &
       jump_to_spots = 4, jump_to_pools = 5, jump_to_full = 6, approach_pull_off = 7, approach_jump = 8, &
-      end_of_branch = 9, separated = 10, closed = 11, not_solved = 12
-   character(22), parameter, public :: point_names(0:12) = [character(22) :: 'unstable', 'stable', &
+      end_of_branch = 9, separated = 10, closed = 11, not_solved = 12, jump_to_bands = 13
+   character(22), parameter, public :: point_names(0:13) = [character(22) :: 'unstable', 'stable', &
       'stable_by_approach', 'pull_off', 'jump_to_spots', 'jump_to_pools', 'jump_to_full_contact', &
-      'pull_off_by_approach', 'jump_by_approach', 'end_of_branch', 'separated', 'full_contact', 'not_solved']
+      'pull_off_by_approach', 'jump_by_approach', 'end_of_branch', 'separated', 'full_contact', 'not_solved', &
+      'jump_to_bands']
 
    !> The numbers of a point that have zeros along the curve: P [p*], the approach [Delta], and their derivatives with
    !> respect to the area fraction.

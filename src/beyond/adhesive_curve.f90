@@ -3,8 +3,8 @@
 !> given loads are zeros along it. Equations (I..) are those of README.md in this directory.
 module wavycon_adhesive_curve
    use wavycon_adhesive_contact, only: adhesive_point, adhesive_problem, approach_jump, approach_pull_off, &
-      approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_full, jump_to_pools, jump_to_spots, &
-      not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
+      approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
+      jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
    use wavycon_constants, only: pi
    use wavycon_contact_status, only: not_found
    use wavycon_fitted_answer, only: fitted_answer
@@ -93,8 +93,8 @@ contains
       end do
    end subroutine follow_closed_form
 
-   !> By steps of the radius, from one that is smaller than that of pull-off from spots or of the jump from pools, (I20),
-   !> until the approach has its last extreme, which is before spots or pools touch.
+   !> By steps of the radius, from one smaller than that of pull-off from spots or of the jump from pools, (I20), until
+   !> the approach has its last extreme, which is before spots or pools touch.
    subroutine follow_branch(curve, pools)
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools
@@ -153,7 +153,8 @@ contains
       type(adhesive_point), intent(in) :: point
 
       !> Of a minimum and of a maximum, for load and approach.
-      integer, parameter :: kinds(2, 2) = reshape([pull_off_point, jump_to_full, approach_pull_off, approach_jump], [2, 2])
+      integer, parameter :: kinds(2, 2) = reshape([pull_off_point, jump_to_full, approach_pull_off, &
+                                                   approach_jump], [2, 2])
       integer :: n, which
       type(adhesive_point) :: before, extreme(2)
 
@@ -199,6 +200,11 @@ contains
                end associate
                if (all(point%kind /= [pull_off_point, jump_to_full])) exit
             end do
+            ! Where spots are stable under lighter loads only, and pools under heavier ones, there are bands between.
+            if (any(point%kind == [pull_off_point, jump_to_full]) .and. &
+                any((curve%knots%pools .neqv. point%pools) .and. curve%knots%value(2 + at_load) > 0.0_dp .and. &
+                    (curve%knots%value(at_load) > point%value(at_load) .neqv. point%pools)) .and. &
+                (point%pools .eqv. point%kind == pull_off_point)) point%kind = jump_to_bands
          end associate
       end do
    end subroutine name_jumps

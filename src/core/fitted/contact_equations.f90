@@ -33,7 +33,7 @@ module wavycon_contact_equations
       integer :: unknowns = 0
          !! N coefficients, a spot's approach or an adhesive pool's load, 1+K of the shape
       integer :: before_shape = 0                !! unknowns before those of the shape
-      integer :: constraints = 0                 !! 1: the load of a spot or, with adhesion, the area; 0 of a pool without
+      integer :: constraints = 0                 !! 1: a spot's load or, with adhesion, the area; 0 of a pool without
       type(chord_rule) :: chords                 !! for the spot or pool itself
       type(disc_rule) :: rule                    !! for its images and for integrals over it
       complex(dp), allocatable :: target(:)      !! points of collocation in the disc, shape (m)

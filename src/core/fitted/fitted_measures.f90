@@ -31,7 +31,7 @@ contains
       type(expansion), intent(inout) :: now                !! a load of a spot that is found is set
       real(dp), intent(out) :: measures(all_measures)
       real(dp), intent(out) :: scale(all_measures)
-         !! what errors are relative to: the measure, with adhesion in the load and in pressures also its part at the edge
+         !! what errors are relative to: the measure; with adhesion in loads and pressures also the part at the edge
 
       real(dp) :: at_edge
 

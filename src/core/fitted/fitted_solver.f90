@@ -94,7 +94,7 @@ contains
 
    !> Solves with adhesion for a spot or a pool of a given area: the load is found.
    !>
-   !> The accuracy is relative to the mean gap, to the peak pressure, and to the load with its tension along the edge, as
+   !> The accuracy is relative to the mean gap, to the peak pressure, and to the load with its tension along the edge:
    !> loads vanish on the way to tensions. Status: fitted_solved, fitted_less_exact, fitted_merged, where the shape
    !> touches its neighbours, or fitted_failed.
    subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start)

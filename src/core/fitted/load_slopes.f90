@@ -1,4 +1,5 @@
-!> How an expansion changes with the load: the derivatives of mean gap and contact area. Equations (I..) are those of src/beyond/README.md.
+!> How an expansion changes with the load: the derivatives of mean gap and contact area. Equations (I..) are those of
+!> src/beyond/README.md.
 module wavycon_load_slopes
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations

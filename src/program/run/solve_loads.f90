@@ -237,6 +237,7 @@ contains
          do i = 1, size(loads)
             call add_load(curve, which, loads(i), i)
          end do
+         call log%say('adhesion: the contacts of the loads are in the table of adhesion, those above are without it')
          bad = count(.not. is_good_status(curve%at_loads%status))
          if (bad > 0) call log%note('adhesion is NOT solved as requested at '//integer_text(bad)//' of '// &
             integer_text(size(curve%at_loads))//' contacts of the loads, see the status column')
