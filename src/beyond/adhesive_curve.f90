@@ -6,7 +6,7 @@ module wavycon_adhesive_curve
       approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
    use wavycon_constants, only: pi
-   use wavycon_contact_status, only: not_found
+   use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
@@ -233,9 +233,10 @@ contains
 
       known = size(curve%at_loads)
       if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
+         ! The formulas reach beyond the ends of the curve.
          call curve%problem%find_point(.false., target, point)
-         point%number = number
          curve%at_loads = [curve%at_loads, point]
+         curve%at_loads(known + 1)%number = number
          return
       end if
       do i = 1, size(curve%knots) - 1
@@ -338,6 +339,7 @@ contains
          point%error = point%error + changes(:2)
          point%energy_error = point%energy_error + changes(3)
          point%area_error = changes(4)
+         if (.not. maxval(point%error) <= curve%problem%accuracy) point%status = not_accurate
       end if
    end subroutine find_zero
 

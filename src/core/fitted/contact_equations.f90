@@ -123,7 +123,6 @@ contains
 
       m = size(self%target)
       associate (terms => now%basis%terms, first => self%before_shape + 1)
-         self%matrix = 0.0_dp
          do i = 1, m
             call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, shape_row)
             self%matrix(i, :terms) = row
@@ -132,7 +131,7 @@ contains
          self%load_row = 0.0_dp
          call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:m, :terms), &
                                    self%matrix(:m, first:), self%load_row(:terms), self%load_row(first:))
-         if (now%pool) self%matrix = self%matrix/(4*pi**2)
+         if (now%pool) self%matrix(:m, :) = self%matrix(:m, :)/(4*pi**2)
          call dgemv('N', m, terms, -1.0_dp, self%matrix, size(self%residual), now%c, 1, 0.0_dp, self%residual, 1)
          ! What does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that a pool
          ! would have in full contact; and how they change with the targets' places.
@@ -175,7 +174,7 @@ contains
             strength = -sqrt(now%work*ratio)/pi
             log_slope = 0.5_dp*log_slope
          end if
-         self%matrix(row, :now%basis%terms) = scale*self%edge_values(i, :)
+         self%matrix(row, :self%before_shape) = [scale*self%edge_values(i, :), 0.0_dp]
          self%matrix(row, self%before_shape + 1:) = -scale*strength*log_slope
          self%residual(row) = scale*(strength - dot_product(self%edge_values(i, :), now%c))
       end do

@@ -237,18 +237,20 @@ contains
 
       complex(dp) :: conjugate_slope(1), normal, of_normal(0:ubound(log_slope, 1)), slope(1)
       integer :: k
+      real(dp) :: jacobian
 
       call self%slopes(1, [w], slope, conjugate_slope)
       normal = w*slope(1) - conjg(w)*conjugate_slope(1)
-      ratio = 2*abs(normal)/self%jacobian(w)
+      jacobian = abs(slope(1))**2 - abs(conjugate_slope(1))**2
+      ratio = 2*abs(normal)/jacobian
       ! Derivatives of the normal; conj(w) dz/d conj(w) changes with b_k, k > 0, by their negatives.
       of_normal(0) = w*slope(1)/self%b(0)
       do k = 1, ubound(log_slope, 1)
          of_normal(k) = -(self%fold*k - 1)*conjg(w)**(self%fold*k - 1)
       end do
       log_slope = real(conjg(normal)*of_normal, dp)/abs(normal)**2
-      log_slope(0) = log_slope(0) - 2*abs(slope(1))**2/(self%b(0)*self%jacobian(w))
-      log_slope(1:) = log_slope(1:) - 2*real(conjg(conjg(w)*conjugate_slope(1))*of_normal(1:), dp)/self%jacobian(w)
+      log_slope(0) = log_slope(0) - 2*abs(slope(1))**2/(self%b(0)*jacobian)
+      log_slope(1:) = log_slope(1:) - 2*real(conjg(conjg(w)*conjugate_slope(1))*of_normal(1:), dp)/jacobian
    end subroutine linearise_edge
 
    !> z(v) [s] outside of the disc, README.md (F48):

@@ -228,11 +228,17 @@ contains
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
                  surface => results%solver%surface, accuracy => results%scene%method%accuracy%number)
          loads = results%scene%target
-         which = findloc([by_pressure, by_approach, by_mean_gap], results%scene%loads_by, dim=1)
-         if (which == 3) then
+         select case (results%scene%loads_by)
+         case (by_pressure)
+            which = at_load
+         case (by_approach)
+            which = at_approach
+         case (by_mean_gap)
             which = at_approach
             loads = 1.0_dp - loads
-         end if
+         case default
+            which = 0   ! the contact area fraction
+         end select
          call follow_curve(surface, accuracy, work, maxval(results%loads%pbar_over_pstar), curve)
          do i = 1, size(loads)
             call add_load(curve, which, loads(i), i)
