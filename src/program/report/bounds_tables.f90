@@ -11,7 +11,7 @@ module wavycon_bounds_tables
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
-   use wavycon_quantities, only: approach, elastic_energy, or_nan, quantities
+   use wavycon_quantities, only: approach, elastic_energy, mean_gap, or_nan, quantities
    use wavycon_results, only: not_a_number, results_type
    use wavycon_surface, only: surface_type
    use wavycon_table, only: table_type
@@ -52,7 +52,7 @@ contains
       type(quantities) :: of_load
       integer :: cell(2), load
       logical :: is_fine_enough
-      real(dp) :: inside(2), numbers(6), own(2), unit(6)
+      real(dp) :: inside(2), numbers(6), own(3), overlap, unit(6)
       real(dp), allocatable :: gap(:, :), p(:, :)
 
       call results%open_table(trim(table%file), table%columns, file)
@@ -72,12 +72,14 @@ contains
                   cell = grid%cell/surface%parts()
                   of_load = solution%quantities
                   call solution%details(of_load)
-                  own = or_nan(of_load%value([approach, elastic_energy]))
-                  ! F = P delta - U, (E24).
-                  own = [solution%pbar_over_pstar*own(1) - own(2), own(1)]
+                  own = or_nan(of_load%value([approach, elastic_energy, mean_gap]))
+                  overlap = 0.0_dp
+                  if (surface%has_hardness()) overlap = surface%hardness*(own(1) - 1.0_dp + own(3))
                   numbers = [bounds%energy, bounds%approach, 1.0_dp - bounds%approach(2:1:-1)]
                   if (surface%has_hardness()) numbers(5:) = not_a_number()
-                  inside = [inside_of(own(1), bounds%energy), inside_of(own(2), bounds%approach)]
+                  ! F of the solution by (E24).
+                  inside = [inside_of(solution%pbar_over_pstar*own(1) - own(2) - overlap, bounds%energy), &
+                            inside_of(own(1), bounds%approach)]
                end if
                call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), numbers, &
                                   unit*numbers, inside, cell, status_code(solution%status)], &
