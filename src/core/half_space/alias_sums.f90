@@ -90,16 +90,18 @@ contains
       s = (sin(pi*x)/pi)**2
       allocate (line%weight(0:last, -aliases:aliases))
       allocate (line%frequency, mold=line%weight)
+      allocate (line%far_compliance(0:last))
+      allocate (line%far_stiffness, line%far_weight, line%all_stiffness, line%all_weight, mold=line%far_compliance)
       do a = -aliases, aliases
          line%frequency(:, a) = abs(x + a)*unit
          line%weight(1:, a) = s(1:)/(x(1:) + a)**2
          line%weight(0, a) = merge(1.0_dp, 0.0_dp, a == 0)
       end do
-      line%far_compliance = s**2*rest(5)/unit
-      line%far_stiffness = s**2*rest(3)*unit
-      line%far_weight = s**2*rest(4)
-      line%all_stiffness = line%far_stiffness + sum(line%weight**2*line%frequency, dim=2)
-      line%all_weight = line%far_weight + sum(line%weight**2, dim=2)
+      line%far_compliance(:) = s**2*rest(5)/unit
+      line%far_stiffness(:) = s**2*rest(3)*unit
+      line%far_weight(:) = s**2*rest(4)
+      line%all_stiffness(:) = line%far_stiffness + sum(line%weight**2*line%frequency, dim=2)
+      line%all_weight(:) = line%far_weight + sum(line%weight**2, dim=2)
 
    contains
 
