@@ -9,8 +9,8 @@ module wavycon_c_functions
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_run_scene, only: run_deck
-   use wavycon_session_fields, only: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, own_points, &
-      stresses_at, stresses_on_plane
+   use wavycon_session_fields, only: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, &
+      own_points, stresses_at, stresses_on_plane
    use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
    use wavycon_version, only: version
    implicit none (type, external)

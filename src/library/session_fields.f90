@@ -21,7 +21,8 @@ module wavycon_session_fields
    implicit none (type, external)
    private
 
-   public :: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, own_points, stresses_at, stresses_on_plane
+   public :: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, own_points, stresses_at, &
+      stresses_on_plane
 
    !> Most points of a grid or plane.
    integer, parameter :: most_points = 8192**2
@@ -123,8 +124,8 @@ contains
    end subroutine map_grid
 
    !> Guaranteed bounds of the contact of the surface under a mean pressure, from any pressure and gap at points of the
-   !> whole surface: (E18) to (E26) of the page of src/core/half_space. They hold whatever is given; a solution makes them
-   !> close. Negative pressures count as 0, as do negative gaps without a hardness, and the pressure is scaled to the
+   !> whole surface: (E18) to (E26) of the page of src/core/half_space. They hold whatever is given; a solution makes
+   !> them close. Negative pressures count as 0, as do negative gaps without a hardness, and the pressure is scaled to the
    !> mean. Errors: also exit_bad_input for a flat surface, free edges and a grid that lacks waves of the surface.
    subroutine bounds_from_fields(session, mean_pressure, points, pressure, gap, error, bounds)
       type(deck_session), intent(in) :: session

@@ -5,8 +5,8 @@
     results.contact_area_fraction, results[1].pressure
 
 A function for each kind of surface, such as wave_2d, hexagonal, wave_sum, self_affine and file, and heights for arrays,
-read for files of instruments; solve, run and sweep; certify for the answers of any code; load for saved results; keys for all that decks can say; Note, the
-warnings.
+read for files of instruments; solve, run and sweep; certify for the answers of any code; load for saved results; keys
+for all that decks can say; Note, the warnings.
 Lengths are in any one unit, pressures in any one unit.
 """
 from . import library as _library

@@ -205,12 +205,12 @@ class Bounds(NamedTuple):
 
 
 def certify(surface: Surface, pressure, gap, *, mean_pressure: float, **options) -> Bounds:
-    """Guaranteed bounds of the contact of a surface under a mean pressure, from any pressure and gap, also those of another
-    code. They hold for the surface itself, not for its points, and whatever is given: the answer of the contact makes
+    """Guaranteed bounds of the contact of a surface under a mean pressure, from any pressure and gap, also those of
+    another code. They hold for the surface itself, not for its points, and whatever is given: the answer of the contact makes
     them close, a wrong one makes them wide.
 
-    pressure [pressure], gap [length]: of the shape (y, x) or, of a profile, (x,), at equal steps over the whole surface,
-    those of a height map at its own points or finer ones. The first point is at x = y = 0, that of a map with
+    pressure [pressure], gap [length]: of the shape (y, x) or, of a profile, (x,), at equal steps over the whole
+    surface, of a height map at its own points or at more. The first point is at x = y = 0, that of a map with
     edges="mirror" half a step further. Negative pressures count as 0, and so do negative gaps unless there is a
     hardness; the pressure is scaled to the mean. options: as of solve, such as e_star.
 
