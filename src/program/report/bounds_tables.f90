@@ -127,31 +127,22 @@ contains
       real(dp), allocatable, intent(out) :: gap(:, :)    !! gap/Delta, with a hardness negative where p is the hardness
 
       class(contact_fields), allocatable :: fields
-      integer :: j, parts(2), points(2)
+      integer :: points(2)
       real(dp), allocatable :: u(:, :)
 
       associate (surface => results%solver%surface, solution => results%loads(load))
          if (.not. solution%has_numbers()) return
          call solution%fields(surface, fields)
          if (.not. allocated(fields)) return
-         if (fields%own_points(1) > 0) then
-            points = fields%own_slab%points
-            allocate (p(points(1), points(2)), source=0.0_dp)
-            allocate (gap, u, source=p)
-            do j = 1, points(2)
-               call fields%at_own_column(j, u(:, j), p(:, j), u(:, j), gap(:, j))
-            end do
-         else
-            points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
-                           [1, 2] <= surface%dimension)
-            parts = surface%parts()
-            call fields%on_grid(points/parts, merge(0.5_dp, 0.0_dp, points > 1 .and. surface%shape%is_even()), p, u, gap)
-            if (surface%shape%is_even()) then
-               points = max(points/2, 1)
-               p = p(:points(1), :points(2))
-               gap = gap(:points(1), :points(2))
-            end if
-         end if
+         points = fields%own_points
+         if (points(1) == 0) points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
+                                            [1, 2] <= surface%dimension)/surface%parts()
+         associate (is_halved => points > 1 .and. surface%shape%is_even())
+            call fields%on_grid(points, merge(0.5_dp, 0.0_dp, is_halved), p, u, gap)
+            points = merge(points*surface%parts()/2, points, is_halved)
+         end associate
+         p = p(:points(1), :points(2))
+         gap = gap(:points(1), :points(2))
          if (surface%has_hardness()) call add_overlap(surface, solution%value(approach), p, gap)
       end associate
    end subroutine fields_of
