@@ -46,17 +46,18 @@ contains
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
-      type(bounding_grid), allocatable :: grid   ! of the last load
+      type(bounding_grid) :: grid   ! of the last load
       type(energy_bounds) :: bounds
       type(output_file) :: file
       type(quantities) :: of_load
       integer :: cell(2), load
-      logical :: is_fine_enough
+      logical :: has_bounds, is_fine_enough
       real(dp) :: inside(2), numbers(6), own(3), overlap, unit(6)
       real(dp), allocatable :: gap(:, :), p(:, :)
 
       call results%open_table(trim(table%file), table%columns, file)
       associate (surface => results%solver%surface)
+         is_fine_enough = .false.
          unit = surface%amplitude
          unit(:2) = results%scene%p_star*surface%amplitude*surface%nominal_area()
          do load = 1, size(results%loads)
@@ -65,9 +66,13 @@ contains
             cell = 0
             associate (solution => results%loads(load))
                call fields_of(results, load, p, gap)
-               is_fine_enough = .false.
-               if (allocated(p)) call prepare(grid, surface, shape(p), is_fine_enough)
-               if (is_fine_enough) then
+               has_bounds = allocated(p)
+               if (has_bounds) then
+                  if (any(grid%points /= shape(p))) &
+                     call grid%start(surface, shape(p), surface%shape%is_even(), is_fine_enough)
+                  has_bounds = is_fine_enough
+               end if
+               if (has_bounds) then
                   call grid%bound(surface, p, gap, solution%pbar_over_pstar, bounds)
                   cell = grid%cell/surface%parts()
                   of_load = solution%quantities
@@ -101,23 +106,6 @@ contains
       end function inside_of
 
    end subroutine write_bounds
-
-   !> Makes the tables of a grid, unless they are those of the load before.
-   subroutine prepare(grid, surface, points, is_fine_enough)
-      type(bounding_grid), allocatable, intent(inout) :: grid
-      type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)              !! of a quarter of the cell, if the surface is even
-      logical, intent(out) :: is_fine_enough        !! as of `start`
-
-      is_fine_enough = .true.
-      if (allocated(grid)) then
-         if (all(grid%points == points)) return
-         deallocate (grid)
-      end if
-      allocate (grid)
-      call grid%start(surface, points, surface%shape%is_even(), is_fine_enough)
-      if (.not. is_fine_enough) deallocate (grid)
-   end subroutine prepare
 
    !> The pressures and the gaps of a solution on the points of the cell, or of a quarter of an even one.
    subroutine fields_of(results, load, p, gap)
