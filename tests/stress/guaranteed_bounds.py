@@ -28,7 +28,7 @@ def campaign(settings, work):
         rows, complaints = solved(settings.program, files, work, with_bounds=True)
         judges, more = solved(settings.program, scene.files(loads, fine), work, with_bounds=kind not in FITTED)
         complaints += more
-        for row, judge in zip(rows, judges):
+        for row, judge in ((rows[load], judges[load]) for load in rows if load in judges):
             widths.append((row.bounds[0][1] - row.bounds[0][0])/judge.own[0])
             for own, error, (lower, upper), (low, high) in zip(row.own, row.errors, row.bounds, judge.bounds):
                 cases += 1
@@ -60,14 +60,14 @@ class Bounded:
 
 
 def solved(program, files, work, with_bounds):
-    """The partial contacts of a deck, in the order of the loads, and what is wrong with the run. Without bounds the
-    solver's own numbers take their place."""
+    """The partial contacts of a deck by their loads, and what is wrong with the run. Without bounds the solver's own
+    numbers take their place."""
     files = dict(files)
     files["deck.nml"] += "&output bounds = t /\n" if with_bounds else ""
     rows, complaints = solve(program, files, work)
     if not rows:
-        return [], complaints
+        return {}, complaints
     tables = [Table(work/"results"/f"deck.{kind}.dat").records()
               for kind in (("summary", "bounds") if with_bounds else ("summary",))]
-    return [Bounded(*words) for words, row in zip(zip(*tables), rows) if row.has_numbers and row.solver != "none"], \
-        complaints
+    return {row.load: Bounded(*words) for words, row in zip(zip(*tables), rows)
+            if row.has_numbers and row.solver != "none"}, complaints

@@ -46,17 +46,18 @@ contains
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
-      type(bounding_grid), allocatable :: grid   ! of the last load
+      type(bounding_grid) :: grid   ! of the last load
       type(energy_bounds) :: bounds
       type(output_file) :: file
       type(quantities) :: of_load
       integer :: cell(2), load
-      logical :: is_fine_enough
+      logical :: has_bounds, is_fine_enough
       real(dp) :: inside(2), numbers(6), own(3), overlap, unit(6)
       real(dp), allocatable :: gap(:, :), p(:, :)
 
       call results%open_table(trim(table%file), table%columns, file)
       associate (surface => results%solver%surface)
+         is_fine_enough = .false.
          unit = surface%amplitude
          unit(:2) = results%scene%p_star*surface%amplitude*surface%nominal_area()
          do load = 1, size(results%loads)
@@ -65,9 +66,13 @@ contains
             cell = 0
             associate (solution => results%loads(load))
                call fields_of(results, load, p, gap)
-               is_fine_enough = .false.
-               if (allocated(p)) call prepare(grid, surface, shape(p), is_fine_enough)
-               if (is_fine_enough) then
+               has_bounds = allocated(p)
+               if (has_bounds) then
+                  if (any(grid%points /= shape(p))) &
+                     call grid%start(surface, shape(p), surface%shape%is_even(), is_fine_enough)
+                  has_bounds = is_fine_enough
+               end if
+               if (has_bounds) then
                   call grid%bound(surface, p, gap, solution%pbar_over_pstar, bounds)
                   cell = grid%cell/surface%parts()
                   of_load = solution%quantities
@@ -101,23 +106,6 @@ contains
 
    end subroutine write_bounds
 
-   !> Makes the tables of a grid, unless they are those of the load before.
-   subroutine prepare(grid, surface, points, is_fine_enough)
-      type(bounding_grid), allocatable, intent(inout) :: grid
-      type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)              !! of a quarter of the cell, if the surface is even
-      logical, intent(out) :: is_fine_enough        !! as of `start`
-
-      is_fine_enough = .true.
-      if (allocated(grid)) then
-         if (all(grid%points == points)) return
-         deallocate (grid)
-      end if
-      allocate (grid)
-      call grid%start(surface, points, surface%shape%is_even(), is_fine_enough)
-      if (.not. is_fine_enough) deallocate (grid)
-   end subroutine prepare
-
    !> The pressures and the gaps of a solution on the points of the cell, or of a quarter of an even one.
    subroutine fields_of(results, load, p, gap)
       type(results_type), intent(in) :: results
@@ -126,31 +114,22 @@ contains
       real(dp), allocatable, intent(out) :: gap(:, :)    !! gap/Delta, with a hardness negative where p is the hardness
 
       class(contact_fields), allocatable :: fields
-      integer :: j, parts(2), points(2)
+      integer :: points(2)
       real(dp), allocatable :: u(:, :)
 
       associate (surface => results%solver%surface, solution => results%loads(load))
          if (.not. solution%has_numbers()) return
          call solution%fields(surface, fields)
          if (.not. allocated(fields)) return
-         if (fields%own_points(1) > 0) then
-            points = fields%own_slab%points
-            allocate (p(points(1), points(2)), source=0.0_dp)
-            allocate (gap, u, source=p)
-            do j = 1, points(2)
-               call fields%at_own_column(j, u(:, j), p(:, j), u(:, j), gap(:, j))
-            end do
-         else
-            points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
-                           [1, 2] <= surface%dimension)
-            parts = surface%parts()
-            call fields%on_grid(points/parts, merge(0.5_dp, 0.0_dp, points > 1 .and. surface%shape%is_even()), p, u, gap)
-            if (surface%shape%is_even()) then
-               points = max(points/2, 1)
-               p = p(:points(1), :points(2))
-               gap = gap(:points(1), :points(2))
-            end if
-         end if
+         points = fields%own_points
+         if (points(1) == 0) points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
+                                            [1, 2] <= surface%dimension)/surface%parts()
+         associate (is_halved => points > 1 .and. surface%shape%is_even())
+            call fields%on_grid(points, merge(0.5_dp, 0.0_dp, is_halved), p, u, gap)
+            points = merge(points*surface%parts()/2, points, is_halved)
+         end associate
+         p = p(:points(1), :points(2))
+         gap = gap(:points(1), :points(2))
          if (surface%has_hardness()) call add_overlap(surface, solution%value(approach), p, gap)
       end associate
    end subroutine fields_of
