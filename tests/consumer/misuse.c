@@ -324,7 +324,7 @@ static void bounds(wavycon_scene scene, wavycon_solution solution)
     const double bad_loads[] = {NAN, INFINITY, -INFINITY, 0, -1};
     const int bad_points[] = {0, 1, -1, -2147483647 - 1, 2147483647};
     double p[n*n], gap[n*n], b[6] = {0};
-    wavycon_scene free = scene_of("&surface kind = 'ball', radius = 1 / &method solver = 'auto' /");
+    wavycon_scene free = scene_of("&surface kind = 'ball', radius = 1, length_x = 1 / &method solver = 'auto' /");
     MADE(free);
     FINE(wavycon_get_grid(error, solution, n, n, NULL, p, gap, NULL));
     double pbar = number(solution, "mean_pressure");
