@@ -18,6 +18,7 @@ module wavycon_energy_bounds
    type :: energy_bounds
       real(dp) :: energy(2) = 0.0_dp     !! complementary energy F per area [p* Delta]; NaN: no bound
       real(dp) :: approach(2) = 0.0_dp   !! delta = F'(P) [Delta]; NaN: no bound
+      real(dp) :: mean_gap(2) = 1.0_dp   !! [Delta]; NaN: no bound
    end type energy_bounds
 
    !> One grid of a periodic surface.
@@ -77,6 +78,7 @@ contains
       if (pbar_over_pstar <= 0.0_dp) return
       answer%energy = ieee_value(1.0_dp, ieee_quiet_nan)
       answer%approach = answer%energy
+      answer%mean_gap = answer%energy
       p = min(max(pressure, 0.0_dp), surface%hardness)
       if (.not. (all(ieee_is_finite(pressure)) .and. all(ieee_is_finite(gap)) .and. any(p > 0.0_dp))) return
       g = gap
@@ -109,6 +111,7 @@ contains
          answer%approach(2) = ieee_value(1.0_dp, ieee_quiet_nan)
       else
          answer%approach(2) = min(answer%approach(2), 1.0_dp)
+         answer%mean_gap = 1.0_dp - answer%approach(2:1:-1)
       end if
 
    contains

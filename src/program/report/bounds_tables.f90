@@ -80,8 +80,7 @@ contains
                   own = or_nan(of_load%value([approach, elastic_energy, mean_gap]))
                   overlap = 0.0_dp
                   if (surface%has_hardness()) overlap = surface%hardness*(own(1) - 1.0_dp + own(3))
-                  numbers = [bounds%energy, bounds%approach, 1.0_dp - bounds%approach(2:1:-1)]
-                  if (surface%has_hardness()) numbers(5:) = not_a_number()
+                  numbers = [bounds%energy, bounds%approach, bounds%mean_gap]
                   ! F of the solution by (E24).
                   inside = [inside_of(solution%pbar_over_pstar*own(1) - own(2) - overlap, bounds%energy), &
                             inside_of(own(1), bounds%approach)]
