@@ -37,20 +37,17 @@ def lines(picture, along=None):
     unit, step = (248 if dimension == 1 else 508)/sum(longest), Axis.of(longest[:1], "").step
     picture.grid([unit*one for one in longest], 157, down=2, gaps=(30, 15), room=(72, 150, 67, 34), shared="xy")
 
-    def form(block, name):
-        """A closed form: in 2-D Hertz's for light loads and the crack's for heavy ones, where they are positive."""
-        holds = dimension == 1 or name.startswith("hertz") == (block.pbar_over_pstar < 0.4)
-        return [number if holds and (dimension == 1 or number > 0) else MISSING for number in block.columns[name]]
-
     for n, ((field, unit_of, symbol), forms) in enumerate(zip(FIELDS, ALONG_LINES[dimension])):
         # What is drawn: the number of the run, its columns, numbers, look and title.
         drawn = [(run, columns, columns[field], look, title) for load in loads * solved
                  for run, columns, look, title in picture.curves_of(load)]
         size = first.numbers.get(unit_of, 1.0)
         for load in loads if theory else ():
-            block = theory.blocks[load.place]
-            drawn += [(0, block.columns, [size*number for number in form(block, name)],
-                       f"lines {load.colour} lw {'1.2 dt (4, 3)' if solved else 1.5}", None) for name in forms]
+            # In 2-D Hertz's for light loads and the crack's for heavy ones, where they are positive.
+            block, look = theory.blocks[load.place], f"lines {load.colour} lw {'1.2 dt (4, 3)' if solved else 1.5}"
+            drawn += [(0, block.columns, [size*number if dimension == 1 or number > 0 else MISSING
+                                          for number in block.columns[name]], look, None) for name in forms
+                      if dimension == 1 or name.startswith("hertz") == (block.pbar_over_pstar < 0.4)]
         numbers = [[number for at, _, some, *_ in drawn if at == run for number in some if math.isfinite(number)]
                    for run in range(len(tables))]
         found = Quantity(tables, numbers, unit_of)
