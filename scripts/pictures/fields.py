@@ -265,9 +265,9 @@ def series(picture):
     y = decades([low, top], f"coefficient |{{/:Italic A_{'i' if dimension == 1 else '{ij}'}}}|/{P_STAR}", 1.001)
     highest = max(map(math.hypot, table.column("i"), table.column("j")))
     harmonic = "{/:Italic i}" if dimension == 1 else "({/:Italic i}^2 + {/:Italic j}^2)^{1/2}"
-    curves = [picture.curve(f"{look} pt 7 ps 0.7*mark", map(math.hypot, columns["i"], columns["j"]),
-                            map(abs, columns["pressure_over_pstar"]), title=title)
-              for load in loads for _, columns, look, title in picture.curves_of(load, "points", 1.2)]
+    curves = [picture.curve(f"points {load.colour} lw 1.2 pt 7 ps 0.7*mark", map(math.hypot, *(
+        load.columns[name] for name in "ij")), map(abs, load.columns["pressure_over_pstar"]), title=load.name)
+              for load in loads]
     picture.single(Axis(0, highest + 0.5, label="harmonic " + harmonic), y, curves, key=RIGHT, right=160)
 
 
@@ -276,14 +276,14 @@ def spectra(picture):
     blocks = picture.table.blocks
     kinds = [("spectrum_2d", 4, "", blocks[:1]), ("spectrum_1d", 3, "_1", blocks[1:])] if len(blocks) == 3 else \
         [("spectrum_1d", 3, "_1", blocks)]
-    found = []
-    for column, _, _, of_kind in kinds:
-        # Zeros, such as the mean, have no place on these axes; there a curve is interrupted.
-        found.append([])
-        for columns in (block.columns for block in of_kind):
-            least = ROUNDING*max((c for c in columns[column] if c > 0), default=math.inf)
-            found[-1].append([(q, c) if q > 0 and c > least else (MISSING, MISSING)
-                              for q, c in zip(columns["wave_number"], columns[column])])
+
+    def points(columns, column):
+        """Zeros, such as the mean, have no place on these axes; there a curve is interrupted."""
+        least = ROUNDING*max(columns[column])
+        return [(q, c) if q > 0 and c > least else (MISSING, MISSING)
+                for q, c in zip(columns["wave_number"], columns[column])]
+
+    found = [[points(block.columns, column) for block in of_kind] for column, _, _, of_kind in kinds]
     numbers = [q for of_kind in found for some in of_kind for q, _ in some if q > 0]
     if not numbers:
         raise CannotBeDrawn("there are no waves")

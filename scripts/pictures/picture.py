@@ -152,11 +152,11 @@ class Picture:
         self.compared = ", ".join(load.name for load in found) if others else ""
         return found
 
-    def curves_of(self, load, kind="lines", width=1.5):
-        """What is drawn of a load, a curve for each run: the number of the run, its columns, look and title."""
+    def curves_of(self, load):
+        """What is drawn of a load, a line for each run: the number of the run, its columns, look and title."""
         if self.alone:
-            return [(0, load.blocks[0].columns, f"{kind} {load.colour} lw {width}", load.name)]
-        return [(run, block.columns, f"{kind} ls {31 + run}", None) for run, block in enumerate(load.blocks)]
+            return [(0, load.columns, f"lines {load.colour} lw 1.5", load.name)]
+        return [(run, block.columns, f"lines ls {31 + run}", None) for run, block in enumerate(load.blocks)]
 
     def grid(self, wide, high, across=1, down=1, gaps=(78, 42), room=(70, 16, 67, 42), shared=""):
         """Sets the size: panels in rows from the top, numbered from 0.
@@ -241,8 +241,8 @@ class Picture:
 
     def runs(self, kind):
         """The entries of a key for runs that are compared."""
-        names = [] if self.alone else names_of(self.tables)
-        return [entry(f"{kind} ls {31 + run}", name) + " noenhanced" for run, name in enumerate(names)]
+        return [entry(f"{kind} ls {31 + run}", name) + " noenhanced"
+                for run, name in enumerate(names_of(self.tables)) if not self.alone]
 
 
 def with_look(look, title):

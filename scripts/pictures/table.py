@@ -163,8 +163,7 @@ class Table:
     @property
     def stem(self):
         """The name of the file without kind and ending."""
-        stem = self.path[:-4] if self.path.endswith((".dat", ".npy")) else self.path
-        return stem[:-len(self.kind) - 1] if stem.endswith("." + self.kind) else stem
+        return self.path.removesuffix(".dat").removesuffix(".npy").removesuffix("." + self.kind)
 
     def take_head(self, summary):
         """Takes what the summary of the same run says: a map in numpy's format has no head."""
