@@ -41,7 +41,7 @@ contains
       do i = 1, size(of_adhesion)
          associate (table => of_adhesion(i))
             table%of_adhesion = .true.
-            table%asked_by = [character(len(table%asked_by)) :: 'output.'//trim(table%key), 'work_of_adhesion']
+            table%asked_by = [character(len(table%asked_by)) :: 'work_of_adhesion', 'output.'//trim(table%key)]
             table%group = 'interface'
             table%key = ''
             table%file = 'adhesion_'//trim(table%file)
