@@ -5,7 +5,6 @@ module wavycon_adhesive_curve
    use wavycon_adhesive_contact, only: adhesive_point, adhesive_problem, approach_jump, approach_pull_off, &
       approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
-   use wavycon_adhesive_solution, only: make_adhesive_solution
    use wavycon_constants, only: pi
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: not_accurate, not_found
@@ -275,7 +274,7 @@ contains
                                                   (which /= at_load .and. points%kind == approach_stable))
          chosen = maxloc(points%area, dim=1, mask=are_met)
          if (chosen == 0) chosen = findloc(points%number, number, dim=1, back=.true.)
-         call make_adhesive_solution(curve%problem, points(chosen), solution)
+         call curve%problem%make_solution(points(chosen), solution)
       end associate
    end subroutine find_adhesive_solution
 

@@ -90,14 +90,12 @@ contains
       type(scene_type), intent(in) :: scene
 
       character(len(self%asked_by)) :: keys(2)
-      character(len(self%group) + 1) :: group(2)
       integer :: i
 
       keys = self%asked_by
       if (keys(1) == '') keys(1) = self%key
-      group = ''
-      where (index(keys, '.') == 0) group = trim(self%group)//'.'
-      is_requested = all([(any(scene%asked_for == trim(group(i))//keys(i)), i=1, max(1, count(keys /= '')))])
+      is_requested = all([(any(scene%asked_for == trim(self%group)//'.'//keys(i) .or. scene%asked_for == keys(i)), &
+                           i=1, max(1, count(keys /= '')))])
    end function is_requested
 
    !> Why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it can.
