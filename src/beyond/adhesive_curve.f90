@@ -6,6 +6,7 @@ module wavycon_adhesive_curve
       approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
    use wavycon_constants, only: pi
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_free_edges, only: ball_radii, is_ball
@@ -15,7 +16,7 @@ module wavycon_adhesive_curve
    implicit none (type, external)
    private
 
-   public :: adhesive_curve, add_load, follow_curve
+   public :: adhesive_curve, add_load, find_adhesive_solution, follow_curve
 
    type :: adhesive_curve
       type(adhesive_point), allocatable :: points(:)     !! of spots by rising area, then of pools by falling area
@@ -256,6 +257,26 @@ contains
       if (.not. is_found) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
+
+   !> The contact of a load as a solution with fields: of those that are stable, under the load or at the approach if that
+   !> is given, the one of the largest area, which unloading meets. If an area is given it may be unstable.
+   subroutine find_adhesive_solution(curve, which, number, solution)
+      type(adhesive_curve), intent(in) :: curve
+      integer, intent(in) :: which     !! as of add_load
+      integer, intent(in) :: number    !! of a load that was added
+      type(contact_solution), intent(out) :: solution
+
+      integer :: chosen
+      logical :: are_met(size(curve%at_loads))
+
+      associate (points => curve%at_loads)
+         are_met = points%number == number .and. (points%kind == stable_point .or. &
+                                                  (which /= at_load .and. points%kind == approach_stable))
+         chosen = maxloc(points%area, dim=1, mask=are_met)
+         if (chosen == 0) chosen = findloc(points%number, number, dim=1, back=.true.)
+         call curve%problem%make_solution(points(chosen), solution)
+      end associate
+   end subroutine find_adhesive_solution
 
    !> What the bodies are where no partial contact is stable.
    pure type(adhesive_point) function beyond_extremes(curve, which, target) result(point)
