@@ -29,7 +29,8 @@ module wavycon_table
       character(160) :: meaning = ''      !! one sentence for the reference of keys of &output
       character(2048) :: columns = ''     !! name[unit] of each, with a blank between two
       !> Keys that together ask for it, in place of `key`: a logical one that is .true., a text other than 'none', a
-      !> number that is given; with the name of another group and a dot before the key of that. Without any it is written always, but never without its group &stress or &interface.
+      !> number that is given; with the name of another group and a dot before the key of that. Without any it is
+      !> written always, but never without its group &stress or &interface.
       character(16) :: asked_by(2) = ''
       logical :: of_adhesion = .false.    !! whether the contacts are those with adhesion
       logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
