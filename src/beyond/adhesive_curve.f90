@@ -33,7 +33,9 @@ module wavycon_adhesive_curve
    !> Largest growth of the merging ratio in a step, over what is left of it, and the ratio from which a branch ends
    !> once the approach falls: the last extremes are at .83 and more. Otherwise it ends where a step is this part of the
    !> largest one.
-   real(dp), parameter :: beyond_extreme = 1.3_dp, ratio_growth = 0.12_dp, ratio_of_extremes = 0.6_dp, least_step = 0.02_dp
+   real(dp), parameter :: ratio_growth = 0.12_dp, ratio_of_extremes = 0.6_dp, least_step = 0.02_dp
+   !> Step to the last extreme of the approach, over the distance that the last slopes let expect.
+   real(dp), parameter :: beyond_extreme = 1.3_dp
 
 contains
 
@@ -348,7 +350,8 @@ contains
                if (is_extreme) call step_to_extreme()
                if (is_last .or. .not. is_extreme .or. maxval(point%error) <= curve%problem%accuracy) exit
                ! The slope is not known well enough: once more, to a smaller error.
-               problem%accuracy = problem%accuracy*max(least_tightening, tightening*problem%accuracy/maxval(point%error))
+               problem%accuracy = problem%accuracy &
+                  *max(least_tightening, tightening*problem%accuracy/maxval(point%error))
             end if
          end if
          call problem%find_point(first%pools, next, point, last%answer)
