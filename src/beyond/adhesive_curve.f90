@@ -32,7 +32,7 @@ module wavycon_adhesive_curve
    real(dp), parameter :: radius_step = 0.025_dp, radius_growth = 0.2_dp
    !> Largest growth of the merging ratio in a step, over what is left of it, and the ratio from which a branch ends
    !> once the approach falls: the last extremes are at .83 and more. Otherwise it ends where a step is this part of the
-   !> largest one.
+   !> largest one. A growth of 0.2 loses the last extreme of the pools of the square wave, w' = .05, at 1e-3.
    real(dp), parameter :: ratio_growth = 0.12_dp, ratio_of_extremes = 0.6_dp, least_step = 0.02_dp
    !> Step to the last extreme of the approach, over the distance that the last slopes let expect.
    real(dp), parameter :: beyond_extreme = 1.3_dp
