@@ -219,7 +219,7 @@ contains
       end if
       right = missing
       left = right_sides
-      matrix = equations%matrix
+      allocate (matrix, source=equations%matrix)
       call dgglse(m, n, equations%constraints, matrix, m, constraint, 1, left, right, step, work, size(work), info)
       ! LAPACK leaves the components that no step can remove at the end of the right side.
       misfit = norm2(left(m - beyond + 1:))/sqrt(real(beyond, dp))
