@@ -47,6 +47,7 @@ module wavycon_adhesive_contact
       real(dp) :: area = 0.0_dp               !! the contact area fraction, by which the curve is followed
       real(dp) :: area_error = 0.0_dp
       real(dp) :: value(4) = unknown          !! P, approach and their slopes
+      real(dp) :: slope_error(2) = 0.0_dp     !! of the slopes
       real(dp) :: error(2) = unknown          !! of P and approach
       real(dp) :: energy = unknown            !! elastic [p* Delta]: the mean of p u/2
       real(dp) :: energy_error = unknown
@@ -167,6 +168,7 @@ contains
          if (answer%status > fitted_less_exact) return
          point%exists = .true.
          point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]
+         point%slope_error = abs(cell)*[unit, 1.0_dp]*answer%area_slope_errors
          point%error = [unit*answer%load_error, answer%error(mean_gap)]
          point%energy = answer%value(elastic_energy)*unit/lattice%area
          point%energy_error = answer%error(elastic_energy)*unit/lattice%area
