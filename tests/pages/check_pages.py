@@ -97,6 +97,8 @@ def faults_of_formulas(text):
     faults += [formula for formula in inline if re.search(r"\\[^A-Za-z]", formula)]
     faults += [formula for formula in displays
                if re.search(r"^\s*([-+*>#]|\d+[.)])\s|\n\s*\n|\\[^A-Za-z\\\s]", formula, re.MULTILINE)]
+    # Not all draw a displayed formula in a list.
+    faults += re.findall(r"^ +\$\$", text, re.MULTILINE)
     # Some take what stands in parentheses after a formula for its number.
     return faults + [after for after in prose[1:] if re.match(r"\s*\(", after)]
 
@@ -191,7 +193,7 @@ class Pages(ProgramTest):
         self.assertEqual([], faults_of_formulas(right))
         for old, new in (("$a_1$", "$a_1"), ("$$\n\nfor", "\nfor"), ("a_1", "a_{1"), (r"\left", ""), ("a_1", r"a\,b"),
                          (r"\left", "+\n+ z \\left"), ("for", "(see) for"), (r"\tag", "\n\\tag"),
-                         (r"\tag", r"\; \tag")):
+                         (r"\tag", r"\; \tag"), ("\n$$", "\n  $$")):
             self.assertNotEqual([], faults_of_formulas(right.replace(old, new, 1)), new)
 
     def test_numbers_of_formulas(self):
