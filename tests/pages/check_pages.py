@@ -104,8 +104,8 @@ def faults_of_formulas(text):
 
 
 def numbers_of_formulas(text):
-    """The numbers that the formulas of a page bear: as tags, at the end of a line of code, or after a sentence."""
-    return {number for place in (r"\\tag\{%s\}", r"^ {4}.*\(%s\)", r"[.)] \(%s\)")
+    """The numbers that the formulas of a page bear: as tags, in a line of code, or after a sentence or blanks."""
+    return {number for place in (r"\\tag\{%s\}", r"^ {4}.*\(%s\)", r"(?:[.)]| ) \(%s\)")
             for number in re.findall(place % f"({NUMBER})", text, re.MULTILINE)}
 
 
