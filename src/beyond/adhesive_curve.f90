@@ -334,7 +334,7 @@ contains
          least_tightening = 0.01_dp
       integer :: n
       logical :: is_extreme, is_last
-      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, miss(most_steps), next, told(2)
+      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, miss(most_steps), next, spread, told(2)
       type(adhesive_problem) :: problem
 
       problem = curve%problem
@@ -361,9 +361,13 @@ contains
             changes = abs(point%value(3:)*(next - area(n)))
             told = point%error
             if (is_extreme) then
-               ! What a step by the derivatives leaves, and what the slope's error does.
-               changes = changes*abs((next - area(n))/(last%area - first%area))
-               if (.not. is_last) curvature = (miss(n) - miss(min(n - 1, 3)))/(area(n) - area(min(n - 1, 3)))
+               ! What a step by the derivatives leaves, and what the slope's error does. The derivative of the slope is
+               ! that of two points so far apart.
+               if (.not. is_last) then
+                  spread = area(n) - area(min(n - 1, 3))
+                  curvature = (miss(n) - miss(min(n - 1, 3)))/spread
+               end if
+               changes = changes*left_over()
                told = told + abs(point%value(3:)*point%slope_error(which - 2)/curvature)
             end if
             if (is_last .or. abs(next - area(n)) <= rounding*next .or. &
@@ -386,13 +390,18 @@ contains
 
    contains
 
+      !> The part of the step to `next` that it misses the extreme by: the curve bends over the distance of both points.
+      real(dp) function left_over()
+         left_over = (abs(next - area(n)) + abs(spread))/abs(last%area - first%area)
+      end function left_over
+
       !> The last step, to `next`, by the derivatives; and the errors that the area's makes.
       subroutine step_to_extreme()
          real(dp) :: change(2), energy_slope, step
 
          step = next - area(n)
          point%area = next
-         point%area_error = abs(step**2/(last%area - first%area)) + abs(point%slope_error(which - 2)/curvature)
+         point%area_error = abs(step)*left_over() + abs(point%slope_error(which - 2)/curvature)
          energy_slope = point%value(at_load)*point%value(2 + at_approach) + problem%work
          change = point%value(3:)
          ! The slope at the extreme is 0.
