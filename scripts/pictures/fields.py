@@ -37,20 +37,17 @@ def lines(picture, along=None):
     unit, step = (248 if dimension == 1 else 508)/sum(longest), Axis.of(longest[:1], "").step
     picture.grid([unit*one for one in longest], 157, down=2, gaps=(30, 15), room=(72, 150, 67, 34), shared="xy")
 
-    def form(block, name):
-        """A closed form: in 2-D Hertz's for light loads and the crack's for heavy ones, where they are positive."""
-        holds = dimension == 1 or name.startswith("hertz") == (block.pbar_over_pstar < 0.4)
-        return [number if holds and (dimension == 1 or number > 0) else MISSING for number in block.columns[name]]
-
     for n, ((field, unit_of, symbol), forms) in enumerate(zip(FIELDS, ALONG_LINES[dimension])):
         # What is drawn: the number of the run, its columns, numbers, look and title.
         drawn = [(run, columns, columns[field], look, title) for load in loads * solved
                  for run, columns, look, title in picture.curves_of(load)]
         size = first.numbers.get(unit_of, 1.0)
         for load in loads if theory else ():
-            block = theory.blocks[load.place]
-            drawn += [(0, block.columns, [size*number for number in form(block, name)],
-                       f"lines {load.colour} lw {'1.2 dt (4, 3)' if solved else 1.5}", None) for name in forms]
+            # In 2-D Hertz's for light loads and the crack's for heavy ones, where they are positive.
+            block, look = theory.blocks[load.place], f"lines {load.colour} lw {'1.2 dt (4, 3)' if solved else 1.5}"
+            drawn += [(0, block.columns, [size*number if dimension == 1 or number > 0 else MISSING
+                                          for number in block.columns[name]], look, None) for name in forms
+                      if dimension == 1 or name.startswith("hertz") == (block.pbar_over_pstar < 0.4)]
         numbers = [[number for at, _, some, *_ in drawn if at == run for number in some if math.isfinite(number)]
                    for run in range(len(tables))]
         found = Quantity(tables, numbers, unit_of)
@@ -268,9 +265,9 @@ def series(picture):
     y = decades([low, top], f"coefficient |{{/:Italic A_{'i' if dimension == 1 else '{ij}'}}}|/{P_STAR}", 1.001)
     highest = max(map(math.hypot, table.column("i"), table.column("j")))
     harmonic = "{/:Italic i}" if dimension == 1 else "({/:Italic i}^2 + {/:Italic j}^2)^{1/2}"
-    curves = [picture.curve(f"{look} pt 7 ps 0.7*mark", map(math.hypot, columns["i"], columns["j"]),
-                            map(abs, columns["pressure_over_pstar"]), title=title)
-              for load in loads for _, columns, look, title in picture.curves_of(load, "points", 1.2)]
+    curves = [picture.curve(f"points {load.colour} lw 1.2 pt 7 ps 0.7*mark", map(math.hypot, *(
+        load.columns[name] for name in "ij")), map(abs, load.columns["pressure_over_pstar"]), title=load.name)
+              for load in loads]
     picture.single(Axis(0, highest + 0.5, label="harmonic " + harmonic), y, curves, key=RIGHT, right=160)
 
 
@@ -279,14 +276,14 @@ def spectra(picture):
     blocks = picture.table.blocks
     kinds = [("spectrum_2d", 4, "", blocks[:1]), ("spectrum_1d", 3, "_1", blocks[1:])] if len(blocks) == 3 else \
         [("spectrum_1d", 3, "_1", blocks)]
-    found = []
-    for column, _, _, of_kind in kinds:
-        # Zeros, such as the mean, have no place on these axes; there a curve is interrupted.
-        found.append([])
-        for columns in (block.columns for block in of_kind):
-            least = ROUNDING*max((c for c in columns[column] if c > 0), default=math.inf)
-            found[-1].append([(q, c) if q > 0 and c > least else (MISSING, MISSING)
-                              for q, c in zip(columns["wave_number"], columns[column])])
+
+    def points(columns, column):
+        """Zeros, such as the mean, have no place on these axes; there a curve is interrupted."""
+        least = ROUNDING*max(columns[column])
+        return [(q, c) if q > 0 and c > least else (MISSING, MISSING)
+                for q, c in zip(columns["wave_number"], columns[column])]
+
+    found = [[points(block.columns, column) for block in of_kind] for column, _, _, of_kind in kinds]
     numbers = [q for of_kind in found for some in of_kind for q, _ in some if q > 0]
     if not numbers:
         raise CannotBeDrawn("there are no waves")

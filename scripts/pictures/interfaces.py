@@ -83,54 +83,54 @@ def adhesion(picture):
     """Contact area against the load with adhesion, and the load against the approach: the branches, their critical
     points and the contacts of the loads."""
     table = picture.table
-    curve, critical, loads = (table.blocks + [Block(table.names)]*2)[:3]
+    curve, critical, loads = (rows_of(block) for block in (table.blocks + [Block(table.names)]*2)[:3])
     free = not table.column("pbar_over_pstar")
     load, area = ("force", "contact_area") if free else ("pbar_over_pstar", "contact_area_fraction")
-    gap = Quantity([table], "approach", "Delta")
-    scales = {load: Quantity([table], load), area: Quantity([table], area), "approach": gap}
+    units = {load: "", area: "", "approach": "Delta"}
+    scales = {name: Quantity([table], name, unit) for name, unit in units.items()}
     # Towards full contact the tension grows without bound, and the load of a ball with its contact.
-    seen = [number for block in (critical, loads) for number, branch in zip(block.columns[load], block.words["branch"])
-            if branch != "none"] or [0.0]
-    most = max(curve.columns[load]) if free else max(seen)
+    seen = [point[load] for point in critical + loads if point["branch"] != "none"] or [0.0]
+    most = max(point[load] for point in curve) if free else max(seen)
     low, high = min(0.0, *seen) - 0.12*(most - min(seen)), most + 0.06*(most - min(seen))
-    shown = [place for place, number in enumerate(curve.columns[load]) if low <= number <= high]
-    ranges = {name: scales[name].of([curve.columns[name][place] for place in shown] + [
-        number for block in (critical, loads) for number in block.columns[name]]) for name in (area, "approach")}
-    of_load = Axis(*(scales[load].factors[0]*end for end in (low, high)), label=scales[load].label("force") if free else
-                   f"{P_BAR}/{P_STAR}")
-    of_area = Axis.of(ranges[area], scales[area].label("contact area") if free else AREA, may_be_wide=False,
+    shown = [point for point in curve if low <= point[load] <= high] + critical + loads
+
+    def on_axis(name, points):
+        return scales[name].of(point[name] for point in points)
+
+    of_load = Axis(*scales[load].of((low, high)), label=scales[load].label("force") if free else f"{P_BAR}/{P_STAR}")
+    of_area = Axis.of(on_axis(area, shown), scales[area].label("contact area") if free else AREA, may_be_wide=False,
                       up_to=None if free else 1.0)
-    closing = [number for number in ranges["approach"] if math.isfinite(number)]
+    closing = list(filter(math.isfinite, on_axis("approach", shown)))
     margin = 0.05*(max(closing) - min(closing))
-    of_approach = Axis(min(closing) - margin, max(closing) + margin, label=gap.label(APPROACH, "approach"))
-    both = {"spots", "pools"} <= set(curve.words["branch"])
+    of_approach = Axis(min(closing) - margin, max(closing) + margin,
+                       label=scales["approach"].label(APPROACH, "approach"))
+    lines = [(f"lines lc rgb {colour} lw 1.5 dt {STABILITY[kind][0]}", points)
+             for branch, colour in (("spots", "blue"), ("pools", "green"))
+             for kind, points in stretches(curve + critical, branch, load).items()]
+    marks = [(f"points pt {mark} ps 0.85*mark lc rgb red lw 1.2", [
+        point for point in critical if point["point"] == name], title) for name, mark, title in CRITICAL]
+    marks.append(("points pt 1 ps 1.1*mark lc rgb black lw 1.2", loads, "the loads"))
+    both = {"spots", "pools"} <= {point["branch"] for point in curve}
     titles = [entry("lines ls 31", "separate spots"), entry("lines ls 33 dt solid", "separate pools")]*both
     titles += [entry(f"lines lc rgb black lw 1.3 dt {dash}", title) for dash, title in STABILITY.values()]
-    titles += [entry(f"points pt {mark} ps 0.85*mark lc rgb red lw 1.2", title) for name, mark, title in CRITICAL
-               if name in critical.words["point"]]
-    titles += [entry("points pt 1 ps 1.1*mark lc rgb black lw 1.2", "the loads")]*bool(loads.columns[load])
+    titles += [entry(look, title) for look, points, title in marks if points]
     picture.grid(240, 250, 2, gaps=(88, 0), room=(72, 160, 62, 40))
-    for panel, (across, up, x, y) in enumerate(((load, area, of_load, of_area), ("approach", load, of_approach, of_load))):
-        drawn = []
-        for branch, colour in (("spots", "blue"), ("pools", "green")):
-            for kind, pieces in stretches(table, branch, load).items():
-                drawn.append(picture.curve(
-                    f"lines lc rgb {colour} lw 1.5 dt {STABILITY[kind][0]}",
-                    *(scales[name].of([point[name] for point in pieces]) for name in (across, up))))
-        for name, mark, _ in CRITICAL:
-            drawn.append(points_of(picture, critical, scales, (across, up), f"pt {mark} ps 0.85*mark lc rgb red lw 1.2",
-                                   name))
-        drawn.append(points_of(picture, loads, scales, (across, up), "pt 1 ps 1.1*mark lc rgb black lw 1.2"))
-        picture.panel(panel, x, y, drawn + titles*panel, key=f"{RIGHT} spacing 1 font ',11'" if panel else "")
+    for n, (across, up, x, y) in enumerate(((load, area, of_load, of_area), ("approach", load, of_approach, of_load))):
+        curves = [picture.curve(look, on_axis(across, points), on_axis(up, points))
+                  for look, points, *_ in lines + marks]
+        picture.panel(n, x, y, curves + titles*n, key=f"{RIGHT} spacing 1 font ',11'"*n)
 
 
-def stretches(table, branch, load):
-    """The points of a branch by their stability, in the order of the area and with the extremes between them; NaN
-    between stretches."""
-    points = [{name: block.columns[name][place] for name in (load, "contact_area_fraction", "contact_area", "approach")}
-              for block in table.blocks[:2] for place, word in enumerate(block.words["branch"])
-              if word == branch and (block is table.blocks[0] or block.words["point"][place] != "end_of_branch")]
-    points = smoothed(sorted(points, key=lambda point: point["contact_area"]), by="contact_area")
+def rows_of(block):
+    """The rows of a block, each with its numbers and words by name."""
+    columns = {**block.columns, **{name: words for name, words in block.words.items() if words}}
+    return [dict(zip(columns, row)) for row in zip(*columns.values())]
+
+
+def stretches(points, branch, load):
+    """The points of a branch by their stability, in the order of the area, with NaN between stretches."""
+    points = sorted((point for point in points if point["branch"] == branch and point["point"] != "end_of_branch"),
+                    key=lambda point: point["contact_area"])
     found = {kind: [] for kind in STABILITY}
     for here, after in zip(points, points[1:]):
         kind = "stable" if after[load] > here[load] else \
@@ -139,39 +139,3 @@ def stretches(table, branch, load):
             found[kind] += [dict.fromkeys(here, math.nan), here]
         found[kind].append(after)
     return found
-
-
-def smoothed(points, by, parts=8):
-    """Points with others between them, by Hermite's cubics with the slopes of parabolas through three points."""
-    places = range(len(points))
-    slopes = [slope_of(*points[max(place - 1, 0):place + 2], by=by) if 0 < place < len(points) - 1 else None
-              for place in places]
-    found = points[:1]
-    for place, after in zip(places, points[1:]):
-        here, step = points[place], after[by] - points[place][by]
-        for part in range(1, parts):
-            t = part/parts
-            point = {}
-            for name in here:
-                chord = (after[name] - here[name])/step if step > 0 else 0.0
-                first, last = (slope[name] if slope else chord for slope in (slopes[place], slopes[place + 1]))
-                point[name] = here[name] + step*t*(chord + (1 - t)*((1 - t)*(first - chord) - t*(last - chord)))
-            found.append(point)
-        found.append(after)
-    return found
-
-
-def slope_of(before, here, after, by):
-    """The derivatives of a point's numbers, by the parabolas through it and its neighbours."""
-    first, last = here[by] - before[by], after[by] - here[by]
-    if min(first, last) <= 0:
-        return None
-    return {name: (last*(here[name] - before[name])/first + first*(after[name] - here[name])/last)/(first + last)
-            for name in here}
-
-
-def points_of(picture, block, scales, names, look, kind=None):
-    """The points of a block, or those of a kind."""
-    places = [place for place, word in enumerate(block.words["point"]) if kind in (None, word)]
-    return picture.curve(f"points {look}", *(scales[name].of([block.columns[name][place] for place in places])
-                                             for name in names))

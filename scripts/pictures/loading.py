@@ -69,9 +69,8 @@ def summary(picture):
         full = first.numbers.get("p*", 0.0)*load.factors[0]   # p* on the axis
         unit = found.factors[0]*first.numbers.get(SUMMARY[n][1], 1.0)
         if reference is CLOSED_FORMS:
-            loads = [k/200 for k in range(201)]
-            if x.wide:
-                loads = [min(1.0, x.low/full*(x.high/x.low)**part) for part in loads]
+            parts = [k/200 for k in range(201)]
+            loads = [min(1.0, x.low/full*(x.high/x.low)**part) for part in parts] if x.wide else parts
             values = list(map(reference[n], loads))
         elif reference:
             loads, values = (reference[name] for name in ("pbar_over_pstar", list(DETAILS)[n]))
@@ -113,13 +112,12 @@ def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda 
     picture.grid(180, 195, len(panels), gaps=(80, 0), room=(70, 10, 67, title_high + key_high + 10))
     for n, (found, y, rows) in enumerate(panels):
         curves = list(beside(n, load, x, found))
-        looks = [look for _, _, look in runs]
 
         def points(look, run, kept, **kind):
             return picture.curve(look, *zip(*(point[:2] for point in run if kept(point) and math.isfinite(point[1]))),
                                  **kind)
 
-        for run, look in zip(rows, looks):
+        for run, (*_, look) in zip(rows, runs):
             if joined:
                 curves.append(points(f"lines ls {look}", run, lambda point: point[3] <= NOT_ACCURATE, joined=True))
             bars = [(at, value - error, 0.0, 2*error) for at, value, error, *_ in run if 0 < error < value]
@@ -261,7 +259,6 @@ def histogram(picture):
         heights = sorted(factor*number for load in loads for number in load.columns[name + "_density"])
         heights = [0.0] + [number for number in heights if number <= 3*heights[int(0.98*(len(heights) - 1))]]
         y = Axis.of(heights, f"density of {name}{over}", may_be_wide=False)
-        curves = [picture.curve(look, found.of(columns[name]), [
-            factor*number for number in columns[name + "_density"]], title=title)
-                  for load in loads for _, columns, look, title in picture.curves_of(load, "histeps", 1.2)]
+        curves = [picture.curve(f"histeps {load.colour} lw 1.2", found.of(load.columns[name]), [
+            factor*number for number in load.columns[name + "_density"]], title=load.name) for load in loads]
         picture.panel(n, found.axis(symbol, name, may_be_wide=False), y, curves, key=RIGHT if n else "")

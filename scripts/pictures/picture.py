@@ -4,7 +4,6 @@ import array
 import collections
 import math
 import os
-import re
 import sys
 
 from axes import Axis, Scale, axis, chosen, lines_of, quoted
@@ -153,11 +152,11 @@ class Picture:
         self.compared = ", ".join(load.name for load in found) if others else ""
         return found
 
-    def curves_of(self, load, kind="lines", width=1.5):
-        """What is drawn of a load, a curve for each run: the number of the run, its columns, look and title."""
+    def curves_of(self, load):
+        """What is drawn of a load, a line for each run: the number of the run, its columns, look and title."""
         if self.alone:
-            return [(0, load.blocks[0].columns, f"{kind} {load.colour} lw {width}", load.name)]
-        return [(run, block.columns, f"{kind} ls {31 + run}", None) for run, block in enumerate(load.blocks)]
+            return [(0, load.columns, f"lines {load.colour} lw 1.5", load.name)]
+        return [(run, block.columns, f"lines ls {31 + run}", None) for run, block in enumerate(load.blocks)]
 
     def grid(self, wide, high, across=1, down=1, gaps=(78, 42), room=(70, 16, 67, 42), shared=""):
         """Sets the size: panels in rows from the top, numbered from 0.
@@ -206,12 +205,11 @@ class Picture:
     def image(self, records, across, down):
         """A file of records of x, y and fields, to which ':3 with image' is added. records: their rows."""
         self.count += 1
-        path = os.path.join(self.folder, f"image{self.count}")
-        with open(path, "wb") as file:
+        with open(os.path.join(self.folder, f"image{self.count}"), "wb") as file:
             for row in records:
                 array.array("d", row).tofile(file)
-                fields = len(row)//across
-        return f"{quoted(path)} binary record=({across}, {down}) format='{'%double'*fields}' using 1:2"
+        form = "%double"*(len(records[0])//across)
+        return f"'image{self.count}' binary record=({across}, {down}) format='{form}' using 1:2"
 
     def panel(self, n, x, y, curves, *commands, key="", title=""):
         """Draws a panel of the grid. commands: others before it. key: where it is; without it there is none."""
@@ -243,8 +241,8 @@ class Picture:
 
     def runs(self, kind):
         """The entries of a key for runs that are compared."""
-        names = [] if self.alone else names_of(self.tables)
-        return [entry(f"{kind} ls {31 + run}", unmarked(name)) for run, name in enumerate(names)]
+        return [entry(f"{kind} ls {31 + run}", name) + " noenhanced"
+                for run, name in enumerate(names_of(self.tables)) if not self.alone]
 
 
 def with_look(look, title):
@@ -254,8 +252,3 @@ def with_look(look, title):
 def entry(look, title):
     """An entry of a key without a curve."""
     return f"keyentry {with_look(look, title)}"
-
-
-def unmarked(text):
-    """A text for gnuplot's enhanced mode that is shown as it is."""
-    return re.sub(r"([\\{}_@&~^])", r"\\\1", text)

@@ -64,15 +64,14 @@ class Table:
     """A table: kind, names of columns, `blocks`, and what the head says.
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
-    `title` is the deck's, '' if it has none; `surface` and `method` are the first words of their lines; `mirrored` says
-    whether the cell is a map that its mirror images continue. The rest of a line that begins a block is not needed.
+    `title` is the deck's, '' if it has none; `method` is the first word of its line; `mirrored` says whether the cell is
+    a map that its mirror images continue. The rest of a line that begins a block is not needed.
     """
 
     def __init__(self, path):
         self.path = str(path)
         self.names, self.blocks = [], []
-        self.numbers, self.units, self.surface, self.method, self.title = {}, {}, "", "", ""
-        self.mirrored = False
+        self.numbers, self.units, self.method, self.title, self.mirrored = {}, {}, "", "", False
         self.summary = None   # that of the same run, if there is one
         self.points = None    # of a map in numpy's format
         with open(path, "rb") as file:
@@ -122,13 +121,13 @@ class Table:
     def _read_head(self, line):
         for name, unit, number in HEAD_NUMBER.findall(line):
             self.numbers[name], self.units[name] = float(number), unit
-        if line.startswith("# title: "):
-            self.title = line.removeprefix("# title: ").strip()
-        if line.startswith("# surface: "):
-            self.mirrored = line.rstrip().endswith(", mirrored")
-        for name in ("surface", "method"):
-            if line.startswith(f"# {name}: "):
-                setattr(self, name, line.split(":", 1)[1].split(",")[0].strip())
+        name, _, words = line.removeprefix("# ").strip().partition(": ")
+        if name == "title":
+            self.title = words
+        elif name == "surface":
+            self.mirrored = words.endswith(", mirrored")
+        elif name == "method":
+            self.method = words.split(",")[0]
 
     def _read_npy(self):
         with open(self.path, "rb") as file:
@@ -164,13 +163,12 @@ class Table:
     @property
     def stem(self):
         """The name of the file without kind and ending."""
-        stem = self.path[:-4] if self.path.endswith((".dat", ".npy")) else self.path
-        return stem[:-len(self.kind) - 1] if stem.endswith("." + self.kind) else stem
+        return self.path.removesuffix(".dat").removesuffix(".npy").removesuffix("." + self.kind)
 
     def take_head(self, summary):
         """Takes what the summary of the same run says: a map in numpy's format has no head."""
-        self.numbers, self.units = summary.numbers, summary.units
-        self.surface, self.method, self.title = summary.surface, summary.method, summary.title
+        for name in ("numbers", "units", "method", "title", "mirrored"):
+            setattr(self, name, getattr(summary, name))
         of_load = summary.column("pbar_over_pstar" if "p*" in summary.numbers else "mean_pressure")
         for block in self.blocks:
             if self.kind == "height":

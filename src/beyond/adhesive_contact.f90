@@ -4,15 +4,20 @@
 !> The 1-D wave and the round ball have closed forms. Waves on a lattice have exact solutions by expansions with a
 !> singular edge, one branch of separate spots and one of separate pools.
 module wavycon_adhesive_contact
+   use wavycon_ball_source, only: ball_source
+   use wavycon_closed_form_contact, only: closed_form_source
    use wavycon_constants, only: pi
-   use wavycon_contact_status, only: converged, not_accurate
+   use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_status, only: converged, full_contact, not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fitted_solver, only: solve_adhesive
+   use wavycon_fitted_source, only: fitted_source
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: approach, elastic_energy, mean_gap, unknown
+   use wavycon_quantities, only: approach, contact_area, elastic_energy, is_known, mean_gap, or_nan, unknown
+   use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -42,6 +47,7 @@ module wavycon_adhesive_contact
       real(dp) :: area = 0.0_dp               !! the contact area fraction, by which the curve is followed
       real(dp) :: area_error = 0.0_dp
       real(dp) :: value(4) = unknown          !! P, approach and their slopes
+      real(dp) :: slope_error(2) = 0.0_dp     !! of the slopes
       real(dp) :: error(2) = unknown          !! of P and approach
       real(dp) :: energy = unknown            !! elastic [p* Delta]: the mean of p u/2
       real(dp) :: energy_error = unknown
@@ -59,6 +65,7 @@ module wavycon_adhesive_contact
       real(dp) :: accuracy = 0.0_dp      !! largest error of P [p*] and approach [Delta], > 0
    contains
       procedure :: find_point
+      procedure :: make_solution
    end type adhesive_problem
 
 contains
@@ -161,10 +168,46 @@ contains
          if (answer%status > fitted_less_exact) return
          point%exists = .true.
          point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]
+         point%slope_error = abs(cell)*[unit, 1.0_dp]*answer%area_slope_errors
          point%error = [unit*answer%load_error, answer%error(mean_gap)]
          point%energy = answer%value(elastic_energy)*unit/lattice%area
          point%energy_error = answer%error(elastic_energy)*unit/lattice%area
       end associate
    end subroutine find_point_of_lattice
+
+   !> A point as a solution, whose source has its fields, (I22), and its edge. Bodies that are separated, or whose load is
+   !> not known, have no fields: the status is not_found.
+   subroutine make_solution(self, point, solution)
+      class(adhesive_problem), intent(in) :: self
+      type(adhesive_point), intent(in) :: point         !! of this problem
+      type(contact_solution), intent(out) :: solution   !! numbers: load, area, approach and mean gap
+
+      type(fitted_source), allocatable :: fitted
+      type(hertz_ball) :: contact
+
+      associate (surface => self%surface, p => point%value(at_load))
+         solution%solution_record = no_solution(or_nan(p), no_solver, not_found)
+         if (point%kind == closed .and. is_known(p)) solution%status = full_contact
+         if (any(point%kind == [closed, not_solved, separated])) return
+         solution%status = point%status
+         solution%value([contact_area, approach, mean_gap]) = &
+            [point%area, point%value(at_approach), 1.0_dp - point%value(at_approach)]
+         if (is_ball(surface)) then
+            contact = hertz_contact(ball_radii(surface), 1.0_dp, area=point%area*surface%nominal_area())
+            contact%tension = contact%force - p*surface%full_contact_pressure(1.0_dp)*surface%nominal_area()
+            contact%approach = point%value(at_approach)*surface%amplitude
+            allocate (solution%source, source=ball_source(contact=contact))
+         else if (self%has_closed_form) then
+            allocate (solution%source, source=closed_form_source(tension=sin(0.5_dp*pi*point%area)**2 - p))
+         else
+            allocate (fitted)
+            fitted%frame = self%frame
+            fitted%answer = point%answer
+            fitted%accuracy = self%accuracy
+            call move_alloc(fitted, solution%source)
+         end if
+      end associate
+      solution%source%record = solution%solution_record
+   end subroutine make_solution
 
 end module wavycon_adhesive_contact

@@ -6,6 +6,7 @@ module wavycon_adhesive_curve
       approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
    use wavycon_constants, only: pi
+   use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_free_edges, only: ball_radii, is_ball
@@ -15,7 +16,7 @@ module wavycon_adhesive_curve
    implicit none (type, external)
    private
 
-   public :: adhesive_curve, add_load, follow_curve
+   public :: adhesive_curve, add_load, find_adhesive_solution, follow_curve
 
    type :: adhesive_curve
       type(adhesive_point), allocatable :: points(:)     !! of spots by rising area, then of pools by falling area
@@ -32,8 +33,10 @@ module wavycon_adhesive_curve
    real(dp), parameter :: radius_step = 0.025_dp, radius_growth = 0.2_dp
    !> Largest growth of the merging ratio in a step, over what is left of it, and the ratio from which a branch ends
    !> once the approach falls: the last extremes are at .83 and more. Otherwise it ends where a step is this part of the
-   !> largest one.
-   real(dp), parameter :: ratio_growth = 0.1_dp, ratio_of_extremes = 0.6_dp, least_step = 0.02_dp
+   !> largest one. A growth of 0.2 loses the last extreme of the pools of the square wave, w' = .05, at 1e-3.
+   real(dp), parameter :: ratio_growth = 0.12_dp, ratio_of_extremes = 0.6_dp, least_step = 0.02_dp
+   !> Step to the last extreme of the approach, over the distance that the last slopes let expect.
+   real(dp), parameter :: beyond_extreme = 1.3_dp
 
 contains
 
@@ -100,7 +103,7 @@ contains
       logical, intent(in) :: pools
 
       real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp
-      real(dp) :: cell, full_step, open_cell, radius, ratio, step
+      real(dp) :: cell, full_step, next, open_cell, radius, ratio, step
       type(adhesive_point) :: point
       type(fitted_answer) :: start
 
@@ -134,6 +137,13 @@ contains
                step = min(full_step, step*ratio_growth*(1.0_dp - start%merging_ratio)/growth)
             end associate
             ratio = start%merging_ratio
+            if (ratio > ratio_of_extremes) then
+               associate (newest => curve%points(size(curve%points) - 2:))
+                  next = interpolated(newest%area, newest%value(2 + at_approach))
+               end associate
+               next = sqrt(max(merge(1.0_dp - next, next, pools), 0.0_dp)*open_cell/pi)
+               if (next > radius) step = min(step, beyond_extreme*(next - radius))
+            end if
          else
             radius = radius - step
             step = 0.5_dp*step
@@ -257,6 +267,26 @@ contains
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
 
+   !> The contact of a load as a solution with fields: of those that are stable, under the load or at the approach if that
+   !> is given, the one of the largest area, which unloading meets. If an area is given it may be unstable.
+   subroutine find_adhesive_solution(curve, which, number, solution)
+      type(adhesive_curve), intent(in) :: curve
+      integer, intent(in) :: which     !! as of add_load
+      integer, intent(in) :: number    !! of a load that was added
+      type(contact_solution), intent(out) :: solution
+
+      integer :: chosen
+      logical :: are_met(size(curve%at_loads))
+
+      associate (points => curve%at_loads)
+         are_met = points%number == number .and. (points%kind == stable_point .or. &
+                                                  (which /= at_load .and. points%kind == approach_stable))
+         chosen = maxloc(points%area, dim=1, mask=are_met)
+         if (chosen == 0) chosen = findloc(points%number, number, dim=1, back=.true.)
+         call curve%problem%make_solution(points(chosen), solution)
+      end associate
+   end subroutine find_adhesive_solution
+
    !> What the bodies are where no partial contact is stable.
    pure type(adhesive_point) function beyond_extremes(curve, which, target) result(point)
       type(adhesive_curve), intent(in) :: curve
@@ -288,8 +318,10 @@ contains
       end if
    end function beyond_extremes
 
-   !> The point between two of a branch at which one of the numbers has a value, by the secant method in a bracket of
-   !> the area (Anderson and Bjorck). Where there is no solution on the way it does not exist.
+   !> The point between two of a branch at which one of the numbers has a value: by Newton's method for loads and
+   !> approaches, by inverse interpolation of the last points for their extremes, or else by halving a bracket of the
+   !> area. All solutions start from that of the last point, so that they take the same degrees. Where there is no
+   !> solution on the way the point does not exist.
    subroutine find_zero(curve, which, target, first, last, point)
       type(adhesive_curve), intent(in) :: curve
       integer, intent(in) :: which                 !! of point%value
@@ -298,50 +330,105 @@ contains
       type(adhesive_point), intent(out) :: point
 
       integer, parameter :: most_steps = 60
-      real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp
-      integer :: step
-      real(dp) :: area(2), before(4), changes(4), miss(2), new, next
-      type(fitted_answer) :: start
+      real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp, tightening = 0.3_dp, &
+         least_tightening = 0.01_dp
+      integer :: n
+      logical :: is_extreme, is_last
+      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, miss(most_steps), next, spread, told(2)
+      type(adhesive_problem) :: problem
 
-      area = [first%area, last%area]
-      miss = [first%value(which), last%value(which)] - target
-      changes = 0.0_dp
-      before = 0.0_dp
-      if (allocated(last%answer)) start = last%answer
-      do step = 1, most_steps
-         next = area(2) - miss(2)*(area(2) - area(1))/(miss(2) - miss(1))
-         if (step > 1) then
-            ! What the next step would change of P and of the approach; at an extreme of one the other changes more.
-            associate (next_changes => abs(point%value(3:)*(next - area(2))))
-               if (abs(next - area(2)) <= rounding*next .or. (maxval(changes(:2)) <= curve%problem%accuracy .and. &
-                   all(next_changes <= max(part_of_error*point%error, epsilon(next)*abs(point%value(:2)))))) exit
-            end associate
-            before = [point%value(:2), point%energy, point%area]
-         end if
-         call curve%problem%find_point(first%pools, next, point, start)
-         if (.not. point%exists) return
-         if (allocated(point%answer)) start = point%answer
-         if (step > 1) changes = abs([point%value(:2), point%energy, point%area] - before)
-         new = point%value(which) - target
-         if (new*miss(2) <= 0.0_dp) then
-            area(1) = area(2)
-            miss(1) = miss(2)
-         else
-            miss(1) = miss(1)*merge(1.0_dp - new/miss(2), 0.5_dp, abs(new) < abs(miss(2)))
-         end if
-         area(2) = next
-         miss(2) = new
-      end do
-      if (which <= 2) then
-         point%area_error = abs((abs(miss(2)) + point%error(which))/point%value(2 + which))
-      else
-         ! The area is known better than by the last step, and so are the values that it changes.
-         point%error = point%error + changes(:2)
-         point%energy_error = point%energy_error + changes(3)
-         point%area_error = changes(4)
-         if (.not. maxval(point%error) <= curve%problem%accuracy) point%status = not_accurate
+      problem = curve%problem
+      is_extreme = which > 2
+      area(:2) = [first%area, last%area]
+      miss(:2) = [first%value(which), last%value(which)] - target
+      ! The worse one is the first that interpolation forgets.
+      if (abs(miss(1)) < abs(miss(2))) then
+         area(:2) = area([2, 1])
+         miss(:2) = miss([2, 1])
       end if
+      bracket = area(:2)
+      do n = 2, most_steps - 1
+         is_last = problem%accuracy < curve%problem%accuracy
+         if (is_last) then
+            next = area(n) - miss(n)/curvature
+         else if (n > 2 .and. .not. is_extreme) then
+            next = area(n) - miss(n)/point%value(2 + which)
+         else
+            next = interpolated(area(max(1, n - 2):n), miss(max(1, n - 2):n))
+         end if
+         if (.not. (is_last .or. (next - bracket(1))*(next - bracket(2)) < 0.0_dp)) next = 0.5_dp*sum(bracket)
+         if (n > 2) then
+            changes = abs(point%value(3:)*(next - area(n)))
+            told = point%error
+            if (is_extreme) then
+               ! What a step by the derivatives leaves, and what the slope's error does. The derivative of the slope is
+               ! that of two points so far apart.
+               if (.not. is_last) then
+                  spread = area(n) - area(min(n - 1, 3))
+                  curvature = (miss(n) - miss(min(n - 1, 3)))/spread
+               end if
+               changes = changes*left_over()
+               told = told + abs(point%value(3:)*point%slope_error(which - 2)/curvature)
+            end if
+            if (is_last .or. abs(next - area(n)) <= rounding*next .or. &
+                all(changes <= max(part_of_error*told, epsilon(next)*abs(point%value(:2))))) then
+               if (is_extreme) call step_to_extreme()
+               if (is_last .or. .not. is_extreme .or. maxval(point%error) <= curve%problem%accuracy) exit
+               ! The slope is not known well enough: once more, to a smaller error.
+               problem%accuracy = problem%accuracy &
+                  *max(least_tightening, tightening*problem%accuracy/maxval(point%error))
+            end if
+         end if
+         call problem%find_point(first%pools, next, point, last%answer)
+         if (.not. point%exists) return
+         area(n + 1) = next
+         miss(n + 1) = point%value(which) - target
+         bracket(merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))) = next
+      end do
+      if (.not. is_extreme) point%area_error = abs((abs(miss(n)) + point%error(which))/point%value(2 + which))
+      if (.not. maxval(point%error) <= curve%problem%accuracy) point%status = not_accurate
+
+   contains
+
+      !> The part of the step to `next` that it misses the extreme by: the curve bends over the distance of both points.
+      real(dp) function left_over()
+         left_over = (abs(next - area(n)) + abs(spread))/abs(last%area - first%area)
+      end function left_over
+
+      !> The last step, to `next`, by the derivatives; and the errors that the area's makes.
+      subroutine step_to_extreme()
+         real(dp) :: change(2), energy_slope, step
+
+         step = next - area(n)
+         point%area = next
+         point%area_error = abs(step)*left_over() + abs(point%slope_error(which - 2)/curvature)
+         energy_slope = point%value(at_load)*point%value(2 + at_approach) + problem%work
+         change = point%value(3:)
+         ! The slope at the extreme is 0.
+         change(which - 2) = 0.5_dp*change(which - 2)
+         point%value(:2) = point%value(:2) + change*step
+         point%error = point%error + abs(change)*point%area_error
+         point%energy = point%energy + energy_slope*step
+         point%energy_error = point%energy_error + abs(energy_slope)*point%area_error
+      end subroutine step_to_extreme
+
    end subroutine find_zero
+
+   !> The place where a function is 0 by inverse interpolation of its values (Neville).
+   pure real(dp) function interpolated(places, values) result(place)
+      real(dp), intent(in) :: places(:), values(:)
+
+      real(dp) :: p(size(places))
+      integer :: i, k
+
+      p = places
+      do k = 1, size(p) - 1
+         do i = 1, size(p) - k
+            p(i) = (values(i + k)*p(i) - values(i)*p(i + 1))/(values(i + k) - values(i))
+         end do
+      end do
+      place = p(1)
+   end function interpolated
 
    !> Hertz's contact of a ball under a load [p*]; over p* and Delta the modulus does not matter.
    pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)

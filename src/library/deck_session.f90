@@ -70,6 +70,7 @@ module wavycon_deck_session
       type(contact_solution), allocatable :: solution
       real(dp) :: mean_pressure = 0.0_dp              !! [pressure]
       integer :: loads_by = by_pressure               !! how it was given: a name of wavycon_scene
+      real(dp) :: target = 0.0_dp                     !! what was given, as of scene_type
       type(memory_table) :: summary                   !! of one row
       class(contact_fields), allocatable :: fields    !! made at their first use
       class(stress_fields), allocatable :: stresses   !! made at their first use
@@ -215,6 +216,7 @@ contains
       end if
       allocate (answer%solution)
       answer%loads_by = loads_by
+      answer%target = target(load)
       call begin_solve(self%is_solving)
       call solve_target(self%results%solver, loads_by, target(load), answer%solution, self%results%scene%stress_setting)
       call end_solve(self%is_solving)
@@ -234,6 +236,8 @@ contains
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
+      integer :: loads_by
+      real(dp), allocatable :: targets(:)   ! of the deck
       type(table_type), allocatable :: writer
 
       call find_writer(self, name, solved, writer, error)
@@ -247,9 +251,15 @@ contains
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
             if (allocated(results%adhesion)) deallocate (results%adhesion)
+            targets = results%scene%target
+            loads_by = results%scene%loads_by
+            results%scene%target = [solved%target]
+            results%scene%loads_by = solved%loads_by
             call begin_solve(self%is_solving)
             call find_interface(results, self%log, name)
             call end_solve(self%is_solving)
+            results%scene%target = targets
+            results%scene%loads_by = loads_by
          end if
          results%memory => table
          call writer%write(results, error)
@@ -280,6 +290,8 @@ contains
          return
       end if
       writer = tables(i)
+      ! The keys of &output need not ask for tables here.
+      if (writer%of_adhesion) writer%asked_by(2) = ''
       if (writer%group == 'stress' .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
       else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then

@@ -3,9 +3,9 @@
 !> The pressure p >= 0 of the given mean minimises the complementary energy (Johnson, Greenwood & Higginson 1985, eqs.
 !> 1, 2). Up to a constant and a factor this energy is, in the amplitudes x_k of the Fourier terms (E6), (E7),
 !>
-!>     f' = 1/2 sum_k w_k c_k x_k^2 - x_1    (eqs. 17, 26)   with   sum_k x_k t_k >= -P at the points (18, 27),
+!>     F' = 1/2 sum_k w_k gamma_k x_k^2 - x_1    (eqs. 17, 26)   with   sum_k x_k t_k >= -P at the points (18, 27),
 !>
-!> w_k the weight, c_k the compliance of term t_k, x_1 the amplitude of the term of the surface's shape.
+!> w_k the weight, gamma_k the compliance of term t_k, x_1 the amplitude of the term of the surface's shape.
 !> The unconstrained minimum x_1 = 1 is full contact.
 !>
 !> N.B. The paper has no hardness. A hardness H, the largest pressure, adds  -sum_k x_k t_k >= P - H.

@@ -1,9 +1,9 @@
 !> The minimum on a set of active constraints taken as equations, by factorisations.
 !>
 !> For the active rows C_W the factorisation is  D = U^2,  U^-1 C_W' = QR,  Q'Q = I of k columns, R upper triangular
-!> (Q4). With x = U^-1 w the minimum on C_W x = b_W is (Q5)
+!> (Q4). With x = U^-1 xi the minimum on C_W x = b_W is (Q5)
 !>
-!>     v = R^-T b_W - Q'U^-1 c,   w = U^-1 c + Qv,   multipliers = R^-1 v.
+!>     v = R^-T b_W - Q'U^-1 c,   xi = U^-1 c + Qv,   multipliers = R^-1 v.
 !>
 !> A constraint is added by Gram-Schmidt's method with reorthogonalisation and removed by rotations, without a new
 !> factorisation (Daniel, Gragg, Kaufman & Stewart, Math. Comp. 30 (1976) 772-795). Numbers (Q..) are the equations of

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The pages agree with the program: links, decks, keys, columns, and the log that README.md shows.
+"""The pages agree with the program: links, formulas, decks, keys, columns, and the log that README.md shows.
 
 usage: check_pages.py --program WAVYCON
 
@@ -38,6 +38,9 @@ TABLE_DECKS = {
        "&method solver = 'auto', accuracy = 1e-2 /\n&output map_points = 8 /\n"
        "&interface friction = 1, tangential_load = 0.1, nu = 0.3, slip_loop = t, slip_map = t, work_of_adhesion = 0.1 /\n"
        for dimension in ("1d", "2d")}}
+# The number of a formula, and those of the appendix of [JGH], which src/paper cites as its own page does.
+NUMBER = r"[A-Z]\d+[a-z]?"
+APPENDIX = {f"A{number}" for number in range(1, 11)}
 # Columns of the log that rounding may change.
 ROUNDED = ("error",)
 
@@ -73,6 +76,41 @@ def broken_links(path, text):
         if not file.exists() or (anchor and anchor not in anchors(text if not place else file.read_text("utf-8"))):
             broken.append(target)
     return broken
+
+
+def faults_of_formulas(text):
+    """The formulas between dollar signs that some reader of Markdown would not draw."""
+    text = re.sub(r"`[^`]*`|^    .*$", "", without_fences(text), flags=re.MULTILINE)
+    parts = text.split("$$")
+    displays, prose = parts[1::2], parts[0::2]
+    faults = [] if len(parts) % 2 else ["$$ is not closed"]
+    inline = []
+    for line in "\n".join(prose).splitlines():
+        if line.count("$") % 2:
+            faults.append(line)
+        inline += re.findall(r"\$([^$]*)\$", line)
+    for formula in inline + displays:
+        if any(formula.count(first) != formula.count(last)
+               for first, last in (("{", "}"), (r"\left", r"\right"), (r"\begin", r"\end"))):
+            faults.append(formula)
+    # Markdown takes a backslash before a sign, the mark of a list, and a blank line for its own.
+    faults += [formula for formula in inline if re.search(r"\\[^A-Za-z]", formula)]
+    faults += [formula for formula in displays
+               if re.search(r"^\s*([-+*>#]|\d+[.)])\s|\n\s*\n|\\[^A-Za-z\\\s]", formula, re.MULTILINE)]
+    # Not all draw a displayed formula in a list.
+    faults += re.findall(r"^ +\$\$", text, re.MULTILINE)
+    # Some take what stands in parentheses after a formula for its number.
+    return faults + [after for after in prose[1:] if re.match(r"\s*\(", after)]
+
+
+def numbers_of_formulas(text):
+    """The numbers that the formulas of a page bear: as tags, in a line of code, or after a sentence or blanks."""
+    return {number for place in (r"\\tag\{%s\}", r"^ {4}.*\(%s\)", r"(?:[.)]| ) \(%s\)")
+            for number in re.findall(place % f"({NUMBER})", text, re.MULTILINE)}
+
+
+def numbers_cited(text):
+    return set(re.findall(rf"\(([ACEFGIMQS]\d+[a-z]?)\)", text))
 
 
 def decks(text):
@@ -145,6 +183,31 @@ class Pages(ProgramTest):
     def test_broken_links_are_found(self):
         text = "## A b\n[1](nowhere.md) [2](README.md) [3](#a-b) [4](#c) [5](README.md#citing) [6](README.md#d)"
         self.assertEqual(["nowhere.md", "#c", "README.md#d"], broken_links(ROOT/"README.md", text))
+
+    def test_formulas(self):
+        for path in pages():
+            self.assertEqual([], faults_of_formulas(path.read_text("utf-8")), path)
+
+    def test_faults_of_formulas_are_found(self):
+        right = "$a_1$ and `$b` cost\n\n$$\nx = \\left( y \\right) \\\\\n\\tag{E1}\n$$\n\nfor\n\n    $(code)\n"
+        self.assertEqual([], faults_of_formulas(right))
+        for old, new in (("$a_1$", "$a_1"), ("$$\n\nfor", "\nfor"), ("a_1", "a_{1"), (r"\left", ""), ("a_1", r"a\,b"),
+                         (r"\left", "+\n+ z \\left"), ("for", "(see) for"), (r"\tag", "\n\\tag"),
+                         (r"\tag", r"\; \tag"), ("\n$$", "\n  $$")):
+            self.assertNotEqual([], faults_of_formulas(right.replace(old, new, 1)), new)
+
+    def test_numbers_of_formulas(self):
+        """Each number of a formula that the sources cite stands on a page."""
+        found = [number for path in sorted((ROOT/"src").rglob("README.md"))
+                 for number in numbers_of_formulas(path.read_text("utf-8"))]
+        self.assertGreater(len(found), 200)
+        for path in sorted((ROOT/"src").rglob("*")):
+            if path.suffix in (".f90", ".F90", ".inc", ".md", ".h", ".c", ".py"):
+                self.assertEqual(set(), numbers_cited(path.read_text("utf-8")) - APPENDIX - set(found), path)
+
+    def test_missing_numbers_are_found(self):
+        self.assertEqual({"E1", "F12a"}, numbers_of_formulas("$$\nx \\tag{E1}\n$$\n    y = z   (F12a)\nas (E2) says"))
+        self.assertEqual({"E2", "F12a"}, numbers_cited("by (E2) and (F12a), eq. (17)"))
 
     def test_decks(self):
         deck = self.folder/"deck.nml"

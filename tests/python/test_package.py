@@ -196,8 +196,13 @@ class Digits(PackageTest):
         results = wc.solve(wc.wave_1d(), pbar_over_pstar=[0.1, 0.6], interface=interface)
         for name in "interface", "partial_slip":
             self.assert_same_rows(f"line.{name}.dat", results.table(name))
-        self.assertEqual(["stable_by_approach", "full_contact"],
-                         results[0].table("adhesion")["point"][-2:].tolist())
+        # The last block is that of the load alone.
+        self.assertEqual(["stable", "stable_by_approach"], results[0].table("adhesion")["point"][-2:].tolist())
+        self.assertEqual("full_contact", results[1].table("adhesion")["point"][-1])
+        lines = results[0].table("adhesion_lines")
+        self.assertAlmostEqual(0.1, lines["pbar_over_pstar"][0], 9)
+        # Next to the edge there is tension.
+        self.assertLess(lines["pressure"].min(), -0.1)
         with self.assertRaisesRegex(ValueError, "no group &interface that asks for it"):
             results.table("slip_loop")
 

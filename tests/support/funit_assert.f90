@@ -36,26 +36,7 @@ contains
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call compare(assertion, as_real, of_reals(expected), of_reals(actual), tolerance, message, location)
-
-   contains
-
-      function of_reals(x) result(one)
-         real(dp), intent(in) :: x(..)
-         type(operand) :: one
-
-         one%shape = shape_of(x)
-         select rank (x)
-         rank (0)
-            one%numbers = [x]
-         rank (1)
-            ! With gfortran 12 x may begin at 0, and then a plain copy would.
-            one%numbers = [x]
-         rank (2)
-            one%numbers = reshape(x, [size(x)])
-         end select
-      end function of_reals
-
+      call compare(assertion, as_real, operand_of(expected), operand_of(actual), tolerance, message, location)
    end subroutine check_reals
 
    subroutine check_integers(assertion, expected, actual, message, location)
@@ -64,26 +45,8 @@ contains
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call compare(assertion, as_integer, of_integers(expected), of_integers(actual), message=message, &
+      call compare(assertion, as_integer, operand_of(expected), operand_of(actual), message=message, &
                    location=location)
-
-   contains
-
-      function of_integers(x) result(one)
-         integer, intent(in) :: x(..)
-         type(operand) :: one
-
-         one%shape = shape_of(x)
-         select rank (x)
-         rank (0)
-            one%numbers = [real(x, dp)]
-         rank (1)
-            one%numbers = [real(x, dp)]
-         rank (2)
-            one%numbers = reshape(real(x, dp), [size(x)])
-         end select
-      end function of_integers
-
    end subroutine check_integers
 
    !> Also of assertTrue and assertFalse.
@@ -93,26 +56,8 @@ contains
       character(*), intent(in), optional :: message
       type(SourceLocation), intent(in) :: location
 
-      call compare(assertion, as_logical, of_logicals(expected), of_logicals(actual), message=message, &
+      call compare(assertion, as_logical, operand_of(expected), operand_of(actual), message=message, &
                    location=location)
-
-   contains
-
-      function of_logicals(x) result(one)
-         logical, intent(in) :: x(..)
-         type(operand) :: one
-
-         one%shape = shape_of(x)
-         select rank (x)
-         rank (0)
-            one%numbers = [merge(1.0_dp, 0.0_dp, x)]
-         rank (1)
-            one%numbers = [merge(1.0_dp, 0.0_dp, x)]
-         rank (2)
-            one%numbers = reshape(merge(1.0_dp, 0.0_dp, x), [size(x)])
-         end select
-      end function of_logicals
-
    end subroutine check_logicals
 
    !> Same length and same characters: trailing blanks count, unlike in Fortran's `==`.
@@ -236,6 +181,37 @@ contains
          if (.not. holds) holds = abs(actual - expected) <= tolerance
       end select
    end function relation_holds
+
+   function operand_of(x) result(one)
+      class(*), intent(in) :: x(..)
+      type(operand) :: one
+
+      one%shape = shape_of(x)
+      select rank (x)
+      rank (0)
+         one%numbers = [number_of(x)]
+      rank (1)
+         ! With gfortran 12 x may begin at 0, and then a plain copy would.
+         one%numbers = [number_of(x)]
+      rank (2)
+         one%numbers = reshape(number_of(x), [size(x)])
+      end select
+   end function operand_of
+
+   !> A real number, an integer, or 1 and 0 for a logical value.
+   elemental real(dp) function number_of(x)
+      class(*), intent(in) :: x
+
+      number_of = 0.0_dp
+      select type (x)
+      type is (real(dp))
+         number_of = x
+      type is (integer)
+         number_of = real(x, dp)
+      type is (logical)
+         number_of = merge(1.0_dp, 0.0_dp, x)
+      end select
+   end function number_of
 
    !> The shape. gfortran 11 writes beyond the result of `shape` for a scalar of assumed rank, and gfortran 12 gives an
    !> empty array of assumed rank the extent -1.

@@ -26,10 +26,10 @@ module wavycon_ball_source
    implicit none (type, external)
    private
 
-   public :: solve_ball
+   public :: ball_source, solve_ball
 
    type, extends(field_source) :: ball_source
-      type(hertz_ball) :: contact       !! [length], pressures in E*
+      type(hertz_ball) :: contact       !! [length], pressures in E*; with a tension the approach is the one with it
       real(dp) :: accuracy = 0.0_dp     !! of the grids for the stresses
    contains
       procedure :: fields
@@ -122,7 +122,8 @@ contains
       allocate (answer, source=ball_fields(parts=surface%parts(), surface=surface, contact=self%contact))
    end subroutine fields
 
-   !> The displacement outside is (C31).
+   !> The displacement outside is (C31). A round punch under a force F has the pressure F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)
+   !> and displaces F/(pi E* a) asin(a/r) outside.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(ball_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -138,7 +139,9 @@ contains
          squares = contact%half_axis**2
          undeformed = 0.5_dp*sum(place**2/ball_radii(surface))
          inside = 1.0_dp - sum(place**2/squares)
-         pressure = contact%peak_pressure*sqrt(max(inside, 0.0_dp))/surface%full_contact_pressure(1.0_dp)
+         pressure = 0.0_dp
+         if (inside > 0.0_dp) pressure = (contact%peak_pressure*sqrt(inside) - contact%tension &
+            /(2*pi*product(contact%half_axis)*sqrt(inside)))/surface%full_contact_pressure(1.0_dp)
          gap = 0.0_dp
          if (inside < 0.0_dp) then
             ! The positive root of lambda^2 + b lambda + c = 0.
@@ -149,7 +152,8 @@ contains
             u = contact%peak_pressure*product(contact%half_axis)*( &
                 gsl_sf_ellint_RF(squares(1) + lambda, squares(2) + lambda, lambda, all_digits) &
                 - place(1)**2/3*gsl_sf_ellint_RD(squares(2) + lambda, lambda, squares(1) + lambda, all_digits) &
-                - place(2)**2/3*gsl_sf_ellint_RD(squares(1) + lambda, lambda, squares(2) + lambda, all_digits))
+                - place(2)**2/3*gsl_sf_ellint_RD(squares(1) + lambda, lambda, squares(2) + lambda, all_digits)) &
+                - contact%tension*asin(min(contact%half_axis(1)/norm2(place), 1.0_dp))/(pi*contact%half_axis(1))
             gap = max(undeformed + u - contact%approach, 0.0_dp)/surface%amplitude
          end if
          displacement = gap + (contact%approach - undeformed)/surface%amplitude

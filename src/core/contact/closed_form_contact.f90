@@ -24,7 +24,7 @@ module wavycon_closed_form_contact
    implicit none (type, external)
    private
 
-   public :: closed_form_contact, closed_form_exists, closed_form_stress
+   public :: closed_form_contact, closed_form_exists, closed_form_source, closed_form_stress
 
    type, extends(contact_solver) :: closed_form_contact
       real(dp) :: accuracy = default_accuracy   !! of the grids that the stresses below a ball are from
@@ -35,6 +35,7 @@ module wavycon_closed_form_contact
    end type closed_form_contact
 
    type, extends(field_source) :: closed_form_source
+      real(dp) :: tension = 0.0_dp            !! T >= 0 of adhesion: the contact is as large as that of P + T without it
    contains
       procedure :: fields
       procedure :: contact_contours
@@ -43,7 +44,8 @@ module wavycon_closed_form_contact
    end type closed_form_source
 
    type, extends(contact_fields) :: closed_form_fields
-      real(dp) :: pbar_over_pstar = 0.0_dp    !! P
+      real(dp) :: pbar_over_pstar = 0.0_dp    !! P1, P without adhesion
+      real(dp) :: tension = 0.0_dp            !! as of closed_form_source
    contains
       procedure :: at
    end type closed_form_fields
@@ -116,19 +118,30 @@ contains
       class(contact_fields), allocatable, intent(out) :: answer
 
       associate (unused => surface); end associate
-      allocate (answer, source=closed_form_fields(pbar_over_pstar=self%record%pbar_over_pstar))
+      allocate (answer, source=closed_form_fields(pbar_over_pstar=self%record%pbar_over_pstar + self%tension, &
+                                                  tension=self%tension))
    end subroutine fields
 
-   !> Eqs. (4) and (5) of the paper. Its psi is half of X.
+   !> Eqs. (4) and (5) of the paper, whose psi is half of X; less a punch under the tension: (I22) of src/beyond.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(closed_form_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
+      real(dp) :: inside, opening
+
       associate (unused => y); end associate
       pressure = westergaard_pressure_over_pstar(x/2, self%pbar_over_pstar)
       displacement = westergaard_displacement_over_amplitude(x/2, self%pbar_over_pstar)
       gap = westergaard_gap_over_amplitude(x/2, self%pbar_over_pstar)
+      if (self%tension <= 0.0_dp) return
+      associate (s => abs(sin(x/2)), edge => sqrt(self%pbar_over_pstar))
+         inside = (edge - s)*(edge + s)
+         if (inside > 0.0_dp) pressure = pressure - self%tension*abs(cos(x/2))/sqrt(inside)
+         opening = 2*self%tension*acosh(max(s/edge, 1.0_dp))
+      end associate
+      gap = gap + opening
+      displacement = displacement + opening + self%tension*log(self%pbar_over_pstar)
    end subroutine at
 
    subroutine contact_contours(self, surface, curves, loads)

@@ -86,8 +86,9 @@ contains
       real(dp), intent(out) :: pressure, displacement, gap
 
       call self%fitted%at(self%frame%place(x, y), pressure, displacement, gap)
-      ! To p*, and without what errors next to the edge may leave below 0.
-      pressure = max(pressure*self%frame%pressure_unit, 0.0_dp)
+      pressure = pressure*self%frame%pressure_unit
+      ! Without adhesion there is no tension but for errors next to the edge.
+      if (self%fitted%answer%solution%work <= 0.0_dp) pressure = max(pressure, 0.0_dp)
       gap = max(gap, 0.0_dp)
    end subroutine at
 

@@ -21,6 +21,8 @@ module wavycon_hertz_ball
       real(dp) :: force = 0.0_dp             !! [pressure length^2]
       real(dp) :: approach = 0.0_dp          !! [length]
       real(dp) :: peak_pressure = 0.0_dp     !! [pressure]
+      !> With adhesion the force of a flat punch as large as the contact, which is taken off [pressure length^2].
+      real(dp) :: tension = 0.0_dp
    contains
       procedure :: contact_area
       procedure :: perimeter

@@ -20,9 +20,10 @@ module wavycon_series_fields
       type(fourier_series) :: displacement   !! (u - ubar)/Delta
       type(surface_type) :: surface
       real(dp) :: mean_gap = 1.0_dp          !! G
-      !> Whether the true pressure and gap are nowhere negative: what the series have below zero is rounding, or lies
-      !> between the points of a height map.
+      !> Whether the true pressure and gap are nowhere less than their bounds, least_pressure and 0: what the series have
+      !> below is rounding, or lies between the points of a height map.
       logical, private :: is_edgeless = .false.
+      real(dp), private :: least_pressure = 0.0_dp
    contains
       procedure :: at
       procedure :: on_grid
@@ -43,6 +44,8 @@ contains
          fields%pressure = full_contact_series(surface, pbar_over_pstar)
          fields%displacement = surface%shape
          fields%mean_gap = 0.0_dp
+         ! Only adhesion holds surfaces in full contact below p*: they are under tension at the troughs.
+         if (pbar_over_pstar < 1.0_dp) fields%least_pressure = -huge(1.0_dp)
       else
          allocate (fields%pressure%c(0:surface%shape%last(1), 0:surface%shape%last(2)), source=0.0_dp)
          if (.not. fields%is_edgeless) fields%pressure%c = ieee_value(pbar_over_pstar, ieee_quiet_nan)
@@ -59,7 +62,7 @@ contains
       displacement = self%displacement%at(x, y)
       gap = self%mean_gap + displacement - self%surface%shape_at(x, y)
       if (.not. self%is_edgeless) return
-      pressure = max(pressure, 0.0_dp)
+      pressure = max(pressure, self%least_pressure)
       gap = max(gap, 0.0_dp)
    end subroutine at
 
@@ -74,7 +77,7 @@ contains
       call self%surface%sample_shape(points, offset, gap)
       gap = self%mean_gap + displacement - gap
       if (.not. self%is_edgeless) return
-      pressure = max(pressure, 0.0_dp)
+      pressure = max(pressure, self%least_pressure)
       gap = max(gap, 0.0_dp)
    end subroutine on_grid
 

@@ -76,15 +76,19 @@ contains
       copy%area = self%area
    end function resized
 
-   !> The value at a point of the disc, 0 outside; at the centre a spot's peak pressure, or a pool's gap at the trough.
+   !> The value at a point of the disc, 0 outside and on the edge; at the centre a spot's peak pressure, or a pool's gap
+   !> at the trough.
    real(dp) function at(self, w)
       class(expansion), intent(in) :: self
       complex(dp), intent(in) :: w
 
-      real(dp) :: values(1, self%basis%terms)
+      real(dp) :: inside, values(1, self%basis%terms)
 
+      at = 0.0_dp
+      inside = (1.0_dp - abs(w))*(1.0_dp + abs(w))
+      if (inside <= 0.0_dp) return
       call self%basis%evaluate(1, [w], values)
-      at = dot_product(values(1, :), self%c)*max((1.0_dp - abs(w))*(1.0_dp + abs(w)), 0.0_dp)**self%basis%power
+      at = dot_product(values(1, :), self%c)*inside**self%basis%power
    end function at
 
 end module wavycon_expansion

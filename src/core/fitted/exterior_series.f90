@@ -3,7 +3,8 @@
 !>
 !>     sum over j, k of c_jk cos(fold j arg v) T_k(2 (1 - 1/|v|)^(1/2) - 1),   README.md (F49),
 !>
-!> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity.
+!> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity. Of
+!> a pool with adhesion, next to which the pressure is singular, it is the pressure times (1 - 1/|v|)^(1/2).
 module wavycon_exterior_series
    use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_table
    use wavycon_constants, only: pi
@@ -18,6 +19,7 @@ module wavycon_exterior_series
 
    type :: exterior_series
       type(chebyshev_table), private :: table     !! in cos(fold arg v) and x
+      logical, private :: is_singular = .false.   !! at the edge
    contains
       procedure :: at
    end type exterior_series
@@ -46,6 +48,7 @@ contains
       type(stress_rays) :: rays
       integer :: places, terms(2)
 
+      series%is_singular = solution%pool .and. solution%work > 0.0_dp
       call start_stress_rays(rays, solution%basis%degree, -log(values_share*accuracy), surface_field)
       terms = [first_angles, 2 + ceiling(-log(accuracy)/round_fall)]
       places = 0
@@ -79,6 +82,7 @@ contains
             call rays%add_at(solution, edge, [(solution%shape%place_outside(v(j)), j=1, terms(2))] &
                              - solution%shape%place(edge), spread(0.0_dp, 1, terms(2)), fields)
             values(i, :, 1) = fields(1, :)
+            if (series%is_singular) values(i, :, 1) = fields(1, :)*sqrt(1.0_dp - 1.0_dp/abs(v))
          end do
          call series%table%set(values)
       end subroutine fit_terms
@@ -102,6 +106,7 @@ contains
       end do
       value = self%table%at(power%re, 2*sqrt(max(1.0_dp - inverse, 0.0_dp)) - 1.0_dp)
       at = value(1)
+      if (self%is_singular) at = at/sqrt(max(1.0_dp - inverse, epsilon(inverse)))
    end function at
 
 end module wavycon_exterior_series

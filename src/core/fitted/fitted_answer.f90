@@ -32,6 +32,8 @@ module wavycon_fitted_answer
       real(dp) :: load_error = 0.0_dp                 !! of a load that is found
       real(dp) :: area_slopes(2) = 0.0_dp
          !! with adhesion: dP and d(approach) over d(area of the spot or pool) [pi E* Delta/s^3, Delta/s^2]
+      real(dp) :: area_slope_errors(2) = 0.0_dp       !! of area_slopes
+      real(dp), allocatable :: area_change(:)         !! the same of all unknowns of the solution, README.md (F70)
       real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], a pool's [p*]
       real(dp) :: misfit_decay(2) = 1.0_dp            !! r_n and r_(n-1) of README.md (F43)
       real(dp) :: merging_ratio = 0.0_dp              !! of the shape: 0 for a point, 1 where neighbours touch

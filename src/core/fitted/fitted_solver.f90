@@ -8,7 +8,8 @@ module wavycon_fitted_solver
       fitted_solved, most_previous
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       load_measure, measure_expansion, peak_measure, perimeter_measure
-   use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
+   use wavycon_fitted_tuning, only: degree_step, error_safety, first_degree, last_degree, previous_difference_share, &
+      round_shape_ratio, series_growth
    use wavycon_gauss_newton, only: change_with_area, newton_steps
    use wavycon_kinds, only: dp
    use wavycon_load_continuation, only: is_start, start_at_area, start_at_load
@@ -128,8 +129,10 @@ contains
       type(contact_equations) :: equations
       type(degree_history) :: history
       type(newton_steps) :: newton
+      real(dp), allocatable :: area_change(:)
+      real(dp) :: area_slopes(2, 0:2)   ! of the newest solution and those before it
       real(dp) :: clustering, measures(all_measures), ratio, scale(all_measures), tolerance
-      integer :: degree, failed
+      integer :: degree, failed, k
       logical :: merged
 
       degree = first
@@ -139,6 +142,8 @@ contains
       ! A lower degree gives the estimates of round shapes one more difference; it cannot represent sharp ones.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       failed = 0
+      area_slopes = 0.0_dp
+      allocate (area_change(0))
       ! Next to merging convergence is less than quadratic: a second step at the first degree measures it.
       newton%contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
       do
@@ -159,9 +164,20 @@ contains
             failed = 0
             call measure_expansion(equations, lattice, now, measures, scale)
             if (.not. all(scale(:load_measure) > 0.0_dp)) exit
+            if (now%work > 0.0_dp) then
+               area_slopes(:, 1:) = area_slopes(:, :1)
+               area_change = [(0.0_dp, k=1, equations%unknowns)]
+               call change_with_area(equations, now, area_change)
+               area_slopes(:, 0) = slopes_of(equations, lattice, now, area_change)
+            end if
             call history%push(now, measures, scale, newton%misfit, newton%remaining)
-            if (history%newest_is_best) &
+            if (history%newest_is_best) then
                call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
+               answer%area_slopes = area_slopes(:, 0)
+               answer%area_slope_errors = error_safety*max(abs(area_slopes(:, 0) - area_slopes(:, 1)), &
+                  previous_difference_share*abs(area_slopes(:, 1) - area_slopes(:, 2)))
+               answer%area_change = area_change
+            end if
             if (history%best_meets(accuracy, required)) then
                answer%status = fitted_solved
                exit
@@ -171,33 +187,24 @@ contains
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
       answer%iterations = answer%iterations + newton%iterations
-      if (now%work > 0.0_dp .and. answer%status <= fitted_less_exact) call set_area_slopes(answer, lattice, equations)
       ! On the square lattice a solution of a lower degree is kept although a higher one has merged: it is nearly right.
       if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
    end subroutine raise_degree
 
-   !> The derivatives of load and approach with respect to the area, README.md (F70).
-   subroutine set_area_slopes(answer, lattice, equations)
-      type(fitted_answer), intent(inout) :: answer             !! with a solution with adhesion
+   !> The derivatives of load and approach with respect to the area from those of all unknowns, README.md (F70).
+   pure function slopes_of(equations, lattice, now, area_change) result(slopes)
+      type(contact_equations), intent(in) :: equations         !! of the solution
       type(wave_lattice), intent(in) :: lattice
-      type(contact_equations), intent(inout) :: equations      !! with images for its shape
+      type(expansion), intent(in) :: now                       !! the solution, with adhesion
+      real(dp), intent(in) :: area_change(:)                   !! shape (unknowns)
+      real(dp) :: slopes(2)
 
-      logical :: finite
-      real(dp), allocatable :: change(:)
-
-      associate (now => answer%solution)
-         call start_equations(equations, now, answer%merging_ratio)
-         allocate (change(equations%unknowns))
-         call change_with_area(equations, lattice, now, change, finite)
-         if (.not. finite) answer%status = fitted_failed
-         if (.not. finite) return
-         ! Solving overwrote the matrix, not the load's row.
-         associate (of_integral => dot_product(equations%load_row, change)/lattice%area)
-            answer%area_slopes = [of_integral, change(now%basis%terms + 1)]
-            if (now%pool) answer%area_slopes = [change(now%basis%terms + 1), -lattice%troughs*of_integral]
-         end associate
+      associate (of_integral => dot_product(equations%load_row, area_change)/lattice%area, &
+                 of_unknown => area_change(now%basis%terms + 1))
+         slopes = [of_integral, of_unknown]
+         if (now%pool) slopes = [of_unknown, -lattice%troughs*of_integral]
       end associate
-   end subroutine set_area_slopes
+   end function slopes_of
 
    !> Writes the newest solution to the answer.
    subroutine set_answer(answer, lattice, history, now, residual, ratio, images_tolerance)

@@ -10,7 +10,7 @@ module wavycon_gauss_newton
    implicit none (type, external)
    private
 
-   public :: change_with_area, changes_with_load, newton_steps
+   public :: add_step, change_with_area, changes_with_load, newton_steps
 
    !> Steps, and what is known of the last one.
    type :: newton_steps
@@ -95,10 +95,10 @@ contains
       else
          missing = now%load*lattice%area - equations%integral(now)
       end if
-      call least_squares_step(equations, now, missing, whole, self%misfit, finite)
+      call least_squares_step(equations, now, equations%residual, missing, whole, self%misfit, finite)
       if (.not. finite) return
       self%change = maxval(abs(whole(equations%before_shape + 1:)))/now%shape%b(0)
-      call add_step(now, min(1.0_dp, longest_shape_change/max(self%change, tiny(1.0_dp)))*whole, equations)
+      call add_step(now, min(1.0_dp, longest_shape_change/max(self%change, tiny(1.0_dp)))*whole)
       self%valid = now%shape%b(0) > 0.0_dp &
          .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine step
@@ -127,8 +127,8 @@ contains
       load_row = equations%load_row
       finite = all(ieee_is_finite(matrix))
       if (.not. finite) return
-      equations%residual = merge(1.0_dp, 0.0_dp, now%pool)
-      call least_squares_step(equations, now, lattice%area, change, misfit, finite)
+      right = merge(1.0_dp, 0.0_dp, now%pool)
+      call least_squares_step(equations, now, right, lattice%area, change, misfit, finite)
       if (.not. finite) return
       step = part*min(now%load, lattice%closing_pressure - now%load)
       right = 0.0_dp
@@ -144,9 +144,8 @@ contains
       finite = all(ieee_is_finite(right))
       if (.not. finite) return
       equations%matrix = matrix
-      equations%residual = right
       equations%load_row = load_row
-      call least_squares_step(equations, now, -row_change, change_of_change, misfit, finite)
+      call least_squares_step(equations, now, right, -row_change, change_of_change, misfit, finite)
       load_change = [dot_product(load_row, change), dot_product(load_row, change_of_change) + row_change]
 
    contains
@@ -158,47 +157,43 @@ contains
          type(expansion) :: other
 
          other = now
-         if (steps /= 0) call add_step(other, steps*step*change, equations)
+         if (steps /= 0) call add_step(other, steps*step*change)
          call equations%linearise(lattice, other)
       end subroutine linearise_at
 
    end subroutine changes_with_load
 
-   !> The derivatives of the unknowns with respect to the area of an adhesive spot or pool, README.md (F70).
-   subroutine change_with_area(equations, lattice, now, change, finite)
-      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
-      type(wave_lattice), intent(in) :: lattice
+   !> The derivatives of the unknowns with respect to the area of an adhesive spot or pool, README.md (F70), by the
+   !> matrix of the step to the solution.
+   subroutine change_with_area(equations, now, change)
+      type(contact_equations), intent(in) :: equations     !! as the step left them
       type(expansion), intent(in) :: now                   !! the solution, with adhesion
       real(dp), intent(out) :: change(:)                   !! shape (unknowns)
-      logical, intent(out) :: finite                       !! otherwise the change is of no use
 
+      logical :: finite   ! the step was
       real(dp) :: misfit
 
-      call equations%linearise(lattice, now)
-      finite = all(ieee_is_finite(equations%matrix))
-      if (.not. finite) return
-      equations%residual = 0.0_dp
-      call least_squares_step(equations, now, 1.0_dp, change, misfit, finite)
+      call least_squares_step(equations, now, 0*equations%residual, 1.0_dp, change, misfit, finite)
    end subroutine change_with_area
 
    !> Adds a step to coefficients, approach or load, and shape.
-   subroutine add_step(now, step, equations)
+   pure subroutine add_step(now, step)
       type(expansion), intent(inout) :: now
-      real(dp), intent(in) :: step(:)                      !! shape (unknowns)
-      type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
+      real(dp), intent(in) :: step(:)                      !! shape (unknowns of its equations)
 
-      associate (terms => now%basis%terms)
+      associate (terms => now%basis%terms, first => size(step) - size(now%shape%b) + 1)
          now%c = now%c + step(:terms)
          if (.not. now%pool) now%approach = now%approach + step(terms + 1)
-         if (now%pool .and. equations%constraints == 1) now%load = now%load + step(terms + 1)
-         now%shape%b = now%shape%b + step(equations%before_shape + 1:)
+         if (now%pool .and. now%work > 0.0_dp) now%load = now%load + step(terms + 1)
+         now%shape%b = now%shape%b + step(first:)
       end associate
    end subroutine add_step
 
-   !> Solves the linear least-squares problem by LAPACK; overwrites the equations' matrix and residual.
-   subroutine least_squares_step(equations, now, missing, step, misfit, finite)
-      type(contact_equations), intent(inout) :: equations
+   !> Solves the linear least-squares problem by LAPACK.
+   subroutine least_squares_step(equations, now, right_sides, missing, step, misfit, finite)
+      type(contact_equations), intent(in) :: equations
       type(expansion), intent(in) :: now
+      real(dp), intent(in) :: right_sides(:)     !! what the step must add to the left sides, shape of the residual
       real(dp), intent(in) :: missing
          !! what the step must add: to the load of a spot, times the cell's area, or to the area with adhesion
       real(dp), intent(out) :: step(:)           !! shape (unknowns)
@@ -208,11 +203,13 @@ contains
 
       !> Columns that LAPACK treats at once; as many times the sizes is enough work space.
       integer, parameter :: block = 64
-      real(dp) :: constraint(1, size(step)), right(1)
-      real(dp) :: work(block*(size(equations%residual) + size(step) + 1))
+      ! LAPACK overwrites these.
+      real(dp) :: constraint(1, size(step)), left(size(right_sides)), right(1)
+      real(dp), allocatable :: matrix(:, :)
+      real(dp) :: work(block*(size(left) + size(step) + 1))
       integer :: beyond, info, m, n
 
-      m = size(equations%residual)
+      m = size(left)
       n = size(step)
       beyond = m - n + equations%constraints
       constraint(1, :) = equations%load_row
@@ -221,10 +218,11 @@ contains
          call now%shape%linearise_area(constraint(1, equations%before_shape + 1:))
       end if
       right = missing
-      call dgglse(m, n, equations%constraints, equations%matrix, m, constraint, 1, equations%residual, right, step, &
-                  work, size(work), info)
+      left = right_sides
+      allocate (matrix, source=equations%matrix)
+      call dgglse(m, n, equations%constraints, matrix, m, constraint, 1, left, right, step, work, size(work), info)
       ! LAPACK leaves the components that no step can remove at the end of the right side.
-      misfit = norm2(equations%residual(m - beyond + 1:))/sqrt(real(beyond, dp))
+      misfit = norm2(left(m - beyond + 1:))/sqrt(real(beyond, dp))
       finite = info == 0
       if (finite) finite = maxval(abs(step)) < huge(1.0_dp)
    end subroutine least_squares_step

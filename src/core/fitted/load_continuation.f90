@@ -7,7 +7,7 @@ module wavycon_load_continuation
    use wavycon_expansion, only: edge_power, expansion
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
    use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, start_degree
-   use wavycon_gauss_newton, only: change_per_square, newton_steps
+   use wavycon_gauss_newton, only: add_step, change_per_square, newton_steps
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_kinds, only: dp
    use wavycon_expansion_size, only: merging_ratio
@@ -87,8 +87,8 @@ contains
 
    !> An approximation at an area with adhesion, and the degree to go on with.
    !>
-   !> A solution of an area that is within one step is scaled to the area. Otherwise the asymptotes of small spots or
-   !> pools are followed in steps of the area.
+   !> A solution of an area that is within one step is carried on along its derivatives. Otherwise the asymptotes of
+   !> small spots or pools are followed in steps of the area.
    subroutine start_at_area(lattice, pool, work, area, now, degree, iterations, found, start)
       type(wave_lattice), intent(in) :: lattice
       logical, intent(in) :: pool                     !! the regime
@@ -109,7 +109,9 @@ contains
       if (found) found = start%status <= fitted_less_exact .and. (start%pool .eqv. pool)
       if (found) found = abs(log(area/start%solution%area)) <= log(load_step_ratio)
       if (found) then
-         now = scaled_to_area(start%solution, area)
+         now = start%solution
+         call add_step(now, (area - now%area)*start%area_change)
+         now%area = area
          found = merging_ratio(lattice, now) < 1.0_dp
          degree = max(first_degree, nint(start%value(polynomial_degree)) - 2*degree_step)
          return

@@ -176,10 +176,10 @@ contains
                source = of_pressure
                if (solution%pool) source = merge(of_gradient, of_gap, self%kernel == all_fields)
                call find_density(solution, source == of_gradient, n, w, root**2, density)
-               ! dt = root dsigma, and the density's own root, of a gap itself its cube.
+               ! dt = root dsigma, and the density's own power of 1 - |w|^2, that of a gradient less by 1.
                at_t = weight*0.5_dp*(last - first)*nodes%weight*width*cosh(eta)*root
-               density = density*(at_t*root*t)
-               if (source == of_gap) density = density*root**2
+               density = density*(at_t*root*t)*root**nint(2*solution%basis%power &
+                                                          - merge(3, 1, source == of_gradient))
                do k = 1, size(offset)
                   call add_sources(self%kernel, source, n, offset(k)%re - difference%re, offset(k)%im - difference%im, &
                                    depth(k), density%re, density%im, fields(:, k))

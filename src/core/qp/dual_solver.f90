@@ -168,8 +168,8 @@ contains
       end do
    end subroutine release_negative
 
-   !> Raises the multiplier of a violated constraint until its slack is zero (Q12). Active constraints whose multipliers
-   !> vanish before are released.
+   !> Raises the multiplier of a violated constraint until its slack is zero (Q11). Active constraints whose multipliers
+   !> vanish before are released (Q12).
    subroutine make_active(problem, set, constraint, first_slack, x, multipliers, pivots, is_active)
       type(qp_problem), intent(in) :: problem
       type(working_set), intent(inout) :: set

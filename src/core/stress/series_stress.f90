@@ -178,7 +178,7 @@ contains
    !> The sums (S4) by the Taylor series (S9) about a point.
    pure function sums_near(moment, move, depth) result(sums)
       complex(dp), intent(in) :: moment(0:, 0:, -2:)   !! at the point
-      real(dp), intent(in) :: move(3)                  !! from the point, x, y, z of (S9) [rad]
+      real(dp), intent(in) :: move(3)                  !! from the point: xi, eta', zeta of (S9) [rad]
       real(dp), intent(in) :: depth                    !! Z there [rad]
       real(dp) :: sums(8)
 

@@ -134,8 +134,8 @@ contains
    end subroutine find_moments
 
    !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
-   !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of q and of the
-   !> sum of the other four; waves that hardly reach the plane are left out of these.
+   !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of eta_2 there and
+   !> of the sum of the other four; waves that hardly reach the plane are left out of these.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(stress_waves), intent(in) :: self
       integer, intent(in) :: points(2)

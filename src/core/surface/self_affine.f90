@@ -1,4 +1,4 @@
-!> Random self-affine surfaces, made from their spectra. Equations (G1) to (G5) are in the README.md of this room.
+!> Random self-affine surfaces, made from their spectra. Equations (G1) to (G5) are in README.md of this directory.
 module wavycon_self_affine
    use, intrinsic :: iso_c_binding, only: c_long, c_ptr
    use wavycon_constants, only: largest_number, pi, smallest_number

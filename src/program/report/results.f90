@@ -39,10 +39,13 @@ module wavycon_results
       !> Partial slip, shape (tangential loads, loads), and adhesion; not allocated unless the deck asks for them.
       type(partial_slip), allocatable :: slip(:, :)
       type(adhesive_curve), allocatable :: adhesion
+      type(contact_solution), allocatable :: adhesive_loads(:)   !! of each load the contact with adhesion
+      logical :: with_adhesion = .false.                     !! whether these have changed places with `loads`
       type(work_sharing) :: sharing                          !! how the ranks share the work
       integer, allocatable :: order(:)                       !! the loads in the order in which they are solved
       type(memory_table), pointer :: memory => null()        !! tables are written to it in place of files
    contains
+      procedure :: swap_contacts
       procedure :: open_table
       procedure :: begin_block
       procedure :: unit_in_words
@@ -54,6 +57,18 @@ module wavycon_results
    end type results_type
 
 contains
+
+   !> Exchanges the contacts without adhesion and with it, so that procedures for tables of the one serve the other.
+   subroutine swap_contacts(self)
+      class(results_type), intent(inout) :: self   !! with adhesion
+
+      type(contact_solution), allocatable :: others(:)
+
+      call move_alloc(self%adhesive_loads, others)
+      call move_alloc(self%loads, self%adhesive_loads)
+      call move_alloc(others, self%loads)
+      self%with_adhesion = .not. self%with_adhesion
+   end subroutine swap_contacts
 
    !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. Errors show in
    !> file%finish. Or opens the table in memory, if there is one, and sets its columns.
@@ -70,6 +85,12 @@ contains
       else
          call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
+         if (self%with_adhesion) then
+            call file%put('# adhesion: the contacts are those with it; of each load the stable one of the largest area')
+         else if (allocated(self%adhesion) .and. kind /= 'adhesion') then
+            call file%put('# adhesion: the contacts are those without it; with it they are in '//self%scene%case// &
+                          '.adhesion.dat')
+         end if
       end if
       list = column_list(columns)
       list%unit = self%unit_in_words(list%unit)

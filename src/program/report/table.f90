@@ -29,8 +29,10 @@ module wavycon_table
       character(160) :: meaning = ''      !! one sentence for the reference of keys of &output
       character(2048) :: columns = ''     !! name[unit] of each, with a blank between two
       !> Keys that together ask for it, in place of `key`: a logical one that is .true., a text other than 'none', a
-      !> number that is given. Without any it is written always, but never without its group &stress or &interface.
+      !> number that is given; with the name of another group and a dot before the key of that. Without any it is
+      !> written always, but never without its group &stress or &interface.
       character(16) :: asked_by(2) = ''
+      logical :: of_adhesion = .false.    !! whether the contacts are those with adhesion
       logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
       logical :: needs_surface = .true.   !! whether it needs the whole surface, with a p* and a Delta that are not zero
       procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
@@ -93,7 +95,8 @@ contains
 
       keys = self%asked_by
       if (keys(1) == '') keys(1) = self%key
-      is_requested = all([(any(scene%asked_for == trim(self%group)//'.'//keys(i)), i=1, max(1, count(keys /= '')))])
+      is_requested = all([(any(scene%asked_for == trim(self%group)//'.'//keys(i) .or. scene%asked_for == keys(i)), &
+                           i=1, max(1, count(keys /= '')))])
    end function is_requested
 
    !> Why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it can.
@@ -151,25 +154,27 @@ contains
    !> Writes the table, to a file or to the memory table of the results. Errors: exit_file_trouble.
    subroutine write_table(self, results, error)
       class(table_type), intent(in) :: self
-      type(results_type), intent(in) :: results   !! with a solution for each load
+      type(results_type), intent(inout) :: results   !! with a solution for each load; unchanged afterwards
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
       integer :: load
 
+      if (self%of_adhesion) call results%swap_contacts()
       if (associated(self%write_all)) then
          call self%write_all(results, error)
-         return
+      else
+         call results%open_table(trim(self%file), self%columns, file)
+         do load = 1, merge(self%blocks, size(results%loads), self%blocks > 0)
+            if (associated(self%put_load)) then
+               call self%put_load(results, load, file)
+            else
+               call put_quantities(self, results, load, file)
+            end if
+         end do
+         call file%finish(error)
       end if
-      call results%open_table(trim(self%file), self%columns, file)
-      do load = 1, merge(self%blocks, size(results%loads), self%blocks > 0)
-         if (associated(self%put_load)) then
-            call self%put_load(results, load, file)
-         else
-            call put_quantities(self, results, load, file)
-         end if
-      end do
-      call file%finish(error)
+      if (self%of_adhesion) call results%swap_contacts()
    end subroutine write_table
 
    !> Writes the row of a load whose columns are all quantities of its solution.

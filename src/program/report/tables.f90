@@ -32,8 +32,24 @@ contains
    subroutine all_tables(tables)
       type(table_type), allocatable, intent(out) :: tables(:)
 
+      type(table_type), allocatable :: of_adhesion(:)
+      integer :: i
+
       tables = [summary_tables(), line_tables(), map_tables(), spot_tables(), theory_tables(), surface_tables(), &
                 stress_tables(), interface_tables(), bounds_tables()]
+      ! The fields of the contact with adhesion are in tables of their own, beside those without.
+      of_adhesion = pack(tables, tables%key == 'lines' .or. tables%key == 'map' .or. tables%key == 'contours')
+      do i = 1, size(of_adhesion)
+         associate (table => of_adhesion(i))
+            table%of_adhesion = .true.
+            table%asked_by = [character(len(table%asked_by)) :: 'work_of_adhesion', 'output.'//trim(table%key)]
+            table%group = 'interface'
+            table%key = ''
+            table%file = 'adhesion_'//trim(table%file)
+            table%written_by_all => null()
+         end associate
+      end do
+      tables = [tables, of_adhesion]
    end subroutine all_tables
 
    !> The tables of the numbers of each load.

@@ -4,7 +4,7 @@ module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_adhesive_contact, only: at_approach, at_load, point_names
-   use wavycon_adhesive_curve, only: add_load, follow_curve
+   use wavycon_adhesive_curve, only: add_load, find_adhesive_solution, follow_curve
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
@@ -177,7 +177,7 @@ contains
             call find_slip(results, log)
             call log%say_timed('partial slip solved')
          end if
-         if (setting%work > 0.0_dp .and. (table == '' .or. table == 'adhesion')) then
+         if (setting%work > 0.0_dp .and. (table == '' .or. index(table, 'adhesion') > 0)) then
             call find_adhesion(results, log)
             call log%say_timed('adhesion solved')
          end if
@@ -224,7 +224,8 @@ contains
       real(dp) :: mean_pressure
       real(dp), allocatable :: loads(:)
 
-      allocate (results%adhesion)
+      if (allocated(results%adhesive_loads)) deallocate (results%adhesive_loads)
+      allocate (results%adhesion, results%adhesive_loads(size(results%loads)))
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
                  surface => results%solver%surface, accuracy => results%scene%method%accuracy%number)
          loads = results%scene%target
@@ -242,6 +243,7 @@ contains
          call follow_curve(surface, accuracy, work, maxval(results%loads%pbar_over_pstar), curve)
          do i = 1, size(loads)
             call add_load(curve, which, loads(i), i)
+            call find_adhesive_solution(curve, which, i, results%adhesive_loads(i))
          end do
          call log%say('adhesion: the contacts of the loads are in the table of adhesion, those above are without it')
          bad = count(.not. is_good_status(curve%at_loads%status))
