@@ -207,7 +207,7 @@ class Bounds(NamedTuple):
 
 def certify(surface: Surface, pressure, gap, *, mean_pressure: float, **options) -> Bounds:
     """Guaranteed bounds of the contact of a surface under a mean pressure, from any pressure and gap, also those of
-    another code. They hold for the surface itself, not for its points, and whatever is given: the answer of the contact makes
+    another code. They hold for the surface itself, not for its points, and whatever is given: the right answer makes
     them close, a wrong one makes them wide.
 
     pressure [pressure], gap [length]: of the shape (y, x) or, of a profile, (x,), at equal steps over the whole
