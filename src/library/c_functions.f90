@@ -9,8 +9,8 @@ module wavycon_c_functions
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
    use wavycon_run_scene, only: run_deck
-   use wavycon_session_fields, only: check_number, fields_at, fields_on_grid, map_grid, own_points, stresses_at, &
-      stresses_on_plane
+   use wavycon_session_fields, only: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, &
+      own_points, stresses_at, stresses_on_plane
    use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
    use wavycon_version, only: version
    implicit none (type, external)
@@ -247,6 +247,22 @@ contains
                              this%trouble, pressure, gap, displacement)
       get_grid = this%code()
    end function get_grid
+
+   integer(c_int) function get_bounds(error, scene, mean_pressure, points_x, points_y, pressure, gap, bounds) &
+      bind(c, name='wavycon_get_bounds')
+      type(c_ptr), value :: error, scene
+      real(c_double), value :: mean_pressure
+      integer(c_int), value :: points_x, points_y
+      real(c_double), intent(in), optional :: pressure(*), gap(*)
+      real(c_double), intent(inout), optional :: bounds(6)
+
+      type(c_call) :: this
+
+      if (this%begins(error, scene, 'scene', [present(pressure), present(gap), present(bounds)])) &
+         call bounds_from_fields(this%contents%scene, mean_pressure, [points_x, points_y], pressure, gap, &
+                                 this%trouble, bounds)
+      get_bounds = this%code()
+   end function get_bounds
 
    integer(c_int) function get_stresses(error, solution, points, x, y, depth, nu, lateral, stress, stress_error) &
       bind(c, name='wavycon_get_stresses')

@@ -1,5 +1,5 @@
-!> Pressures, gaps and stresses of the loads of a session, in the deck's units, in arrays of the caller. Loads without a
-!> solution have NaN.
+!> Pressures, gaps and stresses of the loads of a session, in the deck's units, in arrays of the caller, and guaranteed
+!> bounds from such arrays. Loads without a solution have NaN.
 !>
 !> Errors of all procedures: exit_bad_input before a load is solved, for a session that does not keep fields, and for
 !> points and places out of range or not finite; exit_file_trouble without memory.
@@ -9,6 +9,7 @@ module wavycon_session_fields
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
    use wavycon_elastic_body, only: elastic_body, no_waves
+   use wavycon_energy_bounds, only: bounding_grid, energy_bounds
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: key_index
@@ -20,13 +21,14 @@ module wavycon_session_fields
    implicit none (type, external)
    private
 
-   public :: check_number, fields_at, fields_on_grid, map_grid, own_points, stresses_at, stresses_on_plane
+   public :: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, own_points, stresses_at, &
+      stresses_on_plane
 
    !> Most points of a grid or plane.
    integer, parameter :: most_points = 8192**2
 
    !> Numbers of double precision that a point takes: fields or stresses and the work space of transforms.
-   integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28
+   integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28, numbers_of_bounds = 16
 
 contains
 
@@ -120,6 +122,65 @@ contains
       offset = map_offset(session%results, points)
       call session%results%loads(1)%move_to(solved%solution)
    end subroutine map_grid
+
+   !> Guaranteed bounds of the contact of the surface under a mean pressure, from any pressure and gap at points of the
+   !> whole surface: (E18) to (E26) of the page of src/core/half_space. They hold whatever is given; a solution makes
+   !> them close. Negative pressures count as 0, as do negative gaps without a hardness, and the pressure is scaled to the
+   !> mean. Errors: also exit_bad_input for a flat surface, free edges and a grid that lacks waves of the surface.
+   subroutine bounds_from_fields(session, mean_pressure, points, pressure, gap, error, bounds)
+      type(deck_session), intent(in) :: session
+      real(dp), intent(in) :: mean_pressure     !! > 0, below the hardness [pressure]
+      !> As of fields_on_grid. The first point is at x = y = 0, of a mirrored map half a step from its borders.
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: pressure(points(1), points(2))   !! [pressure]
+      !> [length]. With a hardness it may be negative where the pressure is the hardness: the overlap.
+      real(dp), intent(in) :: gap(points(1), points(2))
+      type(error_type), allocatable, intent(out) :: error
+      !> Lower and upper bound of the complementary energy [pressure*length^3, of a profile length^2], of the approach
+      !> and of the mean gap [length]. NaN: no bound.
+      real(dp), intent(out) :: bounds(6)
+
+      character(:), allocatable :: trouble
+      integer :: least(2)
+      logical :: is_fine_enough
+      real(dp) :: first(2), pbar_over_pstar, unit
+      type(bounding_grid) :: grid
+      type(energy_bounds) :: answer
+
+      call check_ready(session, error)
+      if (.not. allocated(error)) call check_points(session, points, depth=0.0_dp, numbers=numbers_of_bounds, &
+                                                    first=first, error=error)
+      if (allocated(error)) return
+      trouble = ''
+      associate (scale => session%scale, surface => session%results%solver%surface)
+         if (surface%has_free_edges) then
+            trouble = 'a surface with free edges has no bounds: they are those of a surface that repeats itself'
+         else if (.not. scale%p_star > 0.0_dp) then
+            trouble = 'a flat surface has no bounds'
+         else if (.not. (mean_pressure > 0.0_dp .and. mean_pressure/scale%p_star < surface%hardness)) then
+            trouble = 'the mean pressure must be above 0 and below the hardness'
+         else if (.not. (all(ieee_is_finite(pressure)) .and. all(ieee_is_finite(gap)))) then
+            trouble = 'pressures and gaps must be finite numbers'
+         else if (.not. any(pressure > 0.0_dp)) then
+            trouble = 'no pressure is above 0'
+         else
+            call grid%start(surface, points, surface%mirrored, is_fine_enough)
+            least = surface%shape%last([1, 2])
+            least = merge(least + 1, max(2*least, 1), surface%mirrored)
+            if (.not. is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
+                                                integer_text(least(1))//' x '//integer_text(least(2))//' points'
+         end if
+         if (trouble /= '') then
+            call fatal_error(error, exit_bad_input, trouble)
+            return
+         end if
+         pbar_over_pstar = mean_pressure/scale%p_star
+         ! Only their ratios matter without a hardness: so their squares are numbers.
+         unit = merge(scale%p_star, maxval(pressure), surface%has_hardness())
+         call grid%bound(surface, pressure/unit, gap/scale%amplitude, pbar_over_pstar, answer)
+         bounds = scale%amplitude*[scale%p_star*scale%nominal_area*answer%energy, answer%approach, answer%mean_gap]
+      end associate
+   end subroutine bounds_from_fields
 
    !> The stresses at n points in a body, z into it, tension positive. Many points at one depth are found faster by
    !> stresses_on_plane.

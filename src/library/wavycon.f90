@@ -30,7 +30,8 @@ module wavycon
       contact_area_counted, elastic_energy, is_known, load_at_hardness, mean_gap, min_pressure, peak_pressure, &
       perimeter, quantities, quantity_list, saddle_gap, saddle_pressure, trough_gap, unknown
    use wavycon_run_scene, only: run_deck
-   use wavycon_session_fields, only: fields_at, fields_on_grid, own_points, stresses_at, stresses_on_plane
+   use wavycon_session_fields, only: bounds_from_fields, fields_at, fields_on_grid, own_points, stresses_at, &
+      stresses_on_plane
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises

@@ -127,6 +127,17 @@ int wavycon_get_fields(wavycon_error error, wavycon_solution solution, int point
 int wavycon_get_grid(wavycon_error error, wavycon_solution solution, int points_x, int points_y, const double *offset,
                      double *pressure, double *gap, double *displacement);
 
+/* Guaranteed bounds of the contact of a scene under a mean pressure, from any pressure and gap, also those of another
+   program, at x = length_x i/points_x, i = 0 .. points_x - 1, and y = length_y j/points_y; of a mirrored map half a
+   step further: arrays [points_y][points_x]; points_y = 1 for a profile. bounds: an array [6] for the least and the
+   largest value of the complementary energy, of the approach and of the mean gap, NaN where there is no bound. They are
+   of the surface itself, not of the grid, and hold whatever is given; a solution makes them close. Negative pressures
+   count as 0, as do negative gaps without a hardness, and the pressure is scaled to the mean. With a hardness the gap is
+   negative where the bodies overlap. Errors: also free edges, a flat surface, and a grid that lacks waves of the
+   surface. */
+int wavycon_get_bounds(wavycon_error error, wavycon_scene scene, double mean_pressure, int points_x, int points_y,
+                       const double *pressure, const double *gap, double *bounds);
+
 /* Stresses at points in one of the two bodies, tension positive. x, y and depth >= 0, which points into the body, are
    arrays [points], stress is an array [points][6]: xx, yy, zz, xy, xz, yz. nu: Poisson's ratio of the body,
    -1 < nu <= 0.5. lateral: the lateral stresses of the mean pressure pbar, as the key of &stress: "constrained",

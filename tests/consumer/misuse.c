@@ -318,6 +318,44 @@ static void fields(wavycon_scene scene, wavycon_solution solution, wavycon_solut
     check(isnan(other[0]) && isnan(errors[0]) && isnan(principal[0][2]) && other[1] > 0, "no number", __LINE__);
 }
 
+static void bounds(wavycon_scene scene, wavycon_solution solution)
+{
+    enum { n = 8 };
+    const double bad_loads[] = {NAN, INFINITY, -INFINITY, 0, -1};
+    const int bad_points[] = {0, 1, -1, -2147483647 - 1, 2147483647};
+    double p[n*n], gap[n*n], b[6] = {0};
+    wavycon_scene free = scene_of("&surface kind = 'ball', radius = 1, length_x = 1 / &method solver = 'auto' /");
+    MADE(free);
+    FINE(wavycon_get_grid(error, solution, n, n, NULL, p, gap, NULL));
+    double pbar = number(solution, "mean_pressure");
+    for (size_t i = 0; i < COUNT(bad_loads); i++)
+        REFUSED(wavycon_get_bounds(error, scene, bad_loads[i], n, n, p, gap, b));
+    for (size_t i = 0; i < COUNT(bad_points); i++) {
+        REFUSED(wavycon_get_bounds(error, scene, pbar, bad_points[i], n, p, gap, b));
+        REFUSED(wavycon_get_bounds(error, scene, pbar, n, bad_points[i], p, gap, b));
+    }
+    REFUSED(wavycon_get_bounds(error, NULL, pbar, n, n, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, (wavycon_scene)solution, pbar, n, n, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, gap, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, NULL, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, NULL));
+    REFUSED(wavycon_get_bounds(error, free, pbar, n, n, p, gap, b));
+    check(b[0] == 0 && b[5] == 0, "no bounds are written", __LINE__);
+    FINE(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    check(b[0] < b[1] && b[2] < number(solution, "approach") && number(solution, "approach") < b[3] &&
+          b[4] < number(solution, "mean_gap") && number(solution, "mean_gap") < b[5], "the bounds", __LINE__);
+    p[3] = NAN;
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    p[3] = 0;
+    gap[3] = INFINITY;
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    gap[3] = 0;
+    for (int i = 0; i < n*n; i++)
+        p[i] = -1;
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    wavycon_delete(&free);
+}
+
 /* The message is that of the call that failed, not of those that then got NULL. */
 static void chains(void)
 {
@@ -374,6 +412,7 @@ int main(void)
     loads(scene, solution);
     names(scene, solution, table);
     fields(scene, solution, without_fields);
+    bounds(scene, solution);
     chains();
     errors_and_texts(scene, solution);
     wavycon_delete(&scene);

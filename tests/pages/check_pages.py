@@ -21,10 +21,10 @@ SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed 
             "stress_largest": "Largest stresses", "stress_line": "Stresses below the crest",
             "stress_section": "Stresses on a section", "stress_planes": "Stresses on planes",
             "interface": "The interface", "partial_slip": "Partial slip", "slip_loop": "Loops", "slip_map": "Slip map",
-            "adhesion": "Adhesion"}
+            "adhesion": "Adhesion", "bounds": "Bounds"}
 # Decks that together write every table, in both dimensions.
 ALL_TABLES = ("lines = t, map = t, contours = t, spots = t, histograms = t, coefficients = t, theory = t, "
-              "spectrum = t, line_points = 8, map_points = 8")
+              "spectrum = t, bounds = t, line_points = 8, map_points = 8")
 TABLE_DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'beale' /\n"
             f"&output {ALL_TABLES} /\n",

@@ -15,7 +15,7 @@ from program import ProgramTest
 from ranks import main, run
 from rough_map import rough_map
 
-TABLES = "map = t, contours = t, spots = t, histograms = t, lines = t, map_points = 64, line_points = 64"
+TABLES = "map = t, bounds = t, contours = t, spots = t, histograms = t, lines = t, map_points = 64, line_points = 64"
 # Differences of numbers that are printed with 16 digits [largest of the column].
 NONE = 0.0
 # Heights of spread surfaces and their roughness are rounded in another order: some differ in their last digit.

@@ -146,10 +146,22 @@ class Examples(PackageTest):
             for example in python_blocks("example.md"):
                 exec(example, names)
         shown = "".join(re.findall(r"^```\n\n```\n(.*?)```", read_page("example.md"), re.DOTALL | re.MULTILINE))
-        # The last digits of two iterations differ from machine to machine.
+        # The last digits of two iterations differ from machine to machine, here and below.
         rounding = r"pressures to \de-\d\d"
         self.assertEqual(*(re.sub(rounding, "", text) for text in (shown, printed.getvalue())))
         self.assertLess(max(map(float, re.findall(r"pressures to (\S+)", printed.getvalue()))), 1e-6)
+
+    @unittest.skipUnless(importlib.util.find_spec("ContactMechanics"), "needs ContactMechanics")
+    def test_the_page_of_bounds(self):
+        names, printed = {}, io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            for example in python_blocks("certify.md"):
+                exec(example, names)
+        shown = "".join(re.findall(r"^```\n\n```\n(.*?)```", read_page("certify.md"), re.DOTALL | re.MULTILINE))
+        number = r"\d\.\S*e-\d\d"
+        self.assertEqual(*(re.sub(number, "", text) for text in (shown, printed.getvalue())))
+        numpy.testing.assert_allclose(*([float(one) for one in re.findall(number, text)]
+                                        for text in (printed.getvalue(), shown)), rtol=0.02)
 
     def test_help(self):
         for name in wc.__all__ + ["self_affine", "wave_sum"]:
@@ -322,6 +334,122 @@ class Digits(PackageTest):
         self.assertEqual("depth [length]", results[1].plot_stress_section().get_ylabel())
         self.assertEqual(1, len(solve_small()[0].plot_map().lines))
         matplotlib.pyplot.close("all")
+
+
+class Certify(PackageTest):
+    @staticmethod
+    def smooth_map(shape, **options):
+        """Heights of a few slow waves that are not even."""
+        y, x = numpy.mgrid[:shape[0], :shape[1]]/numpy.reshape(shape, (2, 1, 1))
+        h = numpy.cos(2*numpy.pi*(x - 0.1)) + 0.7*numpy.sin(2*numpy.pi*(2*x + (y if shape[0] > 1 else 0)) + 0.4)
+        return wc.heights(h, length_x=2, length_y=3, **options)
+
+    def solve_one(self, surface, **options):
+        one = wc.solve(surface, output={"bounds": True}, **options)[0]
+        return one, wc.certify(surface, one.pressure, one.gap, **options)
+
+    def test_a_solution_has_the_bounds_of_its_table(self):
+        rough = wc.self_affine(rms_slope=0.1, points=64, short_wavelength=0.25, seed=3)
+        for surface, area, mean_pressure in ((rough, 1, 0.01), (self.smooth_map((32, 48)), 6, 0.5),
+                                             (self.smooth_map((27, 33)), 6, 0.5), (self.smooth_map((1, 65)), 2, 0.5),
+                                             (self.smooth_map((32, 48), edges="mirror"), 6, 0.5),
+                                             (self.smooth_map((1, 65), edges="mirror"), 2, 0.5)):
+            with self.subTest(surface=surface):
+                one, bounds = self.solve_one(surface, e_star=2, mean_pressure=mean_pressure, residual=1e-11)
+                table = one.table("bounds")[0]
+                own = mean_pressure*one.approach*area - one.elastic_energy, one.approach, one.mean_gap
+                for name, (lower, upper), number in zip(bounds._fields, bounds, own):
+                    self.assertTrue(lower < number < upper)
+                    # Fields are converted to the deck's units and back.
+                    self.assertLess(abs(lower - table[f"{name}_lower"]), 1e-12*upper)
+                    self.assertLess(abs(upper - table[f"{name}_upper"]), 1e-12*upper)
+
+    def test_bounds_on_other_points(self):
+        """A wave that is solved to 1e-8 by no grid. The width falls with nearly the cube of the points, in 1-D on
+        average: there it depends on where the edge lies between two points."""
+        for surface, shapes, area in ((wc.wave_2d(amplitude=0.3, wavelength=2), ((32, 32), (64, 64), (63, 90)), 4),
+                                      (wc.wave_1d(amplitude=0.3, wavelength=2), ((1, 64), (1, 512)), 2)):
+            load = {"e_star": 2, "mean_pressure": 0.1}
+            widths = []
+            for shape in shapes:
+                one = wc.solve(surface, **load, accuracy=1e-8, output={"map_points": max(shape)})[0]
+                step, pressure, gap = max(shape)//shape[1], one.pressure, one.gap
+                if shape == (63, 90):
+                    places = numpy.meshgrid(numpy.arange(90)/45, numpy.arange(63)/31.5)
+                    pressure, gap = (one.fields_at(*places)[name] for name in ("pressure", "gap"))
+                bounds = wc.certify(surface, pressure[:, ::step], gap[:, ::step], **load)
+                own = 0.1*one.approach*area - one.elastic_energy, one.approach, one.mean_gap
+                for (lower, upper), number in zip(bounds, own):
+                    self.assertTrue(lower < number < upper)
+                widths.append(bounds.energy[1] - bounds.energy[0])
+            self.assertLess(widths[1], widths[0]*(shapes[0][1]/shapes[1][1])**2.5)
+
+    def test_what_is_wrong_is_wide(self):
+        load = {"e_star": 2, "mean_pressure": 0.5, "residual": 1e-11}
+        for edges in "periodic", "mirror":
+            surface = self.smooth_map((64, 64), edges=edges)
+            one, right = self.solve_one(surface, **load)
+
+            def widening(pressure, gap):
+                bounds = wc.certify(surface, pressure, gap, **load)
+                own = 0.5*one.approach*6 - one.elastic_energy
+                self.assertTrue(bounds.energy[0] < own < bounds.energy[1])
+                return (bounds.energy[1] - bounds.energy[0])/(right.energy[1] - right.energy[0])
+
+            # The mean is given: a factor of all pressures changes nothing.
+            self.assertAlmostEqual(1, widening(1.01*one.pressure, one.gap), delta=1e-9)
+            left, hole, double, moved = one.pressure.copy(), one.gap.copy(), one.gap.copy(), one.pressure.copy()
+            left[:, :32] *= 1.1
+            row, column = numpy.unravel_index(one.gap.argmax(), one.gap.shape)
+            hole[row, column] = 0
+            double[row, column] *= 2
+            moved[row, column], moved[numpy.unravel_index(one.pressure.argmax(), moved.shape)] = one.pressure.max(), 0
+            for wrong in (left, one.gap), (one.pressure, hole), (one.pressure, double), (moved, one.gap), \
+                    (one.pressure*0 + 1, one.gap), (one.pressure, one.gap*0), (one.pressure[::-1], one.gap):
+                self.assertGreater(widening(*wrong), 1.2)
+            self.assertGreater(widening(one.pressure, hole), 2)
+            # No number is too large or too small.
+            for factor in 1e300, 1e-300:
+                self.assertAlmostEqual(1, widening(factor*one.pressure, one.gap), delta=1e-9)
+                wc.certify(surface, one.pressure, factor*one.gap, **load)
+
+    def test_a_hardness(self):
+        load = {"e_star": 2, "mean_pressure": 0.5, "hardness": 1.5}
+        one, bounds = self.solve_one(self.smooth_map((64, 64)), **load)
+        self.assertAlmostEqual(1.5, one.peak_pressure, delta=1e-9)
+        table = one.table("bounds")[0]
+        self.assertAlmostEqual(table["energy_upper"], bounds.energy[1], delta=1e-12)
+        # Without the overlap the lower bound is lower.
+        self.assertLess(bounds.energy[0], table["energy_lower"])
+        self.assertEqual([False, True, True, True], numpy.isnan([*bounds.approach, *bounds.mean_gap]).tolist())
+        self.refuse("below the hardness", wc.certify, self.smooth_map((64, 64)), one.pressure, one.gap,
+                    **{**load, "mean_pressure": 1.5})
+
+    def test_misuse(self):
+        surface, p = self.smooth_map((8, 12)), numpy.ones((8, 12))
+        nan = numpy.where(numpy.arange(12) == 5, numpy.nan, p)
+
+        def refuse(words, pressure=p, gap=p, surface=surface, mean_pressure=1, **options):
+            self.refuse(words, wc.certify, surface, pressure, gap, mean_pressure=mean_pressure, **options)
+
+        refuse("must have one shape.*8, 12.*12, 8", gap=p.T)
+        refuse("must have one shape", p[None], p[None])
+        refuse("array of real numbers", p*1j)
+        refuse("must be finite", nan)
+        refuse("must be finite", gap=-numpy.inf*p)
+        refuse("must be finite", gap=numpy.ma.masked_array(p, p > 0))
+        refuse("no pressure is above 0", -p)
+        refuse("at least 12 x 8 points", p[:, :11], p[:, :11])
+        refuse("at least 12 x 8 points", p[:7], p[:7], self.smooth_map((8, 12), edges="mirror"))
+        refuse("above 0 and below the hardness", mean_pressure=0)
+        refuse("nan", mean_pressure=numpy.nan)
+        refuse("hardness", mean_pressure=1, hardness=1)
+        refuse("free edges", surface=self.smooth_map((8, 12), edges="free"))
+        refuse("flat", surface=wc.heights(p))
+        refuse("1 point along y", surface=wc.wave_1d())
+        refuse("must be a surface", surface=p)
+        refuse("did you mean 'e_star'", e_sta=1)
+        refuse("", pbar_over_pstar=1)
 
 
 class Sweeps(PackageTest):

@@ -22,6 +22,7 @@ import faults
 import fuzz_decks
 import fuzz_maps
 import growing_loads
+import guaranteed_bounds
 import honest_estimates
 import long_tests
 import quadratic_programmes
@@ -39,6 +40,7 @@ PARTS = {
     "solvers": [contact_conditions.campaign, honest_estimates.campaign, growing_loads.campaign,
                 same_contact.order_and_symmetry, same_contact.alone_and_again, rough_surfaces.campaign,
                 ball_adhesion.campaign],
+    "bounds": [guaranteed_bounds.campaign],
     "stresses": [random_stresses.campaign],
     "decks": [fuzz_decks.fuzz_checks, fuzz_decks.fuzz_settings, fuzz_decks.fuzz_monsters, fuzz_decks.fuzz_runs,
               fuzz_maps.fuzz_checks, fuzz_maps.fuzz_binary, fuzz_maps.fuzz_runs, fuzz_maps.fuzz_monsters,

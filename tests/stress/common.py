@@ -56,6 +56,7 @@ MAY_BE_MISSING = {
     "slip_loop": "displacement",
     "slip_map": "traction|pressure|slip_state",
     "adhesion": "(?!load$).*",
+    "bounds": "(energy|approach|mean_gap)_.*",
 }
 # On surfaces with free edges, which have no p*, at the border no peak, and on profiles no approach.
 MISSING_WITH_FREE_EDGES = ".*_over_pstar|approach.*|peak_pressure"

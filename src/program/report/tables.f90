@@ -7,6 +7,7 @@
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block for
 !> each load; in 1-D j = 0.
 module wavycon_tables
+   use wavycon_bounds_tables, only: bounds_tables
    use wavycon_fourier_series, only: fourier_series
    use wavycon_interface_tables, only: interface_tables
    use wavycon_kinds, only: dp
@@ -35,7 +36,7 @@ contains
       integer :: i
 
       tables = [summary_tables(), line_tables(), map_tables(), spot_tables(), theory_tables(), surface_tables(), &
-                stress_tables(), interface_tables()]
+                stress_tables(), interface_tables(), bounds_tables()]
       ! The fields of the contact with adhesion are in tables of their own, beside those without.
       of_adhesion = pack(tables, tables%key == 'lines' .or. tables%key == 'map' .or. tables%key == 'contours')
       do i = 1, size(of_adhesion)

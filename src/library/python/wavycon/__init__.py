@@ -5,8 +5,8 @@
     results.contact_area_fraction, results[1].pressure
 
 A function for each kind of surface, such as wave_2d, hexagonal, wave_sum, self_affine and file, and heights for arrays,
-read for files of instruments; solve, run and sweep; load for saved results; keys for all that decks can say; Note, the
-warnings.
+read for files of instruments; solve, run and sweep; certify for the answers of any code; load for saved results; keys
+for all that decks can say; Note, the warnings.
 Lengths are in any one unit, pressures in any one unit.
 """
 from . import library as _library
@@ -15,10 +15,11 @@ from .deck import Surface, heights, maker_of_kind
 from .files import read
 from .library import Note, keys
 from .programs import sweep
-from .results import Result, Results, load, run, solve
+from .results import Bounds, Result, Results, certify, load, run, solve
 
 __version__ = _library.text(None, "version")
-__all__ = ["Note", "Result", "Results", "Surface", "heights", "keys", "load", "read", "run", "set_threads", "solve", "sweep"]
+__all__ = ["Bounds", "Note", "Result", "Results", "Surface", "certify", "heights", "keys", "load", "read", "run",
+           "set_threads", "solve", "sweep"]
 
 
 def set_threads(number: int) -> None:

@@ -7,6 +7,7 @@ import threading
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -193,6 +194,42 @@ def solve(surface: Surface, *, keep_fields: bool = True, **options) -> Results:
     should know of the surface and the results is a warning, Note, and in the results' notes. Ctrl-C ends a solve in the
     main thread.
     """
+    return _solve_all(_scene_of(surface, options, keep_fields))
+
+
+class Bounds(NamedTuple):
+    """Guaranteed bounds of the contact of a surface, each (lower, upper); NaN where there is no bound."""
+
+    energy: tuple[float, float]     # complementary energy [pressure*length^3, of a profile pressure*length^2]
+    approach: tuple[float, float]   # [length]
+    mean_gap: tuple[float, float]   # [length]
+
+
+def certify(surface: Surface, pressure, gap, *, mean_pressure: float, **options) -> Bounds:
+    """Guaranteed bounds of the contact of a surface under a mean pressure, from any pressure and gap, also those of
+    another code. They hold for the surface itself, not for its points, and whatever is given: the right answer makes
+    them close, a wrong one makes them wide.
+
+    pressure [pressure], gap [length]: of the shape (y, x) or, of a profile, (x,), at equal steps over the whole
+    surface, of a height map at its own points or at more. The first point is at x = y = 0, that of a map with
+    edges="mirror" half a step further. Negative pressures count as 0, and so do negative gaps unless there is a
+    hardness; the pressure is scaled to the mean. options: as of solve, such as e_star.
+
+        one = wc.solve(surface, e_star=2e11, mean_pressure=1e7)[0]
+        wc.certify(surface, one.pressure, one.gap, e_star=2e11, mean_pressure=1e7).mean_gap
+    """
+    pressure, gap = np.atleast_2d(reals(pressure), reals(gap))
+    if pressure.ndim != 2 or pressure.shape != gap.shape:
+        raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {pressure.shape} and {gap.shape}")
+    scene = _scene_of(surface, {"mean_pressure": mean_pressure, **options}, keep_fields=False)
+    library.tell(library.text(scene, "notes").splitlines())
+    bounds = np.empty((3, 2))
+    call("get_bounds", scene, mean_pressure, *pressure.shape[::-1], *map(address, (pressure, gap, bounds)))
+    return Bounds(*map(tuple, bounds.tolist()))
+
+
+def _scene_of(surface, options, keep_fields):
+    """The scene of a surface and of options as of solve."""
     if not isinstance(surface, Surface):
         raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}")
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
@@ -205,7 +242,7 @@ def solve(surface: Surface, *, keep_fields: bool = True, **options) -> Results:
     rows, columns = (0, 0) if surface.heights is None else surface.heights.shape
     heights = None if surface.heights is None else address(surface.heights)
     deck = deck_text(groups).encode()
-    return _solve_all(call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows, heights))
+    return call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows, heights)
 
 
 def run(deck, set: Mapping = MappingProxyType({}), *, keep_fields: bool = True) -> Results:

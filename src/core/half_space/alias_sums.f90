@@ -1,0 +1,119 @@
+!> Sums over all waves that a grid cannot tell apart, its aliases: compliance and stiffness of a field that is bilinear
+!> between the points of the grid, bounded from above: (E20) and (E21) of README.md in this directory.
+module wavycon_alias_sums
+   use wavycon_constants, only: pi
+   use wavycon_kinds, only: dp
+   use wavycon_wave_stiffness, only: wave_stiffness
+   implicit none (type, external)
+   private
+
+   public :: alias_sums
+
+   !> Aliases on each side of a wave that are summed one by one, along x and y. The rest is bounded by integrals.
+   !> `scripts/constants --room half_space` shows what it changes.
+   integer, parameter :: aliases = 2
+
+   !> Of the waves k = first .. last in X, l = 0 .. last in Y, in the unit of `wave_stiffness`.
+   type :: alias_sums
+      real(dp), allocatable :: frequency(:, :)    !! stiffness of the wave itself
+      real(dp), allocatable :: weight(:, :)       !! of the wave itself: its part of the bilinear field, (E19)
+      real(dp), allocatable :: compliance(:, :)   !! sum of weight^2/stiffness over the wave and its aliases
+      real(dp), allocatable :: stiffness(:, :)    !! sum of weight^2*stiffness over the aliases alone
+   contains
+      procedure :: start
+   end type alias_sums
+
+   !> What the sums need of one direction: sinc^2 and frequencies of the waves k and their aliases k + a n.
+   type :: alias_line
+      real(dp), allocatable :: weight(:, :)       !! sinc^2, shape (0:last, -aliases:aliases)
+      real(dp), allocatable :: frequency(:, :)    !! one over the wavelength [1/length]
+      !> Bounds of sums over the aliases beyond those: weight^2/frequency, weight^2*frequency and weight^2.
+      real(dp), allocatable, dimension(:) :: far_compliance, far_stiffness, far_weight
+      !> Bounds of sums over all aliases: weight^2*frequency and weight^2.
+      real(dp), allocatable, dimension(:) :: all_stiffness, all_weight
+   end type alias_line
+
+contains
+
+   subroutine start(self, points, length, last, kernel)
+      class(alias_sums), intent(out) :: self
+      integer, intent(in) :: points(2)      !! of the whole cell, >= 1; 1 along y in 1-D
+      real(dp), intent(in) :: length(2)     !! sides of the cell, > 0
+      integer, intent(in) :: last(2)        !! highest wave numbers, at most half of the points
+      type(wave_stiffness), intent(in) :: kernel
+
+      integer :: a, b, l
+      real(dp), allocatable :: stiffness(:), weight(:)
+      type(alias_line) :: x, y
+
+      x = line_of(points(1), length(1), last(1))
+      y = line_of(points(2), length(2), last(2))
+      allocate (self%frequency(0:last(1), 0:last(2)), source=0.0_dp)
+      allocate (self%weight, self%compliance, self%stiffness, mold=self%frequency)
+      !$omp parallel do schedule(static) private(a, b, stiffness, weight)
+      do l = 0, last(2)
+         self%compliance(:, l) = x%far_compliance*y%all_weight(l) + x%all_weight*y%far_compliance(l)
+         self%stiffness(:, l) = x%far_stiffness*y%all_weight(l) + x%far_weight*y%all_stiffness(l) &
+                                + x%all_stiffness*y%far_weight(l) + x%all_weight*y%far_stiffness(l)
+         do b = -aliases, aliases
+            if (y%weight(l, b) <= 0.0_dp) cycle
+            do a = -aliases, aliases
+               weight = x%weight(:, a)*y%weight(l, b)
+               stiffness = x%frequency(:, a)**2 + y%frequency(l, b)**2
+               call kernel%of(stiffness)
+               if (a == 0 .and. b == 0) then
+                  self%weight(:, l) = weight
+                  self%frequency(:, l) = stiffness
+               else
+                  self%stiffness(:, l) = self%stiffness(:, l) + weight**2*stiffness
+               end if
+               where (stiffness > 0.0_dp) self%compliance(:, l) = self%compliance(:, l) + weight**2/stiffness
+            end do
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine start
+
+   !> Of one direction. In units of the grid the wave k has the frequency x = k/n, its aliases x + a, and sinc^2 of them
+   !> is (sin(pi x)/pi)^2/(x + a)^2.
+   pure type(alias_line) function line_of(points, length, last) result(line)
+      integer, intent(in) :: points     !! n
+      real(dp), intent(in) :: length
+      integer, intent(in) :: last
+
+      integer :: a, k
+      real(dp) :: unit   ! of the frequencies
+      real(dp) :: s(0:last), x(0:last)
+
+      unit = points/length
+      x = [(k, k=0, last)]/real(points, dp)
+      s = (sin(pi*x)/pi)**2
+      allocate (line%weight(0:last, -aliases:aliases))
+      allocate (line%frequency, mold=line%weight)
+      allocate (line%far_compliance(0:last))
+      allocate (line%far_stiffness, line%far_weight, line%all_stiffness, line%all_weight, mold=line%far_compliance)
+      do a = -aliases, aliases
+         line%frequency(:, a) = abs(x + a)*unit
+         line%weight(1:, a) = s(1:)/(x(1:) + a)**2
+         line%weight(0, a) = merge(1.0_dp, 0.0_dp, a == 0)
+      end do
+      line%far_compliance(:) = s**2*rest(5)/unit
+      line%far_stiffness(:) = s**2*rest(3)*unit
+      line%far_weight(:) = s**2*rest(4)
+      line%all_stiffness(:) = line%far_stiffness + sum(line%weight**2*line%frequency, dim=2)
+      line%all_weight(:) = line%far_weight + sum(line%weight**2, dim=2)
+
+   contains
+
+      !> A bound of the sum of |x + a|^(-m) over |a| > aliases: as the function is convex, its integral from a - 1/2 to
+      !> a + 1/2 exceeds it.
+      pure function rest(m)
+         integer, intent(in) :: m   !! > 1
+         real(dp) :: rest(0:last)
+
+         rest = ((aliases + 0.5_dp + x)**(1 - m) + (aliases + 0.5_dp - x)**(1 - m))/(m - 1)
+      end function rest
+
+   end function line_of
+
+end module wavycon_alias_sums

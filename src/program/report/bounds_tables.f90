@@ -1,0 +1,168 @@
+!> <case>.bounds.dat: guaranteed bounds of complementary energy, approach and mean gap of the surface, from the pressures
+!> and gaps of each solution, and whether the solution's own numbers lie within them. They are those of a grid: the one
+!> that was solved on, otherwise one that the solution is evaluated on. The page of src/core/half_space derives them.
+module wavycon_bounds_tables
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_contact_fields, only: contact_fields
+   use wavycon_contact_status, only: status_code, status_name
+   use wavycon_error, only: error_type
+   use wavycon_energy_bounds, only: bounding_grid, energy_bounds
+   use wavycon_fourier_series, only: fourier_series, weighted
+   use wavycon_grid_transform, only: grid_transform
+   use wavycon_kinds, only: dp
+   use wavycon_output_file, only: output_file
+   use wavycon_quantities, only: approach, elastic_energy, mean_gap, or_nan, quantities
+   use wavycon_results, only: not_a_number, results_type
+   use wavycon_surface, only: surface_type
+   use wavycon_table, only: table_type
+   implicit none (type, external)
+   private
+
+   public :: bounds_tables
+
+   !> Points of the cell along each side on which a solution without a grid is evaluated, of profiles and of planes, for
+   !> accuracy 1e-6. Bounds are the closer by the cube of their number: there are 2^n times as many, up to the largest.
+   integer, parameter :: usual_points(2) = [4096, 512], most_points(2) = [65536, 1024]
+
+contains
+
+   !> The table of this file.
+   function bounds_tables() result(tables)
+      type(table_type) :: tables(1)
+
+      tables(1) = table_type('bounds', 'bounds', needs_fields=.true., write_all=write_bounds, &
+         columns='load[#] pbar_over_pstar[-] energy_lower_over_pstar_amplitude[-] '// &
+         'energy_upper_over_pstar_amplitude[-] approach_lower_over_amplitude[-] approach_upper_over_amplitude[-] '// &
+         'mean_gap_lower_over_amplitude[-] mean_gap_upper_over_amplitude[-] energy_lower[force*length] '// &
+         'energy_upper[force*length] approach_lower[length] approach_upper[length] mean_gap_lower[length] '// &
+         'mean_gap_upper[length] energy_is_inside[#] approach_is_inside[#] points_x[#] points_y[#] status_code[#] '// &
+         'status[word]', &
+         meaning='Guaranteed bounds of complementary energy, approach and mean gap.')
+   end function bounds_tables
+
+   !> Errors: exit_file_trouble.
+   subroutine write_bounds(table, results, error)
+      class(table_type), intent(in) :: table
+      type(results_type), intent(in) :: results
+      type(error_type), allocatable, intent(out) :: error
+
+      type(bounding_grid) :: grid   ! of the last load
+      type(energy_bounds) :: bounds
+      type(output_file) :: file
+      type(quantities) :: of_load
+      integer :: cell(2), load
+      logical :: has_bounds, is_fine_enough
+      real(dp) :: inside(2), numbers(6), own(3), overlap, unit(6)
+      real(dp), allocatable :: gap(:, :), p(:, :)
+
+      call results%open_table(trim(table%file), table%columns, file)
+      associate (surface => results%solver%surface)
+         is_fine_enough = .false.
+         unit = surface%amplitude
+         unit(:2) = results%scene%p_star*surface%amplitude*surface%nominal_area()
+         do load = 1, size(results%loads)
+            inside = not_a_number()
+            numbers = not_a_number()
+            cell = 0
+            associate (solution => results%loads(load))
+               call fields_of(results, load, p, gap)
+               has_bounds = allocated(p)
+               if (has_bounds) then
+                  if (any(grid%points /= shape(p))) &
+                     call grid%start(surface, shape(p), surface%shape%is_even(), is_fine_enough)
+                  has_bounds = is_fine_enough
+               end if
+               if (has_bounds) then
+                  call grid%bound(surface, p, gap, solution%pbar_over_pstar, bounds)
+                  cell = grid%cell/surface%parts()
+                  of_load = solution%quantities
+                  call solution%details(of_load)
+                  own = or_nan(of_load%value([approach, elastic_energy, mean_gap]))
+                  overlap = 0.0_dp
+                  if (surface%has_hardness()) overlap = surface%hardness*(own(1) - 1.0_dp + own(3))
+                  numbers = [bounds%energy, bounds%approach, bounds%mean_gap]
+                  ! F of the solution by (E24).
+                  inside = [inside_of(solution%pbar_over_pstar*own(1) - own(2) - overlap, bounds%energy), &
+                            inside_of(own(1), bounds%approach)]
+               end if
+               call file%put_row([real(dp) :: load, results%in_p_star(solution%pbar_over_pstar), numbers, &
+                                  unit*numbers, inside, cell, status_code(solution%status)], &
+                                 [status_name(solution%status)])
+            end associate
+         end do
+      end associate
+      call file%finish(error)
+
+   contains
+
+      !> 1 if a number lies between bounds, 0 if it does not, NaN if one of the three is not known.
+      real(dp) function inside_of(number, bounds)
+         real(dp), intent(in) :: number, bounds(2)
+
+         inside_of = not_a_number()
+         if (.not. any(ieee_is_nan([number, bounds]))) &
+            inside_of = merge(1.0_dp, 0.0_dp, number >= bounds(1) .and. number <= bounds(2))
+      end function inside_of
+
+   end subroutine write_bounds
+
+   !> The pressures and the gaps of a solution on the points of the cell, or of a quarter of an even one.
+   subroutine fields_of(results, load, p, gap)
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: load
+      real(dp), allocatable, intent(out) :: p(:, :)      !! p/p*; not allocated without a solution
+      real(dp), allocatable, intent(out) :: gap(:, :)    !! gap/Delta, with a hardness negative where p is the hardness
+
+      class(contact_fields), allocatable :: fields
+      integer :: points(2)
+      real(dp), allocatable :: u(:, :)
+
+      associate (surface => results%solver%surface, solution => results%loads(load))
+         if (.not. solution%has_numbers()) return
+         call solution%fields(surface, fields)
+         if (.not. allocated(fields)) return
+         points = fields%own_points
+         if (points(1) == 0) points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
+                                            [1, 2] <= surface%dimension)/surface%parts()
+         associate (is_halved => points > 1 .and. surface%shape%is_even())
+            call fields%on_grid(points, merge(0.5_dp, 0.0_dp, is_halved), p, u, gap)
+            points = merge(points*surface%parts()/2, points, is_halved)
+         end associate
+         p = p(:points(1), :points(2))
+         gap = gap(:points(1), :points(2))
+         if (surface%has_hardness()) call add_overlap(surface, solution%value(approach), p, gap)
+      end associate
+   end subroutine fields_of
+
+   !> Points along each side whose bounds are about as close as an accuracy.
+   pure integer function points_for(accuracy, dimension) result(points)
+      real(dp), intent(in) :: accuracy   !! relative, > 0
+      integer, intent(in) :: dimension
+
+      real(dp) :: doublings
+
+      doublings = ceiling(log(1.0e-6_dp/max(accuracy, tiny(accuracy)))/(3*log(2.0_dp)))
+      points = nint(min(max(usual_points(dimension)*2.0_dp**doublings, 64.0_dp), real(most_points(dimension), dp)))
+   end function points_for
+
+   !> Where the pressure is the hardness the gap is set to h + u - delta, if that is negative.
+   subroutine add_overlap(surface, approach_over_amplitude, p, gap)
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: approach_over_amplitude
+      real(dp), intent(in) :: p(:, :)
+      real(dp), intent(inout) :: gap(:, :)
+
+      real(dp), allocatable :: height(:, :), u(:, :)
+      type(fourier_series) :: series
+      type(grid_transform) :: transform
+
+      allocate (height, u, mold=gap)
+      call transform%start(shape(p), surface%shape%is_even(), whole=.true.)
+      call transform%series(p, series)
+      call transform%sample(weighted(series, surface%length, surface%kernel, divides=.true.), u)
+      call transform%sample(surface%shape, height)
+      where (p >= surface%hardness) &
+         gap = min(0.0_dp, 1.0_dp - height + u/surface%stiffness - approach_over_amplitude)
+   end subroutine add_overlap
+
+end module wavycon_bounds_tables
