@@ -24,7 +24,7 @@ contains
       type(quantities), intent(out) :: answer
 
       integer :: grid(2), i
-      real(dp) :: bound   !! b of (C29)
+      real(dp) :: bound   !! theta of (C29)
       real(dp) :: y(3, 2, -2:2)   !! of approach and area on the last three grids, the last first, at the five loads
       real(dp) :: counted(-2:2)   !! the points in contact over all points
       real(dp), dimension(3) :: errors, moved, near_errors, near_values, values   !! G', A', G''
@@ -92,7 +92,7 @@ contains
    !> G', A', G'' and their errors from y at equal steps of x: (C29) to (C29c).
    pure subroutine differentiate(p, bound, y, step, values, errors, too_far)
       real(dp), intent(in) :: p                 !! P at the middle
-      real(dp), intent(in) :: bound             !! b
+      real(dp), intent(in) :: bound             !! theta
       real(dp), intent(in) :: y(3, 2, -2:2)     !! of approach and area on the last three grids, the last first
       real(dp), intent(in) :: step              !! of x
       real(dp), intent(out) :: values(3), errors(3)

@@ -16,7 +16,7 @@ module wavycon_grid_area
    public :: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area, grid_strip_edges, &
       load_concentration
 
-   !> c of (C26), the area by which each change makes the counted area too large, in cells of the grid.
+   !> c_p of (C26), the area by which each change makes the counted area too large, in cells of the grid.
    real(dp), parameter :: area_of_change = (pi - 1.0_dp + log(2.0_dp))/24
 
 contains
@@ -106,7 +106,7 @@ contains
                  /product(real(edge%slab%points, dp))
    end function counted_area_fraction
 
-   !> The counted area less c for each change from contact to gap (C26).
+   !> The counted area less c_p for each change from contact to gap (C26).
    real(dp) function corrected_area_fraction(edge) result(fraction)
       type(grid_edge), intent(in) :: edge   !! of a surface: a profile has no lines in a second direction
 

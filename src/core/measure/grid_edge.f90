@@ -21,7 +21,7 @@ module wavycon_grid_edge
 
    !> Constants of (C11), (C12), which depend on the kernel of the half-space. The defaults are those of waves.
    type :: edge_rule
-      !> For an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 h), against the
+      !> For an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 l), against the
       !> last pressure; and how far inside the last point in contact the edge lies when that pressure vanishes [steps].
       real(dp) :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
       !> The same for any direction, and what a turn adds to the area, in cells (C12).
@@ -39,7 +39,7 @@ module wavycon_grid_edge
       !> The same at the columns before and after the own ones, shape (M, reach); only of a grid that is distributed.
       real(dp), allocatable, private :: low(:, :), high(:, :)
       type(grid_slab) :: slab
-      real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 h), h the steps along phi and theta, in these units
+      real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 l), l the steps along phi and theta, in these units
       logical :: even = .true.   !! whether the points are those of a quarter
       logical :: of_cells = .false.   !! whether pressures are uniform on cells, as with free edges; else sums of waves
       type(edge_rule) :: rule
@@ -113,7 +113,7 @@ contains
       call self%slab%halo(self%pressure_or_gap, self%even, self%low, self%high)
    end subroutine fetch_neighbours
 
-   !> E*/(2 h) of the steps h along phi and theta [p*/Delta].
+   !> E*/(2 l) of the steps l along phi and theta [p*/Delta].
    pure function pressure_per_gap(surface, points) result(stiffness)
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: points(2)   !! of the part of the cell that is solved
