@@ -10,9 +10,9 @@
 !>     f J/|Q|   for f/|z - z'|, power 1/2: the area element cancels the singularity, README.md (F28), (F30);
 !>     f J/(t^2 |Q|^3)   for f/|z - z'|^3, power 3/2, as Hadamard's finite part, README.md (F29), (F31).
 !>
-!> For the finite part let s be the place along a chord, from -1 to 1, and s_0 the target's. Then
+!> For the finite part let xi be the place along a chord, from -1 to 1, and xi_0 the target's. Then, by (F33),
 !>
-!>     finite part of the integral of (1 - s^2)^(3/2) C_m(s)/(s - s_0)^2 ds = (pi/2)(m+1)(m+3) T_(m+2)(s_0),   (F33)
+!>     finite part of the integral of (1 - xi^2)^(3/2) C_m(xi)/(xi - xi_0)^2 dxi = (pi/2)(m+1)(m+3) T_(m+2)(xi_0),
 !>
 !> with Gegenbauer's polynomials C_m of this weight, whose squares have the integrals (pi/8)(m+1)(m+3) (F34), and
 !> Chebyshev's T_m. The part left out about the target is round in the image, not in the disc; what that changes is odd
@@ -40,7 +40,7 @@ module wavycon_chord_rule
       ! Of the last target at the n m points; they keep their place in memory. Real and imaginary parts are apart, so
       ! that loops vectorise and BLAS sums the terms.
       real(dp), allocatable :: values(:, :)               !! of the basis, shape (n m, N)
-      real(dp), allocatable :: difference(:, :, :)        !! D_k of README.md (F26), shape (n m, 2, K)
+      real(dp), allocatable :: difference(:, :, :)        !! q_(fold k - 1) of README.md (F27), shape (n m, 2, K)
       real(dp), allocatable :: power(:, :, :)             !! as of linearise_slopes, shape (n m, 2, K)
    contains
       procedure :: rows
@@ -163,7 +163,7 @@ contains
       do i = 1, size(self%direction)
          k = (i - 1)*n
          associate (e => self%direction(i))
-            ! The chord's points are t = middle + half s.
+            ! The chord's points are t = middle + half xi.
             middle = -(target%re*e%re + target%im*e%im)
             half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
             do j = 1, n
@@ -172,7 +172,7 @@ contains
          end associate
          of_chord = self%node_weight
          if (self%kernel_power == 3) then
-            ! W_j(s_0) of README.md (F32), from T_0 and T_1 at the target's place s_0; (F68), from U_(-2) and U_(-1).
+            ! omega_j(xi_0), README.md (F32), from T_0 and T_1 at the target, xi_0; (F68), from U_(-2) and U_(-1).
             of_chord = 0.0_dp
             t = [1.0_dp, -middle/half]
             if (self%edge_power < 1.0_dp) t = [-1.0_dp, 0.0_dp]
@@ -181,7 +181,7 @@ contains
                of_chord = of_chord + t(2)*self%gegenbauer(:, j)
             end do
          end if
-         ! The chord's half length to the power 2a+1, for the finite part 2a-1: 2 without adhesion, 0 with it.
+         ! The chord's half length to the power 2 beta + 1, of the finite part 2 beta - 1: 2 without adhesion, 0 with.
          factor = pi/size(self%direction)
          if (nint(2*self%edge_power) == self%kernel_power) factor = factor*half**2
          weight(k + 1:k + n) = factor*of_chord

@@ -149,8 +149,8 @@ contains
       if (size(self%edge) > 0) call linearise_edge(self, now)
    end subroutine linearise
 
-   !> The equations of the edge, README.md (F67), after those of the targets: sum of c_i P_i(w) = the strength that the
-   !> work of adhesion asks for. They are scaled to be as large as the others.
+   !> The equations of the edge, README.md (F67), after those of the targets: sum of c_i Psi_i(w) = the strength that
+   !> the work of adhesion asks for. They are scaled to be as large as the others.
    subroutine linearise_edge(self, now)
       class(contact_equations), intent(inout) :: self
       type(expansion), intent(in) :: now

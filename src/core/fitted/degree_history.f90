@@ -99,7 +99,7 @@ contains
    !> lattice's spots are too small now and then.
    pure function error_estimate(values, decay, scale) result(error)
       real(dp), intent(in) :: values(:, 0:)   !! at the last two or three degrees, the highest one first, shape (n, 0:.)
-      real(dp), intent(in) :: decay(2)        !! r_n and r_(n-1) <= 1, of the misfit
+      real(dp), intent(in) :: decay(2)        !! chi_n and chi_(n-1) <= 1, of the misfit
       real(dp), intent(in) :: scale(:)        !! > 0, what rounding and shares are relative to, shape (n)
       real(dp) :: error(size(scale))
 

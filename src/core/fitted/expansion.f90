@@ -2,11 +2,12 @@
 !>
 !> Below merging it is the pressure on one spot about a crest, above merging the gap over one pool about a trough:
 !>
-!>     (1 - |w|^2)^power times the sum over i of c_i P_i(w),
+!>     (1 - |w|^2)^power times the sum over i of c_i Psi_i(w),
 !>
-!> README.md (F23), with the disc polynomials P_i orthonormal with this weight, and the disc mapped to the spot or pool.
-!> The power is 1/2 of a spot and 3/2 of a pool; with adhesion it is less by 1, as pressures and slopes are singular at
-!> the edge (F65). Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the spot or pool.
+!> README.md (F23), with the disc polynomials Psi_i orthonormal with this weight, and the disc mapped to the spot or
+!> pool. The power is 1/2 of a spot and 3/2 of a pool; with adhesion it is less by 1, as pressures and slopes are
+!> singular at the edge (F65). Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the
+!> spot or pool.
 !>
 !> Without adhesion the load is given and the size follows; with adhesion the area is given and the load follows.
 module wavycon_expansion

@@ -1,7 +1,7 @@
 !> What one spot or pool adds to the displacement or the pressure outside of it, as a series in coordinates that
 !> follow its edge:
 !>
-!>     sum over j, k of c_jk cos(fold j arg v) T_k(2 (1 - 1/|v|)^(1/2) - 1),   README.md (F49),
+!>     sum over j, k of I_jk cos(fold j arg v) T_k(X),   X = 2 (1 - 1/|v|)^(1/2) - 1,   README.md (F49), (F50),
 !>
 !> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity. Of
 !> a pool with adhesion, next to which the pressure is singular, it is the pressure times (1 - 1/|v|)^(1/2).
@@ -18,7 +18,7 @@ module wavycon_exterior_series
    public :: exterior_series, start_exterior_series
 
    type :: exterior_series
-      type(chebyshev_table), private :: table     !! in cos(fold arg v) and x
+      type(chebyshev_table), private :: table     !! in cos(fold arg v) and X
       logical, private :: is_singular = .false.   !! at the edge
    contains
       procedure :: at
@@ -26,7 +26,7 @@ module wavycon_exterior_series
 
    !> Terms in the angle: of the first series, and most.
    integer, parameter :: first_angles = 5, most_angles = 256
-   !> Fall of the terms in x of a round disc, README.md (F50): the logarithm of the factor.
+   !> Fall of the terms in X of a round disc, README.md (F50): the logarithm of the factor.
    real(dp), parameter :: round_fall = 1.22_dp
    !> Accuracy of the values over that of the series.
    real(dp), parameter :: values_share = 0.05_dp

@@ -35,7 +35,7 @@ module wavycon_fitted_answer
       real(dp) :: area_slope_errors(2) = 0.0_dp       !! of area_slopes
       real(dp), allocatable :: area_change(:)         !! the same of all unknowns of the solution, README.md (F70)
       real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], a pool's [p*]
-      real(dp) :: misfit_decay(2) = 1.0_dp            !! r_n and r_(n-1) of README.md (F43)
+      real(dp) :: misfit_decay(2) = 1.0_dp            !! chi_n and chi_(n-1) of README.md (F43)
       real(dp) :: merging_ratio = 0.0_dp              !! of the shape: 0 for a point, 1 where neighbours touch
       integer :: iterations = 0                       !! Gauss-Newton steps of all degrees
       logical :: pool = .false.                     !! above merging: the expansion is a pool's gap

@@ -3,11 +3,11 @@
 !>
 !> It is a sum over the points of a rule of F(z_t, z_s), the mean of the kernel over all copies of a source under the
 !> symmetry. Where it pays and is as accurate, F less the lattice points near by is a double series of polynomials on
-!> the disc, which is made once for a size of the shape: for |z_t|, |z_s| <= R
+!> the disc, which is made once for a size of the shape: for |z_t|, |z_s| <= R_0
 !>
-!>     F(z_t, z_s) = sum over a, b of P_a(z_t/R) B_ab P_b(z_s/R),   README.md (F35),
+!>     F(z_t, z_s) = sum over a, b of Psi_a(z_t/R_0) B_ab Psi_b(z_s/R_0),   README.md (F35),
 !>
-!> P the disc polynomials of the weight 1. Otherwise F is evaluated for all targets and sources. A cell with two pools
+!> Psi the disc polynomials of the weight 1. Otherwise F is evaluated for all targets and sources. A cell with two pools
 !> has them too near to each other for the series.
 module wavycon_lattice_images
    use wavycon_constants, only: pi
@@ -27,7 +27,7 @@ module wavycon_lattice_images
 
    type :: lattice_images
       real(dp) :: tolerance = 0.0_dp               !! relative error that the series leaves; 0 without one
-      real(dp), private :: radius = 0.0_dp         !! R, at least that of a shape that it holds for [s]; 0 without one
+      real(dp), private :: radius = 0.0_dp         !! R_0, at least that of a shape that it holds for [s]; 0 without one
       type(periodic_kernel), private :: near       !! lattice points left out of the series
       type(disc_polynomials), private :: basis
       real(dp), allocatable, private :: coefficient(:, :)   !! B [1/s], of the Laplacian [1/s^3], shape (N, N)

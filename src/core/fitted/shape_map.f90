@@ -84,16 +84,16 @@ contains
 
    !> Divided differences of the map between a point and others, without cancellation where they are near:
    !>
-   !>     z(w) - z(v) = b_0 (w - v) A + conj( (w - v) sum over k of b_k D_k ),   README.md (F26),
+   !>     z(w) - z(v) = b_0 (w - v) A + conj( (w - v) sum over k of b_k q_j ),   README.md (F26),
    !>
-   !> A = 1 - tau (w^(m+1) - v^(m+1))/(w - v) and D_k = (w^j - v^j)/(w - v), j = m k - 1, m the fold. They follow from
+   !> A = 1 - tau (w^(m+1) - v^(m+1))/(w - v) and q_j = (w^j - v^j)/(w - v), j = m k - 1, m the fold. They follow from
    !> w^(j+m) - v^(j+m) = w^m (w^j - v^j) + v^j (w^m - v^m).
    pure subroutine find_differences(self, n, v, w, analytic, terms)
       class(shape_map), intent(in) :: self
       integer, intent(in) :: n
       complex(dp), intent(in) :: v, w(n)
       real(dp), intent(out) :: analytic(n, 2)     !! A, real and imaginary part: loops over points vectorise
-      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))    !! D_k
+      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))    !! q_j of each k
 
       complex(dp) :: power
       real(dp), dimension(n, 2) :: of_fold, point, step

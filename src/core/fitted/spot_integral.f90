@@ -134,8 +134,8 @@ contains
          distance = abs(v)
          below = depth/self%stretch
       end if
-      ! Decay of the error of rules over a round disc of radius 1, at a distance from its axis, README.md (F57): eta for
-      ! each angle, and 2 ln E for each radius.
+      ! Decay of the error of rules over a round disc of radius 1, at a distance from its axis, README.md (F57): theta
+      ! for each angle and, for each radius, twice the logarithm of the sum of the half axes of an ellipse.
       nearest = min(hypot(distance, below), 1.0_dp)
       angular = 1.0_dp + ((distance - nearest)**2 + below**2)/(2*max(distance*nearest, 1e-12_dp))
       angular = acosh(min(angular, 1e6_dp))

@@ -85,7 +85,7 @@ contains
       ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
       ! In each quarter between the edge's direction and the inward or outward normal Gauss's rule in x, where the angle
-      ! from the edge is c sinh(x), c the width.
+      ! from the edge is width sinh(x), README.md (F61).
       last = asinh(0.5_dp*pi/width)
       rule = rule_for(self, (self%least_points + self%angles_per_unit*last) &
                       *max(1.0_dp, ray_angles_of_strain/sqrt(kappa)))

@@ -4,10 +4,10 @@
 !> at depth, V and L its integrals, H = -dV/dz, V = -dL/dz, and D = d/dx + i d/dy. Then, by the numbers (F..) of
 !> src/core/fitted/README.md, (F51)
 !>
-!>     s_zz = -H + z H_z,                        s_xx + s_yy = -(1 + 2 nu) H - z H_z,
-!>     s_xx - s_yy + 2 i s_xy = (1 - 2 nu) D^2 L - z D^2 V,        s_xz + i s_yz = z D H.
+!>     sigma_zz = -H + z H_z,        sigma_xx + sigma_yy = -(1 + 2 nu) H - z H_z,
+!>     sigma_xx - sigma_yy + 2 i sigma_xy = (1 - 2 nu) D^2 L - z D^2 V,        sigma_xz + i sigma_yz = z D H.
 !>
-!> A point force has V = 1/(2 pi R): Boussinesq's solution.
+!> At the distance R from a point force V = 1/(2 pi R): Boussinesq's solution.
 module wavycon_stress_kernel
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
