@@ -64,6 +64,7 @@ contains
          end if
       end associate
       traits = solver%traits()
+      call solver%set_search(.true.)
       do level = traits%coarser_levels, 0, -1
          ! At the first level as well.
          if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
@@ -74,6 +75,7 @@ contains
          call find_root(solver, search, solution)
          if (solution%status == interrupted) exit
       end do
+      call solver%set_search(.false.)
       solver%level = 0
    end subroutine solve_for
 

@@ -5,7 +5,7 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
+   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
@@ -25,7 +25,16 @@ module wavycon_grid_sequence
    implicit none (type, external)
    private
 
-   public :: sequence_answer, solve_by_sequence
+   public :: grid_start, sequence_answer, solve_by_sequence
+
+   !> More grids are in no sequence: each has twice the points of the one before.
+   integer, parameter, public :: most_grids = 32
+
+   !> A solution at a load near by, from which a grid may start.
+   type :: grid_start
+      real(dp) :: mean_pressure = 0.0_dp         !! its load P
+      real(dp), allocatable :: pressure(:, :)    !! as of grid_state
+   end type grid_start
 
    type, extends(quantities) :: sequence_answer
       type(grid_state) :: state            !! on the finest grid, without the gap
@@ -45,7 +54,8 @@ contains
    !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
    !> (`out_of_memory`), the iteration on it does not converge (`state%converged` is false), or `progress` says that it
    !> shall stop (`state%interrupted`): then there is no edge.
-   subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual, needs_gap)
+   subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual, needs_gap, &
+                                starts)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
       !> Largest error estimate allowed of the three values, with free edges over these, >= 0.
@@ -58,6 +68,9 @@ contains
       real(dp), intent(in), optional :: residual
       !> Whether the edge of a surface with free edges is to have the gap at points far from the contact too.
       logical, intent(in), optional :: needs_gap
+      !> Of the same surface: on entry of a load before, if it was solved, then of this one, which leaves no pressure in
+      !> answer%state.
+      type(grid_start), intent(inout), optional :: starts(most_grids)
 
       real(dp), allocatable :: h(:, :)
       type(grid_plan) :: plan
@@ -75,6 +88,7 @@ contains
       answer%state%hardness = surface%hardness
       do i = 1, size(plan%grids, 2)
          ends = i == size(plan%grids, 2)
+         if (present(starts)) call take_start(starts(i), mean_pressure, answer%state)
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, ends), h, answer, progress)
          if (answer%state%interrupted) return
          ! No finer grid starts from a solution that has not converged.
@@ -83,6 +97,10 @@ contains
          ends = ends .or. answer%out_of_memory
          ! Only the errors of an answer are of interest.
          call measure_level(surface, mean_pressure, h, ends .or. i >= plan%trusted, answer)
+         if (present(starts)) then
+            starts(i)%mean_pressure = mean_pressure
+            call move_alloc(answer%state%pressure, starts(i)%pressure)
+         end if
          values = answer%main_values(surface)
          errors = answer%error(main_quantities)
          scale = 1.0_dp
@@ -114,6 +132,17 @@ contains
       answer%error(main_quantities) = errors
       answer%error(elastic_energy) = scaled(errors(1), 2*mean_pressure)
    end subroutine solve_by_sequence
+
+   !> Starts a grid from the solution of a load near by, if it has one. Farther away the coarser grid is nearer.
+   subroutine take_start(start, mean_pressure, state)
+      type(grid_start), intent(inout) :: start
+      real(dp), intent(in) :: mean_pressure
+      type(grid_state), intent(inout) :: state   !! with the start from the coarser grid
+
+      state%starts_near = allocated(start%pressure) .and. &
+                          abs(mean_pressure - start%mean_pressure) <= largest_change*mean_pressure
+      if (state%starts_near) call move_alloc(start%pressure, state%pressure)
+   end subroutine take_start
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
    subroutine solve_level(surface, mean_pressure, residual, h, answer, progress)

@@ -31,6 +31,9 @@ module wavycon_contact_tuning
    !> rounding: such points would enter and leave without end.
    real(dp), parameter, public :: overlap_part = 0.1_dp
 
+   !> Largest relative difference of a load of a search from the one before, from whose pressure it starts.
+   real(dp), parameter, public :: largest_change = 0.2_dp
+
    !> Part of its residual to which the pressure is corrected in single precision before the gap is computed anew in
    !> double precision.
    real(dp), parameter, public :: correction_part = 1e-4_dp
