@@ -119,9 +119,9 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: steepest = 20.0_dp
    !> Longest step of ln P upwards in the search for first yield: a longer one may pass the first root.
    real(dp), parameter, public :: longest_rise = 0.7_dp
-   !> A search on a coarser level ends when the value differs by its error estimate or by this fraction of min(t, 1 - t),
-   !> of the stress, if that is less: the value of the next finer level differs by more. It also ends when the loads of
-   !> the bracket differ by this fraction: the value jumps between them.
+   !> A search on a coarser level ends when the value differs by its error estimate or, if that is less, by this fraction
+   !> of min(t, 1 - t) or of the stress: the value of the next finer level differs by more. It also ends when the loads
+   !> of the bracket differ by this fraction: the value jumps between them.
    real(dp), parameter, public :: coarse_fraction = 0.02_dp
    !> A load of first yield whose stress has a larger relative error than this has the status not_accurate, also on the
    !> own points of a height map: the stress may be that of one point.
