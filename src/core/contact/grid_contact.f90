@@ -156,6 +156,7 @@ contains
       if (.not. self%keep_fields) return
       allocate (source)
       source%rotated = allocated(self%smaller)
+      source%history = answer%history
       source%residual_indentation = answer%state%residual_indentation
       call source%take_edge(answer%edge)
       call move_alloc(source, solution%source)

@@ -119,8 +119,8 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: steepest = 20.0_dp
    !> Longest step of ln P upwards in the search for first yield: a longer one may pass the first root.
    real(dp), parameter, public :: longest_rise = 0.7_dp
-   !> A search on a coarser level ends when the value differs by its error estimate or, if that is less, by this fraction
-   !> of min(t, 1 - t) or of the stress: the value of the next finer level differs by more. It also ends when the loads
+   !> A search on a coarser level ends when the value differs by its error estimate or, if that is less, by this part of
+   !> min(t, 1 - t) or of the stress: the value of the next finer level differs by more. It also ends when the loads
    !> of the bracket differ by this fraction: the value jumps between them.
    real(dp), parameter, public :: coarse_fraction = 0.02_dp
    !> A load of first yield whose stress has a larger relative error than this has the status not_accurate, also on the
