@@ -114,7 +114,6 @@ contains
          miss = logit_t(search, met) - logit_t(search, search%target)
          found = abs(met - search%target) <= allowed .and. &
             .not. (search%closes .and. search%logit_p - low > largest_fraction)
-         if (found .and. (solver%level == 0 .or. search%closes)) return
          ! A lighter load may close the map too.
          if (search%closes .and. abs(met - search%target) <= allowed) miss = longest_step
          if (i > 1 .and. abs(search%logit_p - last_logit_p) > 0.0_dp) &
@@ -126,7 +125,7 @@ contains
          next = search%logit_p - min(max(miss/search%slope, -longest_step), longest_step)
          if (found .or. (solver%level > 0 .and. high - low <= coarse_fraction)) then
             ! The next level begins with the last step.
-            if (next > low .and. next < high) search%logit_p = next
+            if (next > low .and. next < high .and. .not. search%closes) search%logit_p = next
             return
          end if
          if (search%slope <= flattest) then

@@ -10,7 +10,7 @@ module wavycon_grid_contact
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
-   use wavycon_grid_sequence, only: grid_start, most_grids, sequence_answer, solve_by_sequence
+   use wavycon_grid_sequence, only: grid_start, sequence_answer, solve_by_sequence
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
@@ -167,7 +167,8 @@ contains
       logical, intent(in) :: begins
 
       if (allocated(self%starts)) deallocate (self%starts)
-      if (begins) allocate (self%starts(most_grids))
+      ! No sequence has more grids: each has twice the points of the one before.
+      if (begins) allocate (self%starts(bit_size(self%options%points)))
    end subroutine set_search
 
    !> Solves a load on the surface or its smaller cell.

@@ -36,9 +36,8 @@ contains
       if (surface%dimension == 1) grid(2) = 1
       bound = merge(0.0_dp, 1.0_dp, surface%has_free_edges)
       solved = .true.
-      call take(0, history, record)
       do i = -2, 2
-         if (solved .and. i /= 0) call solve_near(i, i*load_difference)
+         if (solved) call solve_near(i, i*load_difference)
       end do
       if (.not. solved) return
       call differentiate(record%pbar_over_pstar, bound, y, load_difference, values, errors, too_far)
@@ -63,34 +62,29 @@ contains
 
    contains
 
-      !> Solves the load whose x differs from that of the record by this much, as number i of the five.
+      !> Solves the load whose x differs from that of the record by this much, as number i of the five; 0 is solved.
       subroutine solve_near(i, difference)
          integer, intent(in) :: i
          real(dp), intent(in) :: difference
 
-         real(dp) :: odds
+         real(dp) :: grids(3, 3), odds
          type(sequence_answer) :: nearby
 
-         odds = exp(difference)*record%pbar_over_pstar/(1.0_dp - bound*record%pbar_over_pstar)
-         call solve_by_sequence(surface, odds/(1.0_dp + bound*odds), 0.0_dp, grid, nearby)
-         solved = nearby%state%converged .and. allocated(nearby%edge)
-         if (solved) call take(i, nearby%history, nearby)
-      end subroutine solve_near
-
-      !> Takes a solution as number i of the five.
-      subroutine take(i, history, solution)
-         integer, intent(in) :: i
-         type(change_history), intent(in) :: history
-         class(quantities), intent(in) :: solution
-
-         real(dp) :: grids(3, 3)
-
-         counted(i) = solution%value(contact_area_counted)
-         grids = reshape([history%values, history%before], [3, 3])
+         if (i == 0) then
+            nearby%history = history
+            nearby%value = record%value
+         else
+            odds = exp(difference)*record%pbar_over_pstar/(1.0_dp - bound*record%pbar_over_pstar)
+            call solve_by_sequence(surface, odds/(1.0_dp + bound*odds), 0.0_dp, grid, nearby)
+            solved = nearby%state%converged .and. allocated(nearby%edge)
+            if (.not. solved) return
+         end if
+         counted(i) = nearby%value(contact_area_counted)
+         grids = reshape([nearby%history%values, nearby%history%before], [3, 3])
          y(:, 2, i) = log_ratio(grids(2, :), 1.0_dp - bound*grids(2, :))
          y(:, 1, i) = log_ratio(1.0_dp - grids(1, :), grids(1, :))
          if (surface%has_free_edges) y(:, 1, i) = log_ratio(grids(1, :), 1.0_dp)
-      end subroutine take
+      end subroutine solve_near
 
    end subroutine differentiate_on_grid
 

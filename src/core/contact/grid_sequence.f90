@@ -27,12 +27,9 @@ module wavycon_grid_sequence
 
    public :: grid_start, sequence_answer, solve_by_sequence
 
-   !> More grids are in no sequence: each has twice the points of the one before.
-   integer, parameter, public :: most_grids = 32
-
    !> A solution at a load near by, from which a grid may start.
    type :: grid_start
-      real(dp) :: mean_pressure = 0.0_dp         !! its load P
+      real(dp) :: mean_pressure = 0.0_dp         !! its load P; 0: there is none
       real(dp), allocatable :: pressure(:, :)    !! as of grid_state
    end type grid_start
 
@@ -68,9 +65,9 @@ contains
       real(dp), intent(in), optional :: residual
       !> Whether the edge of a surface with free edges is to have the gap at points far from the contact too.
       logical, intent(in), optional :: needs_gap
-      !> Of the same surface: on entry of a load before, if it was solved, then of this one, which leaves no pressure in
-      !> answer%state.
-      type(grid_start), intent(inout), optional :: starts(most_grids)
+      !> Of each grid of the surface from the coarsest: on entry the load before, if one was solved, then this one, which
+      !> leaves no pressure in answer%state.
+      type(grid_start), intent(inout), optional :: starts(:)
 
       real(dp), allocatable :: h(:, :)
       type(grid_plan) :: plan
@@ -88,7 +85,11 @@ contains
       answer%state%hardness = surface%hardness
       do i = 1, size(plan%grids, 2)
          ends = i == size(plan%grids, 2)
-         if (present(starts)) call take_start(starts(i), mean_pressure, answer%state)
+         if (present(starts)) then
+            ! Farther away the coarser grid is nearer.
+            answer%state%starts_near = abs(mean_pressure - starts(i)%mean_pressure) <= largest_change*mean_pressure
+            if (answer%state%starts_near) call move_alloc(starts(i)%pressure, answer%state%pressure)
+         end if
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, ends), h, answer, progress)
          if (answer%state%interrupted) return
          ! No finer grid starts from a solution that has not converged.
@@ -132,17 +133,6 @@ contains
       answer%error(main_quantities) = errors
       answer%error(elastic_energy) = scaled(errors(1), 2*mean_pressure)
    end subroutine solve_by_sequence
-
-   !> Starts a grid from the solution of a load near by, if it has one. Farther away the coarser grid is nearer.
-   subroutine take_start(start, mean_pressure, state)
-      type(grid_start), intent(inout) :: start
-      real(dp), intent(in) :: mean_pressure
-      type(grid_state), intent(inout) :: state   !! with the start from the coarser grid
-
-      state%starts_near = allocated(start%pressure) .and. &
-                          abs(mean_pressure - start%mean_pressure) <= largest_change*mean_pressure
-      if (state%starts_near) call move_alloc(start%pressure, state%pressure)
-   end subroutine take_start
 
    !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
    subroutine solve_level(surface, mean_pressure, residual, h, answer, progress)
