@@ -45,6 +45,7 @@ contains
       log_p = first_log_p
       slope = light_slope(solver)
       traits = solver%traits()
+      call solver%set_search(.true.)
       do level = traits%coarser_levels, 0, -1
          solver%level = level
          call find_root(solver, setting, log(target), log_p, slope, solution)
@@ -54,6 +55,7 @@ contains
             slope = light_slope(solver)
          end if
       end do
+      call solver%set_search(.false.)
       solver%level = 0
    end subroutine solve_for_yield
 
@@ -70,6 +72,7 @@ contains
       type(solver_traits) :: traits
       real(dp) :: at_hardness, at_largest, enough, error, high, largest, last_log_p, last_miss, low, miss, next, ratio
       integer :: i
+      logical :: jumps
       !> Rounding of the logarithm of a stress.
       real(dp), parameter :: rounding = 1e-10_dp
       !> A bracket narrower than this part of the tolerance has a jump.
@@ -100,7 +103,6 @@ contains
          enough = min(max(fraction_of_error*error, least_fraction), largest_fraction)
          if (solver%level > 0) enough = max(enough, min(error, coarse_fraction))
          if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
-         if (abs(miss) <= enough) return
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
          ! Where a hardness bounds the stress r hardly grows: the secant would lead to loads far too light, or up.
          if (low <= -huge(low) .and. miss > max(0.0_dp, longest_rise*slope)) &
@@ -113,6 +115,14 @@ contains
          if (slope > 0.0_dp) next = log_p - miss/slope
          next = min(next, log_p + longest_rise)
          if (next <= low .or. next >= high) next = min(0.5_dp*(low + high), log_p + longest_rise)
+         jumps = solver%level > 0 .and. high < at_hardness .and. high - low <= coarse_fraction
+         if (abs(miss) <= enough .or. jumps) then
+            ! The next level begins with the last step. The secant of a jump may have any slope; jumps are those of
+            ! rough surfaces, whose slope is less than that of one crest.
+            if (slope > 0.0_dp .and. next < at_hardness - below_hardness) log_p = max(next, log_p - longest_rise)
+            if (jumps) slope = 0.5_dp*light_slope(solver)
+            return
+         end if
          if (next > min(log(last_load), at_hardness - below_hardness)) exit
          if (abs(next - log_p) <= epsilon(next)*max(1.0_dp, abs(next)) &
              .or. (high < at_hardness .and. high - low <= part_of_enough*enough)) then

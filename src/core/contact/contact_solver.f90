@@ -50,6 +50,7 @@ module wavycon_contact_solver
       procedure(solve_load), deferred :: solve_partial_contact
       procedure(traits_of_solver), deferred :: traits
       procedure :: forget_last_load
+      procedure :: set_search
       procedure :: skip_load
    end type contact_solver
 
@@ -123,6 +124,15 @@ contains
 
       associate (unused => self); end associate
    end subroutine forget_last_load
+
+   !> Begins or ends a search: its loads are near one another, and each may start from the last one. Nothing of them is
+   !> left afterwards.
+   subroutine set_search(self, begins)
+      class(contact_solver), intent(inout) :: self
+      logical, intent(in) :: begins
+
+      associate (unused => self, unused_too => begins); end associate
+   end subroutine set_search
 
    !> Sets the state that the solver would have after solving a load. Called for loads whose solutions were read from
    !> the checkpoint of an interrupted run.

@@ -8,8 +8,8 @@ module wavycon_find_load
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
-   use wavycon_contact_tuning, only: flattest, fraction_of_error, largest_fraction, least_fraction, lightest_load, &
-      longest_step, most_solves, steepest, value_roundings
+   use wavycon_contact_tuning, only: coarse_fraction, flattest, fraction_of_error, largest_fraction, least_fraction, &
+      lightest_load, longest_step, most_solves, steepest, value_roundings
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: approach, contact_area, is_known, mean_gap
    implicit none (type, external)
@@ -30,6 +30,9 @@ module wavycon_find_load
       real(dp) :: logit_p = 0.0_dp         !! logit P/most, or ln P, of the next solution
       real(dp) :: slope = 1.0_dp           !! of logit t against logit P
    end type root_search
+
+   !> Between these the slope lies (C18).
+   real(dp), parameter :: least_slope = 0.5_dp, largest_slope = 2.5_dp
 
 contains
 
@@ -61,14 +64,18 @@ contains
          end if
       end associate
       traits = solver%traits()
+      call solver%set_search(.true.)
       do level = traits%coarser_levels, 0, -1
          ! At the first level as well.
          if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
          if (search%closes) search%logit_p = min(search%logit_p, 0.0_dp)
          solver%level = level
+         ! The secant of a jump on a coarser level has any slope.
+         search%slope = min(max(search%slope, least_slope), largest_slope)
          call find_root(solver, search, solution)
          if (solution%status == interrupted) exit
       end do
+      call solver%set_search(.false.)
       solver%level = 0
    end subroutine solve_for
 
@@ -84,6 +91,7 @@ contains
       real(dp), parameter :: shortest_step = 1e-13_dp
       real(dp) :: allowed, error, high, last_miss, last_logit_p, lightest, low, met, miss, next, scale
       integer :: i
+      logical :: found
 
       low = -huge(low)
       high = huge(high)
@@ -102,9 +110,10 @@ contains
          error = solution%error(merge(contact_area, mean_gap, search%quantity == contact_area))
          allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
                        value_roundings*spacing(search%target))
-         if (abs(met - search%target) <= allowed .and. &
-             .not. (search%closes .and. search%logit_p - low > largest_fraction)) return
+         if (solver%level > 0) allowed = max(allowed, min(error, coarse_fraction*scale))
          miss = logit_t(search, met) - logit_t(search, search%target)
+         found = abs(met - search%target) <= allowed .and. &
+            .not. (search%closes .and. search%logit_p - low > largest_fraction)
          ! A lighter load may close the map too.
          if (search%closes .and. abs(met - search%target) <= allowed) miss = longest_step
          if (i > 1 .and. abs(search%logit_p - last_logit_p) > 0.0_dp) &
@@ -114,6 +123,11 @@ contains
          if (miss > 0.0_dp) high = min(high, search%logit_p)
          if (miss < 0.0_dp) low = max(low, search%logit_p)
          next = search%logit_p - min(max(miss/search%slope, -longest_step), longest_step)
+         if (found .or. (solver%level > 0 .and. high - low <= coarse_fraction)) then
+            ! The next level begins with the last step.
+            if (next > low .and. next < high .and. .not. search%closes) search%logit_p = next
+            return
+         end if
          if (search%slope <= flattest) then
             if (low > -huge(low) .and. high < huge(high)) then
                next = 0.5_dp*(low + high)

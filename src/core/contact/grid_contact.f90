@@ -10,7 +10,7 @@ module wavycon_grid_contact
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
-   use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
+   use wavycon_grid_sequence, only: grid_start, sequence_answer, solve_by_sequence
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
@@ -41,9 +41,12 @@ module wavycon_grid_contact
       logical, private :: keep_fields = .true.
       !> The surface on its smaller cell, if that is solved: rotated by 45 degrees.
       type(surface_type), allocatable, private :: smaller
+      !> In a search the pressures of the last load, of each grid from the coarsest.
+      type(grid_start), allocatable, private :: starts(:)
    contains
       procedure :: start
       procedure :: solve_partial_contact
+      procedure :: set_search
       procedure :: traits
    end type grid_contact
 
@@ -153,14 +156,24 @@ contains
       if (.not. self%keep_fields) return
       allocate (source)
       source%rotated = allocated(self%smaller)
+      source%history = answer%history
       source%residual_indentation = answer%state%residual_indentation
       call source%take_edge(answer%edge)
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
+   subroutine set_search(self, begins)
+      class(grid_contact), intent(inout) :: self
+      logical, intent(in) :: begins
+
+      if (allocated(self%starts)) deallocate (self%starts)
+      ! No sequence has more grids: each has twice the points of the one before.
+      if (begins) allocate (self%starts(bit_size(self%options%points)))
+   end subroutine set_search
+
    !> Solves a load on the surface or its smaller cell.
    subroutine solve_cell(self, surface, pbar_over_pstar, answer)
-      class(grid_contact), intent(in) :: self
+      class(grid_contact), intent(inout) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: pbar_over_pstar
       type(sequence_answer), intent(out) :: answer
@@ -169,9 +182,9 @@ contains
       associate (accuracy => self%options%accuracy*10.0_dp**self%level, &
                  points => max(self%options%points/2**self%level, min(self%options%points, 1)), &
                  residual => self%options%residual)
-         ! A pointer that is not associated is an argument that is not present.
+         ! A pointer that is not associated and an array that is not allocated are arguments that are not present.
          call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual, &
-                                self%keep_fields)
+                                self%keep_fields, self%starts)
       end associate
    end subroutine solve_cell
 

@@ -2,6 +2,7 @@
 !> README.md in this directory.
 module wavycon_grid_derivatives
    use wavycon_contact_tuning, only: area_kept_change, change_safety, load_difference
+   use wavycon_grid_error, only: change_history
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: area_slope, contact_area, contact_area_counted, gap_curvature, gap_slope, is_known, &
@@ -15,12 +16,13 @@ module wavycon_grid_derivatives
 
 contains
 
-   !> Solves five loads, and two nearer ones where the five are too far from one another, and takes differences. What
-   !> they do not show is unknown, all of it if a load is not solved.
-   subroutine differentiate_on_grid(surface, points, record, answer)
+   !> Solves the four loads about that of a solution, and two nearer ones where these are too far from one another, and
+   !> takes differences. What they do not show is unknown, all of it if a load is not solved.
+   subroutine differentiate_on_grid(surface, points, record, history, answer)
       type(surface_type), intent(in) :: surface      !! whose cell was solved
       integer, intent(in) :: points(2)               !! of the grid on the whole cell; the second is ignored in 1-D
       type(solution_record), intent(in) :: record    !! of the solution on this grid, between no load and full contact
+      type(change_history), intent(in) :: history    !! its values on the last three grids
       type(quantities), intent(out) :: answer
 
       integer :: grid(2), i
@@ -60,7 +62,7 @@ contains
 
    contains
 
-      !> Solves the load whose x differs from that of the record by this much, as number i of the five.
+      !> Solves the load whose x differs from that of the record by this much, as number i of the five; 0 is solved.
       subroutine solve_near(i, difference)
          integer, intent(in) :: i
          real(dp), intent(in) :: difference
@@ -68,10 +70,15 @@ contains
          real(dp) :: grids(3, 3), odds
          type(sequence_answer) :: nearby
 
-         odds = exp(difference)*record%pbar_over_pstar/(1.0_dp - bound*record%pbar_over_pstar)
-         call solve_by_sequence(surface, odds/(1.0_dp + bound*odds), 0.0_dp, grid, nearby)
-         solved = nearby%state%converged .and. allocated(nearby%edge)
-         if (.not. solved) return
+         if (i == 0) then
+            nearby%history = history
+            nearby%value = record%value
+         else
+            odds = exp(difference)*record%pbar_over_pstar/(1.0_dp - bound*record%pbar_over_pstar)
+            call solve_by_sequence(surface, odds/(1.0_dp + bound*odds), 0.0_dp, grid, nearby)
+            solved = nearby%state%converged .and. allocated(nearby%edge)
+            if (.not. solved) return
+         end if
          counted(i) = nearby%value(contact_area_counted)
          grids = reshape([nearby%history%values, nearby%history%before], [3, 3])
          y(:, 2, i) = log_ratio(grids(2, :), 1.0_dp - bound*grids(2, :))

@@ -124,7 +124,7 @@ contains
 
    !> Hertz's peak pressure [p*] of a contact whose half width or radius is `unresolved_width` steps (C16). In 2-D it
    !> has the sum of both curvatures in place of their mean, so that it is large enough for elliptic contacts too.
-   real(dp) function unresolved_peak(surface, edge) result(peak)
+   pure real(dp) function unresolved_peak(surface, edge) result(peak)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
 
@@ -135,7 +135,7 @@ contains
 
       step = surface%length/(merge(2, 1, edge%even)*edge%slab%points)
       if (surface%dimension == 1) step(2) = 0.0_dp
-      peak = hertz_peak(surface%dimension)*unresolved_width*maxval(step)*surface%stiffness*surface%crest_curvature()
+      peak = hertz_peak(surface%dimension)*unresolved_width*maxval(step)*surface%stiffness*surface%crest_curvature
    end function unresolved_peak
 
    !> Least errors of mean gap and peak pressure, from the error of the area (C17): their changes may be small by

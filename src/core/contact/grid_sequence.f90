@@ -5,7 +5,7 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
+   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
@@ -25,7 +25,13 @@ module wavycon_grid_sequence
    implicit none (type, external)
    private
 
-   public :: sequence_answer, solve_by_sequence
+   public :: grid_start, sequence_answer, solve_by_sequence
+
+   !> A solution at a load near by, from which a grid may start.
+   type :: grid_start
+      real(dp) :: mean_pressure = 0.0_dp         !! its load P; 0: there is none
+      real(dp), allocatable :: pressure(:, :)    !! as of grid_state
+   end type grid_start
 
    type, extends(quantities) :: sequence_answer
       type(grid_state) :: state            !! on the finest grid, without the gap
@@ -45,7 +51,8 @@ contains
    !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
    !> (`out_of_memory`), the iteration on it does not converge (`state%converged` is false), or `progress` says that it
    !> shall stop (`state%interrupted`): then there is no edge.
-   subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual, needs_gap)
+   subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual, needs_gap, &
+                                starts)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
       !> Largest error estimate allowed of the three values, with free edges over these, >= 0.
@@ -58,6 +65,9 @@ contains
       real(dp), intent(in), optional :: residual
       !> Whether the edge of a surface with free edges is to have the gap at points far from the contact too.
       logical, intent(in), optional :: needs_gap
+      !> Of each grid of the surface from the coarsest: on entry the load before, if one was solved, then this one, which
+      !> leaves no pressure in answer%state.
+      type(grid_start), intent(inout), optional :: starts(:)
 
       real(dp), allocatable :: h(:, :)
       type(grid_plan) :: plan
@@ -75,6 +85,11 @@ contains
       answer%state%hardness = surface%hardness
       do i = 1, size(plan%grids, 2)
          ends = i == size(plan%grids, 2)
+         if (present(starts)) then
+            ! Farther away the coarser grid is nearer.
+            answer%state%starts_near = abs(mean_pressure - starts(i)%mean_pressure) <= largest_change*mean_pressure
+            if (answer%state%starts_near) call move_alloc(starts(i)%pressure, answer%state%pressure)
+         end if
          call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, ends), h, answer, progress)
          if (answer%state%interrupted) return
          ! No finer grid starts from a solution that has not converged.
@@ -83,6 +98,10 @@ contains
          ends = ends .or. answer%out_of_memory
          ! Only the errors of an answer are of interest.
          call measure_level(surface, mean_pressure, h, ends .or. i >= plan%trusted, answer)
+         if (present(starts)) then
+            starts(i)%mean_pressure = mean_pressure
+            call move_alloc(answer%state%pressure, starts(i)%pressure)
+         end if
          values = answer%main_values(surface)
          errors = answer%error(main_quantities)
          scale = 1.0_dp

@@ -43,7 +43,7 @@ contains
       class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
 
       logical :: touched(size(undeformed_gap, 2))
-      real(dp) :: allowed, last_residual, touching
+      real(dp) :: allowed, last_residual, start_part, touching
       real(sp), allocatable :: inside(:, :)
       integer :: j
 
@@ -66,7 +66,10 @@ contains
             end if
          end if
          allowed = max(allowed, rounding)
-         state%converged = state%residual <= allowed .or. &
+         ! A start from a load near by is corrected as others are, unless its residual is as small as theirs then.
+         start_part = 1.0_dp
+         if (state%starts_near .and. state%corrections == 0) start_part = correction_margin
+         state%converged = state%residual <= start_part*allowed .or. &
                            (state%residual <= most_rounding .and. 2*state%residual > last_residual)
          last_residual = state%residual
          if (state%converged .or. state%iterations >= most_iterations) exit

@@ -10,6 +10,7 @@ module wavycon_grid_source
    use wavycon_grid_area, only: grid_strip_edges
    use wavycon_grid_derivatives, only: differentiate_on_grid
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
+   use wavycon_grid_error, only: change_history
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_points, only: point_angle
@@ -32,6 +33,7 @@ module wavycon_grid_source
       type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
       logical :: rotated = .false.            !! the grid's cell is the smaller one, rotated by 45 degrees
       real(dp) :: residual_indentation = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
+      type(change_history) :: history         !! the values on the last three grids
    contains
       procedure :: take_edge
       procedure :: fields
@@ -44,7 +46,7 @@ module wavycon_grid_source
    end type grid_source
 
    !> Numbers in the array of pack_source before the field.
-   integer, parameter :: own_values = 9
+   integer, parameter :: own_values = 18
 
 contains
 
@@ -172,15 +174,15 @@ contains
 
       if (self%distributed_points > 0 .or. surface%has_hardness()) return
       if (self%rotated) then
-         call differentiate_on_grid(smaller_cell(surface), self%edge%period, self%record, answer)
+         call differentiate_on_grid(smaller_cell(surface), self%edge%period, self%record, self%history, answer)
       else
-         call differentiate_on_grid(surface, self%edge%period, self%record, answer)
+         call differentiate_on_grid(surface, self%edge%period, self%record, self%history, answer)
       end if
    end subroutine derivatives
 
    !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the first of
    !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it, whether its pressures are
-   !> uniform on cells, and the pressures and gaps at the own columns.
+   !> uniform on cells, `history`, and the pressures and gaps at the own columns.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
@@ -193,7 +195,8 @@ contains
          allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
          if (status /= 0) return
          values(:own_values) = [self%residual_indentation, edge%stiffness, real([slab%points, slab%first], dp), &
-                                merge(1.0_dp, 0.0_dp, [self%rotated, edge%even, edge%of_cells])]
+                                merge(1.0_dp, 0.0_dp, [self%rotated, edge%even, edge%of_cells]), &
+                                self%history%values, self%history%before]
          do j = 1, size(edge%pressure_or_gap, 2)
             values(own_values + (j - 1)*rows + 1:own_values + j*rows) = edge%pressure_or_gap(:, j)
          end do
@@ -220,6 +223,7 @@ contains
       if (.not. allocated(self%edge)) then
          self%residual_indentation = values(1)
          self%rotated = values(7) > 0.0_dp
+         self%history = change_history(values(10:12), reshape(values(13:18), [3, 2]))
          call slab%start(points, whole)
          allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
          allocate (edge)

@@ -18,6 +18,7 @@ module wavycon_grid_state
       real(dp) :: mean_gap = 1.0_dp
       real(dp) :: residual_indentation = 0.0_dp   !! mean over the cell of the overlap where p = H [Delta] (C22)
       real(dp) :: residual = huge(1.0_dp)       !! root mean square of the violated conditions on the gap, over G (C9)
+      logical :: starts_near = .false.          !! whether the start is the solution of a load near by
       integer :: corrections = 0                !! steps
       integer :: iterations = 0                 !! of all corrections
       logical :: converged = .false.

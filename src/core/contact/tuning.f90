@@ -31,6 +31,9 @@ module wavycon_contact_tuning
    !> rounding: such points would enter and leave without end.
    real(dp), parameter, public :: overlap_part = 0.1_dp
 
+   !> Largest relative difference of a load of a search from the one before, from whose pressure it starts.
+   real(dp), parameter, public :: largest_change = 0.2_dp
+
    !> Part of its residual to which the pressure is corrected in single precision before the gap is computed anew in
    !> double precision.
    real(dp), parameter, public :: correction_part = 1e-4_dp
@@ -116,8 +119,9 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: steepest = 20.0_dp
    !> Longest step of ln P upwards in the search for first yield: a longer one may pass the first root.
    real(dp), parameter, public :: longest_rise = 0.7_dp
-   !> The search for a load of first yield on a coarser grid ends when the stress differs by its error estimate or, if
-   !> that is larger, by this fraction: that of the next finer grid differs by more.
+   !> A search on a coarser level ends when the value differs by its error estimate or, if that is less, by this part of
+   !> min(t, 1 - t) or of the stress: the value of the next finer level differs by more. It also ends when the loads
+   !> of the bracket differ by this fraction: the value jumps between them.
    real(dp), parameter, public :: coarse_fraction = 0.02_dp
    !> A load of first yield whose stress has a larger relative error than this has the status not_accurate, also on the
    !> own points of a height map: the stress may be that of one point.

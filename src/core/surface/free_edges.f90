@@ -55,12 +55,13 @@ contains
       where (surface%form%c > 0.0_dp) radii = 0.5_dp*(surface%length/(2*pi))**2/(surface%amplitude*surface%form%c)
    end function ball_radii
 
-   !> Sets what of a surface with free edges does not follow from its shape alone.
+   !> Sets what of a surface with free edges does not follow from its shape alone, and adds the curvature of the form.
    pure subroutine set_units_without_closure(surface)
       type(surface_type), intent(inout) :: surface
 
       surface%stiffness = surface%nominal_area()**(1.0_dp/surface%dimension)
       surface%full_contact_peak = huge(1.0_dp)
+      surface%crest_curvature = surface%crest_curvature + 2*sum(surface%form%c/surface%length**2)
    end subroutine set_units_without_closure
 
 end module wavycon_free_edges

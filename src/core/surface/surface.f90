@@ -3,14 +3,13 @@
 module wavycon_surface
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
-   use wavycon_fourier_series, only: fourier_series, weighted
+   use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_paraboloid, only: paraboloid
    use wavycon_roughness, only: roughness_of, roughness_type
-   use wavycon_series_peak, only: find_peak
    use wavycon_series_samples, only: sample_series
    use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
@@ -42,6 +41,8 @@ module wavycon_surface
       !> Pressure [p*] over displacement [Delta] of a wave of the half-space, times wavelength [length].
       real(dp) :: stiffness = 1.0_dp
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
+      !> The largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]; of a map its largest at the points.
+      real(dp) :: crest_curvature = 0.0_dp
       real(dp) :: hardness = huge(1.0_dp)       !! H, the largest pressure that it bears [p*]; huge: it stays elastic
    contains
       procedure :: parts
@@ -50,7 +51,6 @@ module wavycon_surface
       procedure :: is_height_map
       procedure :: is_distributed
       procedure :: has_hardness
-      procedure :: crest_curvature
       procedure :: full_contact_pressure
       procedure :: shape_at
       procedure :: sample_shape
@@ -110,26 +110,6 @@ contains
 
       has_hardness = self%hardness < huge(self%hardness)
    end function has_hardness
-
-   !> The largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]; of a map its largest at the points.
-   real(dp) function crest_curvature(self) result(curvature)
-      class(surface_type), intent(in) :: self
-
-      type(grid_transform) :: transform
-      real(dp), allocatable :: values(:, :)
-      real(dp) :: largest(1), unused(2)
-
-      if (self%is_height_map()) then
-         call transform%start(self%points/self%parts(), even=self%mirrored)
-         allocate (values(transform%points(1), transform%slab%columns()))
-         call transform%sample(weighted(self%shape, self%length), values)
-         largest = transform%slab%largest([maxval(values)])
-      else
-         call find_peak(weighted(self%shape, self%length), largest(1), unused)
-      end if
-      curvature = largest(1)
-      if (self%has_free_edges) curvature = curvature + 2*sum(self%form%c/self%length**2)
-   end function crest_curvature
 
    !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave (eq. 7),
    !> sqrt2 times that for the 2-D wave (eq. 22); for any surface the largest tension, pbar - p, in full contact.

@@ -34,7 +34,7 @@ contains
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
-      real(dp) :: extremes(2), mean(1)
+      real(dp) :: extremes(2), highest(1), mean(1)
       integer :: crest(2), grid(2)
 
       grid = shape(height)
@@ -71,6 +71,9 @@ contains
       if (surface%amplitude <= 0.0_dp) return
       call divide_series(surface%shape, surface%amplitude)
       surface%form%c = surface%form%c/surface%amplitude
+      call transform%sample(weighted(surface%shape, surface%length), values)
+      highest = transform%slab%largest([maxval(values)])
+      surface%crest_curvature = highest(1)
       if (surface%has_free_edges) then
          call set_units_without_closure(surface)
       else

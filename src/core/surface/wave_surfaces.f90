@@ -100,6 +100,7 @@ contains
       if (.not. surface%amplitude > 0.0_dp) surface%amplitude = 0.0_dp
       if (surface%amplitude <= 0.0_dp) return
       call divide_series(surface%shape, surface%amplitude)
+      call find_peak(weighted(surface%shape, surface%length), surface%crest_curvature, unused)
       pressure = weighted(surface%shape, surface%length, surface%kernel)
       call find_peak(pressure, surface%full_contact_peak, unused)
       call divide_series(pressure, -1.0_dp)
