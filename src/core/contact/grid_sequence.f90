@@ -16,7 +16,7 @@ module wavycon_grid_sequence
    use wavycon_grid_solver, only: solve_on_grid
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
-   use wavycon_pressure_load, only: has_points_at, set_load, sum_of_field
+   use wavycon_pressure_load, only: has_points_at, set_load
    use wavycon_quantities, only: approach, area_at_hardness, contact_area, contact_area_corrected, &
       contact_area_counted, elastic_energy, is_known, known_errors, main_quantities, mean_gap, &
       peak_pressure, quantities, scaled, unknown
@@ -131,7 +131,7 @@ contains
          allocate (h(slab%points(1), slab%columns()))
          call surface%sample_gap(slab, h)
          load = mean_pressure*product(real(slab%points, dp))
-         carried = sum_of_field(slab, pressure)
+         carried = slab%sum_of(pressure)
          if (carried > 0.0_dp) then
             pressure = pressure*(load/carried)
          else

@@ -17,7 +17,7 @@ module wavycon_grid_solver
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
    use wavycon_pressure_correction, only: correct_pressure
-   use wavycon_pressure_load, only: has_points_at, sum_of_field
+   use wavycon_pressure_load, only: has_points_at
    use wavycon_solver_progress, only: solver_progress
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -60,7 +60,7 @@ contains
             allowed = edge_tolerance*gap_at_edge(half_space%even, state, touched)
             if (half_space%is_free) then
                ! The approach, times the square root of the part of all points that are in contact (C28).
-               touching = sum_of_field(state%slab, merge(1.0_dp, 0.0_dp, state%pressure > 0.0_dp))
+               touching = state%slab%sum_of(merge(1.0_dp, 0.0_dp, state%pressure > 0.0_dp))
                allowed = min(allowed, approach_tolerance*abs(state%approach) &
                                       *sqrt(touching/product(real(state%slab%points, dp))))
             end if

@@ -51,9 +51,9 @@ contains
       statistics%path = ''
       statistics%assumed_sides = ''
       call slab%start(points)
-      extremes = slab%largest([-minval(height), maxval(height)])
-      statistics%lowest = -extremes(1)
-      statistics%highest = extremes(2)
+      extremes = slab%extremes(height)
+      statistics%lowest = -extremes(2)
+      statistics%highest = extremes(1)
       unit = maxval(extremes)
       if (unit > 0.0_dp) call take_sums(slab, height, unit, step, repeats, statistics)
    end function statistics_of

@@ -117,17 +117,17 @@ contains
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
-      real(dp) :: largest(1), unused(2)
+      real(dp) :: extremes(2), unused(2)
 
       if (self%is_height_map()) then
          call transform%start(self%points/self%parts(), even=self%mirrored)
          allocate (values(transform%points(1), transform%slab%columns()))
          call transform%sample(weighted(self%shape, self%length), values)
-         largest = transform%slab%largest([maxval(values)])
+         extremes = transform%slab%extremes(values)
       else
-         call find_peak(weighted(self%shape, self%length), largest(1), unused)
+         call find_peak(weighted(self%shape, self%length), extremes(1), unused)
       end if
-      curvature = largest(1)
+      curvature = extremes(1)
       if (self%has_free_edges) curvature = curvature + 2*sum(self%form%c/self%length**2)
    end function crest_curvature
 
