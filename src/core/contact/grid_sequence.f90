@@ -8,7 +8,7 @@ module wavycon_grid_sequence
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
-   use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   use wavycon_grid_edge, only: grid_edge, join, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory, grid_plan, plan_grids
@@ -185,7 +185,6 @@ contains
       type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area, bend, capped_errors(3), errors(3)
-      integer :: j
       logical :: has_corners
       type(grid_edge) :: astray, capped
 
@@ -197,9 +196,7 @@ contains
       if (surface%has_hardness()) call start_grid_edge( &
          capped, surface%hardness - answer%state%pressure, -answer%state%gap, surface%shape%is_even(), &
          pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, surface%has_free_edges)
-      do j = 1, size(answer%state%gap, 2)
-         answer%state%gap(:, j) = joined(answer%state%pressure(:, j), answer%state%gap(:, j))
-      end do
+      call join(answer%state%pressure, answer%state%gap)
       call make_grid_edge(answer%edge, answer%state%gap, surface%shape%is_even(), &
                           pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, &
                           surface%has_free_edges)

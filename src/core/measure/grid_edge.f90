@@ -17,7 +17,7 @@ module wavycon_grid_edge
    implicit none (type, external)
    private
 
-   public :: edge_rule, grid_edge, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   public :: edge_rule, grid_edge, balance, join, make_grid_edge, pressure_per_gap, start_grid_edge
 
    !> Constants of (C11), (C12), which depend on the kernel of the half-space. The defaults are those of waves.
    type :: edge_rule
@@ -70,7 +70,8 @@ contains
 
       real(dp), allocatable :: field(:, :)
 
-      field = joined(pressure, gap)
+      allocate (field, source=gap)
+      call join(pressure, field)
       call make_grid_edge(edge, field, even, stiffness, slab, of_cells)
    end subroutine start_grid_edge
 
@@ -95,13 +96,14 @@ contains
       if (present(stiffness)) edge%stiffness = stiffness
    end subroutine make_grid_edge
 
-   !> Pressure and gap of a point in one number.
-   elemental real(dp) function joined(pressure, gap)
-      real(dp), intent(in) :: pressure, gap
+   !> Puts pressure and gap into one field.
+   pure subroutine join(pressure, gap)
+      real(dp), intent(in) :: pressure(:, :)
+      real(dp), intent(inout) :: gap(:, :)   !! then as edge%pressure_or_gap
 
       ! Overlaps by rounding are no pressures: the pressures of the lightest loads are as small.
-      joined = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
-   end function joined
+      gap = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
+   end subroutine join
 
    !> Gets the columns of the neighbours, if the grid is distributed.
    subroutine fetch_neighbours(self)
@@ -138,15 +140,16 @@ contains
 
       integer :: row
 
-      row = self%place(k, 1)
-      if (.not. self%slab%is_distributed) then
+      row = k
+      if (k < 1 .or. k > self%slab%points(1)) row = self%place(k, 1)
+      if (l >= self%slab%first .and. l <= self%slab%last) then
+         at = self%pressure_or_gap(row, l - self%slab%first + 1)
+      else if (.not. self%slab%is_distributed) then
          at = self%pressure_or_gap(row, self%place(l, 2))
       else if (l < self%slab%first) then
          at = self%low(row, reach + 1 - (self%slab%first - l))
-      else if (l > self%slab%last) then
-         at = self%high(row, l - self%slab%last)
       else
-         at = self%pressure_or_gap(row, l - self%slab%first + 1)
+         at = self%high(row, l - self%slab%last)
       end if
    end function at
 
