@@ -181,7 +181,7 @@ contains
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       real(dp), intent(in) :: h(:, :)    !! undeformed gap [Delta], of the columns of answer%state%gap
-      logical, intent(in) :: estimated   !! whether the errors are wanted
+      logical, intent(in) :: estimated   !! whether this may be the last grid: errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area, bend, capped_errors(3), errors(3)
@@ -206,7 +206,8 @@ contains
       ! At a step the pressure next to it does not say where the contact ends: it ends with the block.
       if (surface%has_steps) area = answer%value(contact_area_counted)
       answer%value(contact_area) = area
-      if (surface%dimension == 2) answer%value(contact_area_corrected) = corrected_area_fraction(answer%edge)
+      if (surface%dimension == 2 .and. estimated) &
+         answer%value(contact_area_corrected) = corrected_area_fraction(answer%edge)
       call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend)
       if (answer%value(peak_pressure) >= surface%hardness) bend = 0.0_dp
       answer%value(peak_pressure) = min(answer%value(peak_pressure), surface%hardness)

@@ -237,7 +237,7 @@ contains
    !> Sum of a field over the grid.
    real(dp) function sum_of(self, field) result(total)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(in) :: field(:, :)     !! shape (M, columns())
+      real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns())
 
       real(dp) :: parts(1, size(field, 2)), totals(1)
       real(dp) :: column
@@ -258,7 +258,7 @@ contains
    !> The largest number of a field and minus the least one, over the whole grid.
    function extremes(self, field)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(in) :: field(:, :)     !! shape (M, columns()), without NaN
+      real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns()), without NaN
       real(dp) :: extremes(2)
 
       real(dp) :: highest, lowest

@@ -39,10 +39,11 @@ contains
       allocate (areas(1, edge%slab%columns()), source=0.0_dp)
       ! The mirror line divides the cells at the rim of the quarter.
       first = merge(0, edge%slab%first, edge%even .and. edge%slab%first == 1)
-      if (size(areas) > 0) next = merge(1, 0, edge%column(first) > 0.0_dp)
+      if (size(areas) > 0) next = edge%marks(first)
       do j = first, edge%slab%last
          here = next
-         next = merge(1, 0, edge%column(j + 1) > 0.0_dp)
+         next = edge%marks(j + 1)
+         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
          associate (area => areas(1, max(j - edge%slab%first + 1, 1)))
             area = area + area_of_cells(edge, j, here(:m) + here(1:) + next(:m) + next(1:))
          end associate
@@ -104,8 +105,14 @@ contains
    real(dp) function counted_area_fraction(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 
-      fraction = edge%slab%total_count(count(edge%pressure_or_gap > 0.0_dp, kind=int64)) &
-                 /product(real(edge%slab%points, dp))
+      integer(int64) :: own
+      integer :: j
+
+      own = 0
+      do j = 1, edge%slab%columns()
+         if (edge%may_touch(edge%slab%first - 1 + j)) own = own + count(edge%pressure_or_gap(:, j) > 0.0_dp)
+      end do
+      fraction = edge%slab%total_count(own)/product(real(edge%slab%points, dp))
    end function counted_area_fraction
 
    !> The counted area less c for each change from contact to gap (C26).
@@ -121,16 +128,17 @@ contains
    integer(int64) function edge_crossings(edge) result(crossings)
       type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
 
-      logical :: here(0:edge%slab%points(1) + 1), next(0:edge%slab%points(1) + 1)
+      integer, dimension(0:edge%slab%points(1) + 1) :: here, next
       integer :: j, m
 
       m = edge%slab%points(1)
       crossings = 0
-      if (edge%slab%columns() > 0) next = edge%column(edge%slab%first) > 0.0_dp
+      if (edge%slab%columns() > 0) next = edge%marks(edge%slab%first)
       do j = edge%slab%first, edge%slab%last
          here = next
-         next = edge%column(j + 1) > 0.0_dp
-         crossings = crossings + count(here(1:m) .neqv. here(2:)) + count(here(1:m) .neqv. next(1:m))
+         next = edge%marks(j + 1)
+         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
+         crossings = crossings + sum(abs(here(1:m) - here(2:))) + sum(abs(here(1:m) - next(1:m)))
       end do
       crossings = edge%slab%total_count(crossings)
    end function edge_crossings
@@ -145,6 +153,7 @@ contains
 
       sums = 0.0_dp
       do j = edge%slab%first, edge%slab%last
+         if (.not. edge%may_touch(j)) cycle
          do k = 1, edge%slab%points(1)
             p = edge%pressure_or_gap(k, j - edge%slab%first + 1)
             if (p <= 0.0_dp) cycle

@@ -38,6 +38,7 @@ module wavycon_grid_edge
       real(dp), allocatable :: pressure_or_gap(:, :)
       !> The same at the columns before and after the own ones, shape (M, reach); only of a grid that is distributed.
       real(dp), allocatable, private :: low(:, :), high(:, :)
+      logical, allocatable, private :: touched(:)   !! whether an own column has points in contact
       type(grid_slab) :: slab
       real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 h), h the steps along phi and theta, in these units
       logical :: even = .true.   !! whether the points are those of a quarter
@@ -50,6 +51,8 @@ module wavycon_grid_edge
       procedure :: place
       procedure :: at
       procedure :: column
+      procedure :: may_touch
+      procedure :: marks
       procedure :: fetch_neighbours
    end type grid_edge
 
@@ -84,10 +87,13 @@ contains
       type(grid_slab), intent(in), optional :: slab
       logical, intent(in), optional :: of_cells
 
+      integer :: j
+
       if (present(of_cells)) edge%of_cells = of_cells
       if (edge%of_cells) edge%rule = rule_of_cells
       edge%slab = grid_slab(points=shape(field), width=size(field, 2), last=size(field, 2))
       if (present(slab)) edge%slab = slab
+      edge%touched = [(any(field(:, j) > 0.0_dp), j=1, size(field, 2))]
       call move_alloc(field, edge%pressure_or_gap)
       edge%even = even
       edge%period = merge(2, 1, even)*edge%slab%points
@@ -175,6 +181,29 @@ contains
       values(0) = values(self%place(0, 1))
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
+
+   !> Whether a column has points in contact, as far as that is known: .true. for columns of neighbours.
+   pure logical function may_touch(self, l)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: l   !! as of `at`
+
+      if (self%slab%is_distributed) then
+         may_touch = l < self%slab%first .or. l > self%slab%last
+         if (.not. may_touch) may_touch = self%touched(l - self%slab%first + 1)
+      else
+         may_touch = self%touched(self%place(l, 2))
+      end if
+   end function may_touch
+
+   !> As `column`, 1 at points in contact and 0 at others.
+   pure function marks(self, l)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: l
+      integer :: marks(0:self%slab%points(1) + 1)
+
+      marks = 0
+      if (self%may_touch(l)) marks = merge(1, 0, self%column(l) > 0.0_dp)
+   end function marks
 
    !> The index of the grid's point of which a point of the plane is the image.
    elemental integer function place(self, k, direction)

@@ -36,7 +36,7 @@ contains
       type(grid_slab) :: slab
       type(map_changes) :: changes
       logical :: repeats
-      real(dp) :: extremes(2), largest, length(2)
+      real(dp) :: extremes(2), largest, length(2), mean
 
       slab = map%columns()
       length = sides/slab%points
@@ -60,10 +60,12 @@ contains
       if (sum(extremes) <= 0.0_dp) then
          ! Equal heights less their rounded mean would not be zero.
          map%height = 0.0_dp
+         largest = 0.0_dp
       else
-         map%height = scale*(map%height - slab%sum_of(map%height)/product(real(slab%points, dp)))
+         mean = slab%sum_of(map%height)/product(real(slab%points, dp))
+         map%height = scale*(map%height - mean)
+         largest = scale*maxval(extremes + [-mean, mean])
       end if
-      largest = maxval(slab%extremes(map%height))
       if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
          call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
                           'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
