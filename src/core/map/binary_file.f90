@@ -132,7 +132,7 @@ contains
       character(200) :: message
       integer :: i, status
 
-      ! In one dimension: gfortran reads an array of more by its first columns, here number by number.
+      ! Of one dimension: gfortran reads a matrix column by column, which would be number by number.
       allocate (bytes(self%number_bytes*size(numbers)))
       read (self%unit, pos=start + 1, iostat=status, iomsg=message) bytes
       call self%check(status, message, error)

@@ -68,7 +68,7 @@ contains
       type(map_statistics), intent(inout) :: statistics
 
       real(dp), dimension(size(height, 1), 1) :: behind, next
-      real(dp), dimension(size(height, 1)) :: ahead, bend, here, to_last, to_next
+      real(dp), dimension(size(height, 1)) :: ahead, bend, here, here_squared, to_last, to_next
       real(dp) :: across(2)   ! squares of a step along y: the largest within the map, and that across its border
       real(dp) :: moments(2:4), over_step(2), squares(size(height, 1)), sums(3), x_steps(0:size(height, 1))
       !> Of each column the sums of the squared differences along x and y and of the squared curvature, the squared step
@@ -103,8 +103,9 @@ contains
             squares = squares + x_steps(1:)**2
             parts(1, j) = inner_product(x_steps(1:last), x_steps(1:last))
             parts(4, j) = x_steps(m)**2
-            bend = here**2
-            parts(5:7, j) = [inner_product(here, here), inner_product(bend, here), inner_product(bend, bend)]
+            here_squared = here**2
+            parts(5:7, j) = [inner_product(here, here), inner_product(here_squared, here), &
+                             inner_product(here_squared, here_squared)]
             associate (column => slab%first - 1 + j, y_squares => inner_product(to_next, to_next))
                if (column < n) across(1) = max(across(1), y_squares)
                if (column == n) across(2) = y_squares

@@ -36,7 +36,7 @@ contains
       type(grid_slab) :: slab
       type(map_changes) :: changes
       logical :: repeats
-      real(dp) :: extremes(2), largest, length(2), mean
+      real(dp) :: extremes(2), largest, length(2), mean(1)
 
       slab = map%columns()
       length = sides/slab%points
@@ -62,8 +62,8 @@ contains
          map%height = 0.0_dp
          largest = 0.0_dp
       else
-         mean = slab%sum_of(map%height)/product(real(slab%points, dp))
-         map%height = scale*(map%height - mean)
+         mean = slab%column_totals(reshape(sum(map%height, dim=1), [1, slab%columns()]))/product(real(slab%points, dp))
+         map%height = scale*(map%height - mean(1))
          largest = scale*maxval(extremes + [-mean, mean])
       end if
       if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
