@@ -75,22 +75,12 @@ contains
       first = [k, l] + corner(:, number)
       last = [k, l] + corner(:, number + 1)
       inside = self%in_contact(first(1), first(2))
-      if (inside .neqv. self%in_contact(last(1), last(2))) call cross_side(self, number, first, last, inside, point)
-   end function side
-
-   !> Sets the point of the edge on a side of a cell.
-   pure subroutine cross_side(edge, number, first, last, inside, point)
-      class(contact_edge), intent(in) :: edge
-      integer, intent(in) :: number              !! of the side
-      integer, intent(in) :: first(2), last(2)   !! (k, l) of its ends, of which one is in contact
-      logical, intent(in) :: inside              !! whether that is the first
-      type(edge_point), intent(inout) :: point
-
+      if (inside .eqv. self%in_contact(last(1), last(2))) return
       point%number = number
       point%inner = merge(first, last, inside)
       point%outer = merge(last, first, inside)
-      call edge%place_edge(point)
-   end subroutine cross_side
+      call self%place_edge(point)
+   end function side
 
    !> The area in contact of one cell that the edge crosses [rad^2]: that of the polygon of its corners in contact and
    !> the edge's points on its sides, less what `beside_chord` gives. In a cell that the edge enters twice the two parts
@@ -100,32 +90,26 @@ contains
       integer, intent(in) :: k, l
 
       type(edge_point) :: points(9)
-      integer :: ends(2, 5), number, count, i, next
-      logical :: inside(5)
+      integer :: number, count, i, next
       real(dp) :: origin(2)
 
-      do i = 1, 4
-         ends(:, i) = [k, l] + corner(:, i)
-         inside(i) = self%in_contact(ends(1, i), ends(2, i))
-      end do
-      ends(:, 5) = ends(:, 1)
-      inside(5) = inside(1)
       count = 0
       do number = 1, 4
-         if (inside(number)) then
-            count = count + 1
-            points(count)%angle = self%angles(real(ends(:, number), dp))
-         end if
-         if (inside(number) .eqv. inside(number + 1)) cycle
-         count = count + 1
-         call cross_side(self, number, ends(:, number), ends(:, number + 1), inside(number), points(count))
+         associate (first => [k, l] + corner(:, number))
+            if (self%in_contact(first(1), first(2))) then
+               count = count + 1
+               points(count) = edge_point(angle=self%angles(real(first, dp)))
+            end if
+         end associate
+         points(count + 1) = self%side(k, l, number)
+         if (points(count + 1)%number > 0) count = count + 1
       end do
 
       ! From the corner of the cell: products of angles of the whole plane would lose digits.
       origin = self%angles(real([k, l], dp))
       area = 0.0_dp
       do i = 1, count
-         next = merge(1, i + 1, i == count)
+         next = mod(i, count) + 1
          area = area + 0.5_dp*cross(points(i)%angle - origin, points(next)%angle - origin)
          ! No corner in contact lies between two points of the edge where the boundary of the cell leaves the contact.
          if (points(i)%number > 0 .and. points(next)%number > 0) &

@@ -182,17 +182,13 @@ contains
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
 
-   !> Whether a column has points in contact, as far as that is known: .true. for columns of neighbours.
+   !> Whether a column has points in contact; .true. if the grid is distributed, where neighbours have some columns.
    pure logical function may_touch(self, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: l   !! as of `at`
 
-      if (self%slab%is_distributed) then
-         may_touch = l < self%slab%first .or. l > self%slab%last
-         if (.not. may_touch) may_touch = self%touched(l - self%slab%first + 1)
-      else
-         may_touch = self%touched(self%place(l, 2))
-      end if
+      may_touch = self%slab%is_distributed
+      if (.not. may_touch) may_touch = self%touched(self%place(l, 2))
    end function may_touch
 
    !> As `column`, 1 at points in contact and 0 at others.
