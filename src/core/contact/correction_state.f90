@@ -12,7 +12,7 @@ module wavycon_correction_state
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
    use wavycon_lapack, only: sdot
-   use wavycon_pressure_load, only: set_load, sum_of_field
+   use wavycon_pressure_load, only: set_load
    implicit none (type, external)
    private
 
@@ -261,7 +261,7 @@ contains
 
       allocate (at_hardness(self%region%points), source=.false._c_bool)
       if (allocated(self%room)) at_hardness = self%room <= self%change
-      load = sum_of_field(grid%slab, grid%pressure)
+      load = grid%slab%sum_of(grid%pressure)
       call self%region%correct(self%change, self%contact, at_hardness, self%scale, grid%hardness, grid%pressure)
       call set_load(grid%slab, grid%pressure, load, grid%hardness)
    end subroutine add_to

@@ -196,13 +196,13 @@ contains
       type(contact_solution), intent(inout) :: solution
 
       integer :: inner(2)
-      real(dp) :: opposite(1)
+      real(dp) :: extremes(2)
 
       associate (p => edge%pressure_or_gap, points => edge%slab%points)
          solution%active_constraints = edge%slab%total_count(count(p <= 0.0_dp, kind=int64) &
                                                              + count(p >= surface%hardness, kind=int64))
-         opposite = edge%slab%largest([-minval(p)])
-         solution%value(min_pressure) = max(-opposite(1), 0.0_dp)
+         extremes = edge%slab%extremes(p)
+         solution%value(min_pressure) = max(-extremes(2), 0.0_dp)
          if (surface%is_height_map() .and. solution%value(contact_area) <= largest_spot) &
             solution%value(concentrated_load) = load_concentration(edge)
          if (.not. surface%has_free_edges) return

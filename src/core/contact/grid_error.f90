@@ -106,13 +106,10 @@ contains
 
       m = edge%slab%points(1)
       openings = 0
-      if (edge%slab%columns() > 0) then
-         here = edge%column(edge%slab%first - 1)
-         next = edge%column(edge%slab%first)
-      end if
       do j = edge%slab%first, edge%slab%last
-         before = here
-         here = next
+         if (.not. edge%may_touch(j)) cycle
+         before = edge%column(j - 1)
+         here = edge%column(j)
          next = edge%column(j + 1)
          associate (points => here(1:m), back => here(:m - 1), ahead => here(2:))
             openings = openings + count(points > 0.0_dp .and. min(back, ahead, before(1:m), next(1:m)) >= points .and. &

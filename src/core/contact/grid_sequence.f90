@@ -8,7 +8,7 @@ module wavycon_grid_sequence
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
-   use wavycon_grid_edge, only: grid_edge, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   use wavycon_grid_edge, only: grid_edge, join, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory, grid_plan, plan_grids
@@ -16,7 +16,7 @@ module wavycon_grid_sequence
    use wavycon_grid_solver, only: solve_on_grid
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
-   use wavycon_pressure_load, only: has_points_at, set_load, sum_of_field
+   use wavycon_pressure_load, only: has_points_at, set_load
    use wavycon_quantities, only: approach, area_at_hardness, contact_area, contact_area_corrected, &
       contact_area_counted, elastic_energy, is_known, known_errors, main_quantities, mean_gap, &
       peak_pressure, quantities, scaled, unknown
@@ -150,7 +150,7 @@ contains
          allocate (h(slab%points(1), slab%columns()))
          call surface%sample_gap(slab, h)
          load = mean_pressure*product(real(slab%points, dp))
-         carried = sum_of_field(slab, pressure)
+         carried = slab%sum_of(pressure)
          if (carried > 0.0_dp) then
             pressure = pressure*(load/carried)
          else
@@ -200,11 +200,10 @@ contains
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure
       real(dp), intent(in) :: h(:, :)    !! undeformed gap [Delta], of the columns of answer%state%gap
-      logical, intent(in) :: estimated   !! whether the errors are wanted
+      logical, intent(in) :: estimated   !! whether this may be the last grid: errors are wanted
       type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area, bend, capped_errors(3), errors(3)
-      integer :: j
       logical :: has_corners
       type(grid_edge) :: astray, capped
 
@@ -216,9 +215,7 @@ contains
       if (surface%has_hardness()) call start_grid_edge( &
          capped, surface%hardness - answer%state%pressure, -answer%state%gap, surface%shape%is_even(), &
          pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, surface%has_free_edges)
-      do j = 1, size(answer%state%gap, 2)
-         answer%state%gap(:, j) = joined(answer%state%pressure(:, j), answer%state%gap(:, j))
-      end do
+      call join(answer%state%pressure, answer%state%gap)
       call make_grid_edge(answer%edge, answer%state%gap, surface%shape%is_even(), &
                           pressure_per_gap(surface, answer%state%slab%points), answer%state%slab, &
                           surface%has_free_edges)
@@ -228,7 +225,8 @@ contains
       ! At a step the pressure next to it does not say where the contact ends: it ends with the block.
       if (surface%has_steps) area = answer%value(contact_area_counted)
       answer%value(contact_area) = area
-      if (surface%dimension == 2) answer%value(contact_area_corrected) = corrected_area_fraction(answer%edge)
+      if (surface%dimension == 2 .and. estimated) &
+         answer%value(contact_area_corrected) = corrected_area_fraction(answer%edge)
       call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend)
       if (answer%value(peak_pressure) >= surface%hardness) bend = 0.0_dp
       answer%value(peak_pressure) = min(answer%value(peak_pressure), surface%hardness)

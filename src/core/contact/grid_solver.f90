@@ -17,7 +17,7 @@ module wavycon_grid_solver
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
    use wavycon_pressure_correction, only: correct_pressure
-   use wavycon_pressure_load, only: has_points_at, sum_of_field
+   use wavycon_pressure_load, only: has_points_at
    use wavycon_solver_progress, only: solver_progress
    use wavycon_threads, only: threads_for
    implicit none (type, external)
@@ -60,7 +60,7 @@ contains
             allowed = edge_tolerance*gap_at_edge(half_space%even, state, touched)
             if (half_space%is_free) then
                ! The approach, times the square root of the part of all points that are in contact (C28).
-               touching = sum_of_field(state%slab, merge(1.0_dp, 0.0_dp, state%pressure > 0.0_dp))
+               touching = state%slab%sum_of(merge(1.0_dp, 0.0_dp, state%pressure > 0.0_dp))
                allowed = min(allowed, approach_tolerance*abs(state%approach) &
                                       *sqrt(touching/product(real(state%slab%points, dp))))
             end if
@@ -198,25 +198,57 @@ contains
       type(grid_state), intent(in) :: state
       logical, intent(in) :: touched(:)
 
-      real(dp) :: parts(3, size(touched)), sums(3)
-      real(sp), allocatable :: near(:, :)
-      integer :: j
+      real(dp), dimension(0:size(state%gap, 1) + 1) :: before, here, next   ! 1 at the free points of a column, else 0
+      real(dp), dimension(size(state%gap, 1), 1) :: high, low
+      real(dp) :: beside, free, number, parts(3, size(touched)), squares, sums(3)
+      integer :: i, j, n
 
-      allocate (near(size(state%gap, 1), size(state%gap, 2)))
-      do j = 1, size(near, 2)
-         near(:, j) = 0.0_sp
-         if (touched(j)) near(:, j) = merge(1.0_sp, 0.0_sp, is_free(state%pressure(:, j), state%hardness))
-      end do
-      call add_neighbours(state%slab, even, near)
-      do j = 1, size(near, 2)
-         associate (free => is_free(state%pressure(:, j), state%hardness))
-            associate (beside => near(:, j) > 0.0_sp .and. .not. free)
-               parts(:, j) = [sum(state%gap(:, j)**2, beside), real(count(beside), dp), real(count(free), dp)]
-            end associate
-         end associate
+      n = size(touched)
+      low = 0.0_dp
+      high = 0.0_dp
+      if (state%slab%points(2) > 1) call state%slab%halo(state%pressure, even, low, high)
+      parts = 0.0_dp
+      here = marked(low(:, 1))
+      if (n > 0) next = marked(state%pressure(:, 1))
+      do j = 1, n
+         before = here
+         here = next
+         next = 0.0_dp
+         if (j == n) then
+            next = marked(high(:, 1))
+         else if (touched(j + 1)) then
+            next = marked(state%pressure(:, j + 1))
+         end if
+         if (j > 1 .and. j < n .and. .not. any(touched(max(j - 1, 1):min(j + 1, n)))) cycle
+         squares = 0.0_dp
+         number = 0.0_dp
+         free = 0.0_dp
+         !$omp simd reduction(+:free, number, squares) private(beside)
+         do i = 1, size(state%gap, 1)
+            beside = (1.0_dp - here(i))*max(here(i - 1), here(i + 1), before(i), next(i))
+            squares = squares + beside*state%gap(i, j)**2
+            number = number + beside
+            free = free + here(i)
+         end do
+         parts(:, j) = [squares, number, free]
       end do
       sums = state%slab%column_totals(parts)
       gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
+
+   contains
+
+      !> 1 at the free points of a column, 0 at the others, with the images before and behind.
+      pure function marked(pressure)
+         real(dp), intent(in) :: pressure(:)
+         real(dp) :: marked(0:size(pressure) + 1)
+
+         associate (m => size(pressure))
+            marked(1:m) = merge(1.0_dp, 0.0_dp, is_free(pressure, state%hardness))
+            marked(0) = marked(merge(1, m, even))
+            marked(m + 1) = marked(merge(m, 1, even))
+         end associate
+      end function marked
+
    end function gap_at_edge
 
    !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign or is

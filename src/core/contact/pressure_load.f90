@@ -6,7 +6,7 @@ module wavycon_pressure_load
    implicit none (type, external)
    private
 
-   public :: bounded_shift, has_points_at, set_load, sum_of_field
+   public :: bounded_shift, has_points_at, set_load
 
 contains
 
@@ -24,13 +24,13 @@ contains
       integer :: first(slab%strips() + 1), s
 
       if (.not. has_points_at(slab, hardness, pressure)) then
-         pressure = pressure*(load/sum_of_field(slab, pressure))
+         pressure = pressure*(load/slab%sum_of(pressure))
          if (.not. has_points_at(slab, hardness, pressure)) return
       end if
       pressure = min(pressure, hardness)
-      lack = load - sum_of_field(slab, pressure)
+      lack = load - slab%sum_of(pressure)
       allocate (changes, source=pressure > 0.0_dp .and. pressure < hardness)
-      room = sum_of_field(slab, merge(merge(hardness - pressure, pressure, lack > 0.0_dp), 0.0_dp, changes))
+      room = slab%sum_of(merge(merge(hardness - pressure, pressure, lack > 0.0_dp), 0.0_dp, changes))
       if (abs(lack) >= room) changes = .true.
       do s = 1, slab%strips() + 1
          first(s) = 1 + size(pressure, 1)*min((s - 1)*strip_columns, size(pressure, 2))
@@ -45,12 +45,12 @@ contains
       type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: hardness, pressure(:, :)
 
-      real(dp) :: largest(1)
+      real(dp) :: extremes(2)
 
       has_points_at = hardness < huge(hardness)
       if (.not. has_points_at) return
-      largest = slab%largest([maxval(pressure)])
-      has_points_at = largest(1) >= hardness
+      extremes = slab%extremes(pressure)
+      has_points_at = extremes(1) >= hardness
    end function has_points_at
 
    !> The shift s for which the sum of min(max(s, -above), below) is a given one: the sum grows with s, in straight
@@ -89,26 +89,5 @@ contains
          shift = next
       end do
    end function bounded_shift
-
-   !> Sum of a field over the grid.
-   real(dp) function sum_of_field(slab, field) result(total)
-      type(grid_slab), intent(in) :: slab
-      real(dp), intent(in) :: field(:, :)     !! shape (M, slab%columns())
-
-      real(dp) :: parts(1, size(field, 2)), totals(1)
-      real(dp) :: column
-      integer :: i, j
-
-      do j = 1, size(field, 2)
-         column = 0.0_dp
-         !$omp simd reduction(+:column)
-         do i = 1, size(field, 1)
-            column = column + field(i, j)
-         end do
-         parts(1, j) = column
-      end do
-      totals = slab%column_totals(parts)
-      total = totals(1)
-   end function sum_of_field
 
 end module wavycon_pressure_load

@@ -48,6 +48,8 @@ module wavycon_grid_slab
       procedure :: total
       procedure :: total_count
       procedure :: largest
+      procedure :: sum_of
+      procedure :: extremes
       procedure :: find_largest
       !> Whether something is true on any rank at work, also if each has the whole grid.
       procedure, nopass :: any => any_rank
@@ -231,6 +233,49 @@ contains
       largest = values
       if (self%is_distributed) call largest_over_ranks(largest)
    end function largest
+
+   !> Sum of a field over the grid.
+   real(dp) function sum_of(self, field) result(total)
+      class(grid_slab), intent(in) :: self
+      real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns())
+
+      real(dp) :: parts(1, size(field, 2)), totals(1)
+      real(dp) :: column
+      integer :: i, j
+
+      do j = 1, size(field, 2)
+         column = 0.0_dp
+         !$omp simd reduction(+:column)
+         do i = 1, size(field, 1)
+            column = column + field(i, j)
+         end do
+         parts(1, j) = column
+      end do
+      totals = self%column_totals(parts)
+      total = totals(1)
+   end function sum_of
+
+   !> The largest number of a field and minus the least one, over the whole grid.
+   function extremes(self, field)
+      class(grid_slab), intent(in) :: self
+      real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns()), without NaN
+      real(dp) :: extremes(2)
+
+      real(dp) :: highest, lowest
+      integer :: i, j
+
+      ! Intrinsic functions look for NaN, and take twice as long on 1024 x 1024 points.
+      highest = -huge(highest)
+      lowest = huge(lowest)
+      do j = 1, size(field, 2)
+         !$omp simd reduction(max:highest) reduction(min:lowest)
+         do i = 1, size(field, 1)
+            highest = max(highest, field(i, j))
+            lowest = min(lowest, field(i, j))
+         end do
+      end do
+      extremes = self%largest([highest, -lowest])
+   end function extremes
 
    !> The largest number of a field and the first of the points that have it, over the whole grid.
    subroutine find_largest(self, field, value, point)

@@ -128,15 +128,20 @@ contains
       real(dp), intent(out) :: numbers(:)
       type(error_type), allocatable, intent(out) :: error
 
-      integer(int8), allocatable :: bytes(:, :)   ! of each number, in the order of this machine
+      integer(int8), allocatable :: bytes(:)   ! in the order of this machine
       character(200) :: message
-      integer :: status
+      integer :: i, status
 
-      allocate (bytes(self%number_bytes, size(numbers)))
+      ! Of one dimension: gfortran reads a matrix column by column, which would be number by number.
+      allocate (bytes(self%number_bytes*size(numbers)))
       read (self%unit, pos=start + 1, iostat=status, iomsg=message) bytes
       call self%check(status, message, error)
       if (allocated(error)) return
-      if (self%big_end_first .eqv. transfer(1_int32, 1_int8) == 1_int8) bytes = bytes(self%number_bytes:1:-1, :)
+      if (self%big_end_first .eqv. transfer(1_int32, 1_int8) == 1_int8) then
+         do i = 1, size(bytes), self%number_bytes
+            bytes(i:i + self%number_bytes - 1) = bytes(i + self%number_bytes - 1:i:-1)
+         end do
+      end if
       if (self%number_bytes == 4) then
          numbers = real(transfer(bytes, 0.0_sp, size(numbers)), dp)
       else

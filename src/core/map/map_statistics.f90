@@ -44,33 +44,22 @@ contains
       logical, intent(in) :: repeats         !! whether opposite borders are neighbours
 
       type(grid_slab) :: slab
-      real(dp) :: column(size(height, 1)), extremes(2), moments(2:4), parts(3, size(height, 2)), unit
-      integer :: j
+      real(dp) :: extremes(2), unit
 
       statistics%points = points
       statistics%format = format
       statistics%path = ''
       statistics%assumed_sides = ''
       call slab%start(points)
-      extremes = slab%largest([-minval(height), maxval(height)])
-      statistics%lowest = -extremes(1)
-      statistics%highest = extremes(2)
-      ! Powers of heights over the largest one do not overflow.
+      extremes = slab%extremes(height)
+      statistics%lowest = -extremes(2)
+      statistics%highest = extremes(1)
       unit = maxval(extremes)
-      if (.not. unit > 0.0_dp) return
-      do j = 1, size(height, 2)
-         column = height(:, j)/unit
-         parts(:, j) = [sum(column**2), sum(column**3), sum(column**4)]
-      end do
-      moments = slab%column_totals(parts)/product(real(points, dp))
-      statistics%rms = unit*sqrt(moments(2))
-      statistics%skewness = moments(3)/(moments(2)*sqrt(moments(2)))
-      statistics%kurtosis = moments(4)/moments(2)**2
-      call take_steps(slab, height, unit, step, repeats, statistics)
+      if (unit > 0.0_dp) call take_sums(slab, height, unit, step, repeats, statistics)
    end function statistics_of
 
-   !> Finds the steps between neighbours, and slope and curvature by them.
-   subroutine take_steps(slab, height, unit, step, repeats, statistics)
+   !> Finds the moments of the heights, the steps between neighbours, and slope and curvature by these.
+   subroutine take_sums(slab, height, unit, step, repeats, statistics)
       type(grid_slab), intent(in) :: slab
       real(dp), intent(in) :: height(:, :)                  !! own columns [length]
       real(dp), intent(in) :: unit                          !! the largest size of all heights, > 0 [length]
@@ -79,18 +68,19 @@ contains
       type(map_statistics), intent(inout) :: statistics
 
       real(dp), dimension(size(height, 1), 1) :: behind, next
-      real(dp), dimension(size(height, 1)) :: bend, here, to_last, to_next, x_steps
+      real(dp), dimension(size(height, 1)) :: ahead, bend, here, here_squared, to_last, to_next
       real(dp) :: across(2)   ! squares of a step along y: the largest within the map, and that across its border
-      real(dp) :: over_step(2), squares(size(height, 1)), sums(3)
-      !> Of each column the mean squares of the differences along x and y and of the curvature, and the squared step
-      !> from the last point along x to the first.
-      real(dp) :: parts(4, size(height, 2)), totals(4)
+      real(dp) :: moments(2:4), over_step(2), squares(size(height, 1)), sums(3), x_steps(0:size(height, 1))
+      !> Of each column the sums of the squared differences along x and y and of the squared curvature, the squared step
+      !> from the last point along x to the first, and the sums of the second to fourth powers of the heights.
+      real(dp) :: parts(7, size(height, 2)), totals(7)
       integer :: first, j, last
 
       ! Powers of heights over the largest one and of steps over the least do not overflow.
       over_step = minval(step)/step
       call slab%halo(height, .false., behind, next)
-      to_next = (height(:, 1) - behind(:, 1))/unit
+      ahead = height(:, 1)/unit
+      to_next = ahead - behind(:, 1)/unit
       squares = 0.0_dp
       across = 0.0_dp
       parts = 0.0_dp
@@ -99,37 +89,60 @@ contains
          last = merge(m, m - 1, repeats)
          sums = merge([m*n, m*n, m*n], [(m - 1)*n, m*(n - 1), (m - 2)*max(n - 2, 1)], repeats)
          do j = 1, size(height, 2)
-            here = height(:, j)/unit
+            here = ahead
             to_last = to_next
             if (j < size(height, 2)) then
-               to_next = height(:, j + 1)/unit - here
+               ahead = height(:, j + 1)/unit
             else
-               to_next = next(:, 1)/unit - here
+               ahead = next(:, 1)/unit
             end if
-            x_steps = cshift(here, 1) - here
-            squares = squares + x_steps**2
+            to_next = ahead - here
+            x_steps(1:m - 1) = here(2:) - here(:m - 1)
+            x_steps(m) = here(1) - here(m)
+            x_steps(0) = x_steps(m)
+            squares = squares + x_steps(1:)**2
+            parts(1, j) = inner_product(x_steps(1:last), x_steps(1:last))
             parts(4, j) = x_steps(m)**2
-            associate (column => slab%first - 1 + j)
-               if (column < n) across(1) = max(across(1), sum(to_next**2))
-               if (column == n) across(2) = sum(to_next**2)
-               parts(1, j) = sum((over_step(1)*x_steps(:last))**2)
-               if (column < n .or. repeats) parts(2, j) = sum((over_step(2)*to_next)**2)
+            here_squared = here**2
+            parts(5:7, j) = [inner_product(here, here), inner_product(here_squared, here), &
+                             inner_product(here_squared, here_squared)]
+            associate (column => slab%first - 1 + j, y_squares => inner_product(to_next, to_next))
+               if (column < n) across(1) = max(across(1), y_squares)
+               if (column == n) across(2) = y_squares
+               if (column < n .or. repeats) parts(2, j) = y_squares
                if (n > 1 .and. .not. repeats .and. any(column == [1, n])) cycle
             end associate
-            bend = over_step(1)**2*(x_steps - cshift(x_steps, -1))
+            bend = over_step(1)**2*(x_steps(1:) - x_steps(:m - 1))
             if (n > 1) bend = 0.5_dp*(bend + over_step(2)**2*(to_next - to_last))
-            parts(3, j) = sum(bend(first:last)**2)
+            parts(3, j) = inner_product(bend(first:last), bend(first:last))
          end do
          squares = slab%total(squares)
          across = slab%largest(across)
          totals = slab%column_totals(parts)
          statistics%largest_step = unit*sqrt([maxval(squares(:m - 1))/n, across(1)/m])
          statistics%border_step = unit*sqrt([totals(4)/n, across(2)/m])
+         moments = totals(5:)/(real(m, dp)*n)
       end associate
+      statistics%rms = unit*sqrt(moments(2))
+      statistics%skewness = moments(3)/(moments(2)*sqrt(moments(2)))
+      statistics%kurtosis = moments(4)/moments(2)**2
       totals(:3) = totals(:3)/max(sums, 1.0_dp)
-      statistics%slope_by_differences = unit/minval(step)*sqrt(totals(1) + totals(2))
+      statistics%slope_by_differences = unit/minval(step)*norm2(over_step*sqrt(totals(:2)))
       statistics%curvature_by_differences = unit/minval(step)**2*sqrt(totals(3))
-   end subroutine take_steps
+   end subroutine take_sums
+
+   !> The sum of products of two vectors, several at a time.
+   pure real(dp) function inner_product(a, b) result(total)
+      real(dp), intent(in), contiguous :: a(:), b(:)
+
+      integer :: i
+
+      total = 0.0_dp
+      !$omp simd reduction(+:total)
+      do i = 1, size(a)
+         total = total + a(i)*b(i)
+      end do
+   end function inner_product
 
    !> Whether the steps across the border are much larger than those across any line inside: in a periodic map they are
    !> like the others, in a tilted or cut patch as large as its heights. A mirrored map has none.

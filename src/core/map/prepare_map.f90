@@ -62,11 +62,11 @@ contains
       logical :: is_determined
       integer :: degree
       type(grid_slab) :: slab
-      real(dp) :: extremes(2), largest(1), step(2)
+      real(dp) :: extremes(2), largest, step(2)
 
       changes%map_preparation = preparation
       slab = map%columns()
-      largest = slab%largest([maxval(abs(map%height))])
+      largest = maxval(slab%extremes(map%height))
       step = length/slab%points
       if (preparation%crop_missing) call crop(map, changes%cropped_from)
       slab = map%columns()
@@ -87,7 +87,7 @@ contains
                              "determine detrend = '"//trim(preparation%detrend)//"': give detrend = 'mean'")
             return
          end if
-         where (abs(changes%rise) <= rounding*largest(1)) changes%rise = 0.0_dp
+         where (abs(changes%rise) <= rounding*largest) changes%rise = 0.0_dp
       end if
       if (changes%filled > 0) then
          call fill_holes(source, step, preparation%edges == 'periodic', map, error)
@@ -95,8 +95,8 @@ contains
       end if
       if (preparation%edges == 'window') call taper_borders(preparation%window_width, slab, map%height, changes%tapered)
       if (degree < 0 .and. changes%filled == 0 .and. preparation%edges /= 'window') return
-      extremes = slab%largest([maxval(map%height), -minval(map%height)])
-      if (sum(extremes) <= rounding*largest(1)) map%height = 0.0_dp
+      extremes = slab%extremes(map%height)
+      if (sum(extremes) <= rounding*largest) map%height = 0.0_dp
    end subroutine prepare_map
 
    !> Cuts off rows and columns at the border of a map in which all heights are missing.

@@ -91,6 +91,7 @@ contains
 
       type(edge_point) :: points(9)
       integer :: number, count, i, next
+      real(dp) :: origin(2)
 
       count = 0
       do number = 1, 4
@@ -104,10 +105,12 @@ contains
          if (points(count + 1)%number > 0) count = count + 1
       end do
 
+      ! From the corner of the cell: products of angles of the whole plane would lose digits.
+      origin = self%angles(real([k, l], dp))
       area = 0.0_dp
       do i = 1, count
          next = mod(i, count) + 1
-         area = area + 0.5_dp*cross(points(i)%angle, points(next)%angle)
+         area = area + 0.5_dp*cross(points(i)%angle - origin, points(next)%angle - origin)
          ! No corner in contact lies between two points of the edge where the boundary of the cell leaves the contact.
          if (points(i)%number > 0 .and. points(next)%number > 0) &
             area = area - self%beside_chord(points(i), points(next))

@@ -26,7 +26,8 @@ contains
       type(grid_edge), intent(in) :: edge
 
       real(dp), allocatable :: areas(:, :), edges(:)
-      integer :: j
+      integer, dimension(0:edge%slab%points(1) + 1) :: here, next   ! 1 at points in contact, else 0
+      integer :: first, j, m
 
       if (edge%slab%points(2) == 1) then
          call grid_strip_edges(edge, edges)
@@ -34,40 +35,42 @@ contains
          return
       end if
 
-      allocate (areas(1, edge%slab%columns()))
-      do j = edge%slab%first, edge%slab%last
-         areas(1, j - edge%slab%first + 1) = area_of_cells(edge, j)
-      end do
+      m = edge%slab%points(1)
+      allocate (areas(1, edge%slab%columns()), source=0.0_dp)
       ! The mirror line divides the cells at the rim of the quarter.
-      if (edge%even .and. edge%slab%first == 1 .and. edge%slab%columns() > 0) &
-         areas(1, 1) = areas(1, 1) + area_of_cells(edge, 0)
+      first = merge(0, edge%slab%first, edge%even .and. edge%slab%first == 1)
+      if (size(areas) > 0) next = edge%marks(first)
+      do j = first, edge%slab%last
+         here = next
+         next = edge%marks(j + 1)
+         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
+         associate (area => areas(1, max(j - edge%slab%first + 1, 1)))
+            area = area + area_of_cells(edge, j, here(:m) + here(1:) + next(:m) + next(1:))
+         end associate
+      end do
       fraction = max(sum(edge%slab%column_totals(areas)), 0.0_dp)/product(real(edge%slab%points, dp))
    end function grid_contact_area
 
    !> The area in contact of a column of cells [cells], by (C12).
-   pure real(dp) function area_of_cells(edge, l) result(area)
+   pure real(dp) function area_of_cells(edge, l, corners) result(area)
       type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: l   !! the column of points before
+      integer, intent(in) :: l             !! the column of points before
+      integer, intent(in) :: corners(0:)   !! of each cell that are in contact, from the cell before the first point
 
-      logical :: high(0:edge%slab%points(1) + 1), low(0:edge%slab%points(1) + 1)
-      real(dp) :: share
+      real(dp) :: of_cell
       integer :: i, m
 
       m = edge%slab%points(1)
-      low = edge%column(l) > 0.0_dp
-      high = edge%column(l + 1) > 0.0_dp
       area = 0.0_dp
-      if (.not. any(low) .and. .not. any(high)) return
       do i = merge(0, 1, edge%even), m
+         if (corners(i) == 0) cycle
+         of_cell = 1.0_dp
+         if (corners(i) < 4) of_cell = edge%cell_area(i, l)/product(edge%step)
          ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
-         share = merge(0.5_dp, 1.0_dp, edge%even .and. (i == 0 .or. i == m)) &
-                 *merge(0.5_dp, 1.0_dp, edge%even .and. (l == 0 .or. l == edge%slab%points(2)))
-         if (all([low(i:i + 1), high(i:i + 1)])) then
-            area = area + share
-         else if (any([low(i:i + 1), high(i:i + 1)])) then
-            area = area + share*edge%cell_area(i, l)/product(edge%step)
-         end if
+         if (edge%even .and. (i == 0 .or. i == m)) of_cell = 0.5_dp*of_cell
+         area = area + of_cell
       end do
+      if (edge%even .and. (l == 0 .or. l == edge%slab%points(2))) area = 0.5_dp*area
    end function area_of_cells
 
    !> The edges of contact in 1-D, ascending [rad]: between 0 and pi of an even surface, otherwise within a period from
@@ -102,8 +105,14 @@ contains
    real(dp) function counted_area_fraction(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 
-      fraction = edge%slab%total_count(count(edge%pressure_or_gap > 0.0_dp, kind=int64)) &
-                 /product(real(edge%slab%points, dp))
+      integer(int64) :: own
+      integer :: j
+
+      own = 0
+      do j = 1, edge%slab%columns()
+         if (edge%may_touch(edge%slab%first - 1 + j)) own = own + count(edge%pressure_or_gap(:, j) > 0.0_dp)
+      end do
+      fraction = edge%slab%total_count(own)/product(real(edge%slab%points, dp))
    end function counted_area_fraction
 
    !> The counted area less c_p for each change from contact to gap (C26).
@@ -119,16 +128,17 @@ contains
    integer(int64) function edge_crossings(edge) result(crossings)
       type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
 
-      logical :: here(0:edge%slab%points(1) + 1), next(0:edge%slab%points(1) + 1)
+      integer, dimension(0:edge%slab%points(1) + 1) :: here, next
       integer :: j, m
 
       m = edge%slab%points(1)
       crossings = 0
-      if (edge%slab%columns() > 0) next = edge%column(edge%slab%first) > 0.0_dp
+      if (edge%slab%columns() > 0) next = edge%marks(edge%slab%first)
       do j = edge%slab%first, edge%slab%last
          here = next
-         next = edge%column(j + 1) > 0.0_dp
-         crossings = crossings + count(here(1:m) .neqv. here(2:)) + count(here(1:m) .neqv. next(1:m))
+         next = edge%marks(j + 1)
+         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
+         crossings = crossings + sum(abs(here(1:m) - here(2:))) + sum(abs(here(1:m) - next(1:m)))
       end do
       crossings = edge%slab%total_count(crossings)
    end function edge_crossings
@@ -143,6 +153,7 @@ contains
 
       sums = 0.0_dp
       do j = edge%slab%first, edge%slab%last
+         if (.not. edge%may_touch(j)) cycle
          do k = 1, edge%slab%points(1)
             p = edge%pressure_or_gap(k, j - edge%slab%first + 1)
             if (p <= 0.0_dp) cycle

@@ -17,7 +17,7 @@ module wavycon_grid_edge
    implicit none (type, external)
    private
 
-   public :: edge_rule, grid_edge, balance, joined, make_grid_edge, pressure_per_gap, start_grid_edge
+   public :: edge_rule, grid_edge, balance, join, make_grid_edge, pressure_per_gap, start_grid_edge
 
    !> Constants of (C11), (C12), which depend on the kernel of the half-space. The defaults are those of waves.
    type :: edge_rule
@@ -38,6 +38,7 @@ module wavycon_grid_edge
       real(dp), allocatable :: pressure_or_gap(:, :)
       !> The same at the columns before and after the own ones, shape (M, reach); only of a grid that is distributed.
       real(dp), allocatable, private :: low(:, :), high(:, :)
+      logical, allocatable, private :: touched(:)   !! whether an own column has points in contact
       type(grid_slab) :: slab
       real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 l), l the steps along phi and theta, in these units
       logical :: even = .true.   !! whether the points are those of a quarter
@@ -50,6 +51,8 @@ module wavycon_grid_edge
       procedure :: place
       procedure :: at
       procedure :: column
+      procedure :: may_touch
+      procedure :: marks
       procedure :: fetch_neighbours
    end type grid_edge
 
@@ -70,7 +73,8 @@ contains
 
       real(dp), allocatable :: field(:, :)
 
-      field = joined(pressure, gap)
+      allocate (field, source=gap)
+      call join(pressure, field)
       call make_grid_edge(edge, field, even, stiffness, slab, of_cells)
    end subroutine start_grid_edge
 
@@ -83,10 +87,13 @@ contains
       type(grid_slab), intent(in), optional :: slab
       logical, intent(in), optional :: of_cells
 
+      integer :: j
+
       if (present(of_cells)) edge%of_cells = of_cells
       if (edge%of_cells) edge%rule = rule_of_cells
       edge%slab = grid_slab(points=shape(field), width=size(field, 2), last=size(field, 2))
       if (present(slab)) edge%slab = slab
+      edge%touched = [(any(field(:, j) > 0.0_dp), j=1, size(field, 2))]
       call move_alloc(field, edge%pressure_or_gap)
       edge%even = even
       edge%period = merge(2, 1, even)*edge%slab%points
@@ -95,13 +102,14 @@ contains
       if (present(stiffness)) edge%stiffness = stiffness
    end subroutine make_grid_edge
 
-   !> Pressure and gap of a point in one number.
-   elemental real(dp) function joined(pressure, gap)
-      real(dp), intent(in) :: pressure, gap
+   !> Puts pressure and gap into one field.
+   pure subroutine join(pressure, gap)
+      real(dp), intent(in) :: pressure(:, :)
+      real(dp), intent(inout) :: gap(:, :)   !! then as edge%pressure_or_gap
 
       ! Overlaps by rounding are no pressures: the pressures of the lightest loads are as small.
-      joined = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
-   end function joined
+      gap = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
+   end subroutine join
 
    !> Gets the columns of the neighbours, if the grid is distributed.
    subroutine fetch_neighbours(self)
@@ -138,15 +146,16 @@ contains
 
       integer :: row
 
-      row = self%place(k, 1)
-      if (.not. self%slab%is_distributed) then
+      row = k
+      if (k < 1 .or. k > self%slab%points(1)) row = self%place(k, 1)
+      if (l >= self%slab%first .and. l <= self%slab%last) then
+         at = self%pressure_or_gap(row, l - self%slab%first + 1)
+      else if (.not. self%slab%is_distributed) then
          at = self%pressure_or_gap(row, self%place(l, 2))
       else if (l < self%slab%first) then
          at = self%low(row, reach + 1 - (self%slab%first - l))
-      else if (l > self%slab%last) then
-         at = self%high(row, l - self%slab%last)
       else
-         at = self%pressure_or_gap(row, l - self%slab%first + 1)
+         at = self%high(row, l - self%slab%last)
       end if
    end function at
 
@@ -172,6 +181,25 @@ contains
       values(0) = values(self%place(0, 1))
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
+
+   !> Whether a column has points in contact; .true. if the grid is distributed, where neighbours have some columns.
+   pure logical function may_touch(self, l)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: l   !! as of `at`
+
+      may_touch = self%slab%is_distributed
+      if (.not. may_touch) may_touch = self%touched(self%place(l, 2))
+   end function may_touch
+
+   !> As `column`, 1 at points in contact and 0 at others.
+   pure function marks(self, l)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: l
+      integer :: marks(0:self%slab%points(1) + 1)
+
+      marks = 0
+      if (self%may_touch(l)) marks = merge(1, 0, self%column(l) > 0.0_dp)
+   end function marks
 
    !> The index of the grid's point of which a point of the plane is the image.
    elemental integer function place(self, k, direction)

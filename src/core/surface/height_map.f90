@@ -36,13 +36,13 @@ contains
       type(grid_slab) :: slab
       type(map_changes) :: changes
       logical :: repeats
-      real(dp) :: extremes(2), largest(1), length(2), mean(1)
+      real(dp) :: extremes(2), largest, length(2), mean(1)
 
       slab = map%columns()
       length = sides/slab%points
-      largest = slab%largest([maxval(abs(map%height))])
-      if (largest(1) > largest_number) &
-         call fatal_error(error, exit_bad_input, escaped(source)//': heights are up to '//short_number(largest(1))// &
+      largest = maxval(slab%extremes(map%height))
+      if (largest > largest_number) &
+         call fatal_error(error, exit_bad_input, escaped(source)//': heights are up to '//short_number(largest)// &
                           ' in size: they may be up to '//short_number(largest_number))
       if (.not. allocated(error)) call prepare_map(source, preparation, sides, map, changes, error)
       call slab%share_error(error)
@@ -56,18 +56,19 @@ contains
       if (preparation%short_wavelength > 0.0_dp) &
          call leave_out_short_waves(slab%points, length, .not. repeats, preparation%short_wavelength, map%height, &
                                     changes%rms_of_short)
-      extremes = slab%largest([maxval(map%height), -minval(map%height)])
+      extremes = slab%extremes(map%height)
       if (sum(extremes) <= 0.0_dp) then
          ! Equal heights less their rounded mean would not be zero.
          map%height = 0.0_dp
+         largest = 0.0_dp
       else
          mean = slab%column_totals(reshape(sum(map%height, dim=1), [1, slab%columns()]))/product(real(slab%points, dp))
          map%height = scale*(map%height - mean(1))
+         largest = scale*maxval(extremes + [-mean, mean])
       end if
-      largest = slab%largest([maxval(abs(map%height))])
-      if (largest(1) > largest_number .or. (largest(1) < smallest_number .and. largest(1) > 0.0_dp)) then
+      if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
          call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
-                          'height_scale, are up to '//short_number(largest(1))//' [length]: lengths may be '// &
+                          'height_scale, are up to '//short_number(largest)//' [length]: lengths may be '// &
                           'from '//short_number(smallest_number)//' to '//short_number(largest_number))
          return
       end if

@@ -52,7 +52,7 @@ contains
 
       type(grid_slab) :: slab
       real(dp), allocatable :: height(:, :)
-      real(dp) :: largest(1)
+      real(dp) :: largest
 
       call slab%start(points)
       call check_room(source, points, error, slab)
@@ -60,9 +60,9 @@ contains
       if (allocated(error)) return
       allocate (height(points(1), slab%columns()))
       call make_heights(spectrum, height, points)
-      largest = slab%largest([maxval(abs(height))])
-      if (largest(1) > largest_number .or. largest(1) < smallest_number) then
-         call fatal_error(error, exit_bad_input, source//': heights are up to '//short_number(largest(1))// &
+      largest = maxval(slab%extremes(height))
+      if (largest > largest_number .or. largest < smallest_number) then
+         call fatal_error(error, exit_bad_input, source//': heights are up to '//short_number(largest)// &
                           ' [length]: lengths may be from '//short_number(smallest_number)//' to '// &
                           short_number(largest_number))
          return

@@ -34,7 +34,7 @@ contains
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
-      real(dp) :: extremes(2), highest(1), mean(1)
+      real(dp) :: extremes(2)
       integer :: crest(2), grid(2)
 
       grid = shape(height)
@@ -49,18 +49,21 @@ contains
       call transform%start(grid, even=surface%mirrored)
       call transform%series(height, surface%shape)
       call surface%shape%set_mean(0.0_dp)
-      mean = transform%slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(grid, dp))
       if (present(radii)) surface%form = form_of_radii(surface, radii)
-      ! A flat map on a ball is the ball.
-      extremes = transform%slab%largest([maxval(height), -minval(height)])
-      surface%has_steps = .not. transform%slab%any(any(height < extremes(1) .and. height > -extremes(2)))
-      surface%has_steps = surface%has_steps .and. surface%has_free_edges .and. &
-                          (sum(extremes) > 0.0_dp .or. surface%form%is_flat())
-      allocate (values, source=height)
-      call surface%form%subtract_from( &
-         values, point_angle([1, transform%slab%first], transform%points, transform%even), 2*pi/surface%points)
-      call transform%slab%find_largest(values, surface%amplitude, crest)
-      surface%amplitude = surface%amplitude - mean(1)
+      if (surface%has_free_edges) then
+         ! A flat map on a ball is the ball.
+         extremes = transform%slab%extremes(height)
+         surface%has_steps = .not. transform%slab%any(any(height < extremes(1) .and. height > -extremes(2))) .and. &
+                             (sum(extremes) > 0.0_dp .or. surface%form%is_flat())
+         allocate (values, source=height)
+         call surface%form%subtract_from( &
+            values, point_angle([1, transform%slab%first], transform%points, transform%even), 2*pi/surface%points)
+         call transform%slab%find_largest(values, surface%amplitude, crest)
+      else
+         allocate (values, mold=height)
+         call transform%slab%find_largest(height, surface%amplitude, crest)
+      end if
+      surface%amplitude = surface%amplitude - transform%slab%sum_of(height)/product(real(grid, dp))
       if (surface%has_steps .and. surface%amplitude <= 0.0_dp) then
          ! A flat map is a punch, h = 0. It has no depth: a length of the map is the unit.
          surface%amplitude = surface%nominal_area()**(1.0_dp/surface%dimension)
@@ -72,13 +75,13 @@ contains
       call divide_series(surface%shape, surface%amplitude)
       surface%form%c = surface%form%c/surface%amplitude
       call transform%sample(weighted(surface%shape, surface%length), values)
-      highest = transform%slab%largest([maxval(values)])
-      surface%crest_curvature = highest(1)
+      extremes = transform%slab%extremes(values)
+      surface%crest_curvature = extremes(1)
       if (surface%has_free_edges) then
          call set_units_without_closure(surface)
       else
          call transform%sample(weighted(surface%shape, surface%length, surface%kernel), values)
-         extremes = transform%slab%largest([maxval(values), -minval(values)])
+         extremes = transform%slab%extremes(values)
          surface%stiffness = 1.0_dp/extremes(2)
          surface%full_contact_peak = extremes(1)*surface%stiffness
       end if
