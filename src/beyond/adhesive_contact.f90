@@ -196,18 +196,19 @@ contains
             contact = hertz_contact(ball_radii(surface), 1.0_dp, area=point%area*surface%nominal_area())
             contact%tension = contact%force - p*surface%full_contact_pressure(1.0_dp)*surface%nominal_area()
             contact%approach = point%value(at_approach)*surface%amplitude
-            allocate (solution%source, source=ball_source(contact=contact))
+            allocate (solution%source, source=ball_source(record=solution%solution_record, contact=contact))
          else if (self%has_closed_form) then
-            allocate (solution%source, source=closed_form_source(tension=sin(0.5_dp*pi*point%area)**2 - p))
+            allocate (solution%source, source=closed_form_source(record=solution%solution_record, &
+                                                                 tension=sin(0.5_dp*pi*point%area)**2 - p))
          else
             allocate (fitted)
+            fitted%record = solution%solution_record
             fitted%frame = self%frame
             fitted%answer = point%answer
             fitted%accuracy = self%accuracy
             call move_alloc(fitted, solution%source)
          end if
       end associate
-      solution%source%record = solution%solution_record
    end subroutine make_solution
 
 end module wavycon_adhesive_contact

@@ -9,9 +9,10 @@ module wavycon_alias_sums
 
    public :: alias_sums
 
-   !> Aliases on each side of a wave that are summed one by one, along x and y. The rest is bounded by integrals.
-   !> `scripts/constants --room half_space` shows what it changes.
-   integer, parameter :: aliases = 2
+   !> Aliases on each side of a wave that are summed one by one, along x and y. The rest is bounded by integrals. With 2
+   !> and 4 the bounds of the wave on 2048 x 2048 points are .43 and .49 % closer, those of a rough map on 256 x 256 .63
+   !> and .73 %; the wave's take a tenth and twice as long.
+   integer, parameter :: aliases = 1
 
    !> Of the waves k = first .. last in X, l = 0 .. last in Y, in the unit of `wave_stiffness`.
    type :: alias_sums

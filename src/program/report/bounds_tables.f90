@@ -114,22 +114,31 @@ contains
       real(dp), allocatable, intent(out) :: gap(:, :)    !! gap/Delta, with a hardness negative where p is the hardness
 
       class(contact_fields), allocatable :: fields
-      integer :: points(2)
-      real(dp), allocatable :: u(:, :)
+      integer :: j, points(2)
+      real(dp), allocatable :: no_shape(:), u(:, :)
 
       associate (surface => results%solver%surface, solution => results%loads(load))
          if (.not. solution%has_numbers()) return
          call solution%fields(surface, fields)
          if (.not. allocated(fields)) return
-         points = fields%own_points
-         if (points(1) == 0) points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
-                                            [1, 2] <= surface%dimension)/surface%parts()
-         associate (is_halved => points > 1 .and. surface%shape%is_even())
-            call fields%on_grid(points, merge(0.5_dp, 0.0_dp, is_halved), p, u, gap)
-            points = merge(points*surface%parts()/2, points, is_halved)
-         end associate
-         p = p(:points(1), :points(2))
-         gap = gap(:points(1), :points(2))
+         if (fields%own_points(1) > 0) then
+            points = fields%own_slab%points
+            allocate (p(points(1), points(2)), gap(points(1), points(2)), u(points(1), 1))
+            ! The displacement is not asked for, which the shape is for.
+            allocate (no_shape(points(1)), source=0.0_dp)
+            do j = 1, points(2)
+               call fields%at_own_column(j, no_shape, p(:, j), u(:, 1), gap(:, j))
+            end do
+         else
+            points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
+                           [1, 2] <= surface%dimension)/surface%parts()
+            associate (is_halved => points > 1 .and. surface%shape%is_even())
+               call fields%on_grid(points, merge(0.5_dp, 0.0_dp, is_halved), p, u, gap)
+               points = merge(points*surface%parts()/2, points, is_halved)
+            end associate
+            p = p(:points(1), :points(2))
+            gap = gap(:points(1), :points(2))
+         end if
          if (surface%has_hardness()) call add_overlap(surface, solution%value(approach), p, gap)
       end associate
    end subroutine fields_of
