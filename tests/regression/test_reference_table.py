@@ -316,8 +316,11 @@ class Adhesion(Published):
                     given = row["point"] in ("stable", "stable_by_approach", "unstable")
                     if given:
                         self.assertEqual("0", row["contact_area_fraction_error"])
+                    # What an extreme is of is known better than what changes with the area there.
+                    of_extreme = self.names[row["point"].endswith("by_approach")]
                     for name in self.names:
-                        self.assertTrue(0.0 < pair(row, name)[1] < (1.4e-8 if given else 1e-7), row)
+                        largest = 1.4e-8 if given else 1e-7 if name == of_extreme else 4e-6
+                        self.assertTrue(0.0 < pair(row, name)[1] < largest, row)
 
     def test_recomputed(self):
         for surface, work, areas in (("wave_2d", 0.05, (0.1, 0.3, 0.5, 0.9)), ("hexagonal", 0.2, (0.05, 0.4, 0.65, 0.9))):
