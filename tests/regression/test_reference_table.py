@@ -319,7 +319,7 @@ class Adhesion(Published):
                     # What an extreme is of is known better than what changes with the area there.
                     of_extreme = self.names[row["point"].endswith("by_approach")]
                     for name in self.names:
-                        largest = 1.4e-8 if given else 1e-7 if name == of_extreme else 4e-6
+                        largest = 1.4e-8 if given else 1.1e-7 if name == of_extreme else 4e-6
                         self.assertTrue(0.0 < pair(row, name)[1] < largest, row)
 
     def test_recomputed(self):
