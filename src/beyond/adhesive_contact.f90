@@ -175,8 +175,8 @@ contains
       end associate
    end subroutine find_point_of_lattice
 
-   !> A point as a solution, whose source has its fields, (I22), and its edge. Bodies that are separated, or whose load is
-   !> not known, have no fields: the status is not_found.
+   !> A point as a solution, whose source has its fields, (I22), and its edge. Bodies that are separated, or whose load
+   !> is not known, have no fields: the status is not_found.
    subroutine make_solution(self, point, solution)
       class(adhesive_problem), intent(in) :: self
       type(adhesive_point), intent(in) :: point         !! of this problem

@@ -267,8 +267,8 @@ contains
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
 
-   !> The contact of a load as a solution with fields: of those that are stable, under the load or at the approach if that
-   !> is given, the one of the largest area, which unloading meets. If an area is given it may be unstable.
+   !> The contact of a load as a solution with fields: of those that are stable, under the load or at the approach if
+   !> that is given, the one of the largest area, which unloading meets. If an area is given it may be unstable.
    subroutine find_adhesive_solution(curve, which, number, solution)
       type(adhesive_curve), intent(in) :: curve
       integer, intent(in) :: which     !! as of add_load

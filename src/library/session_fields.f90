@@ -125,8 +125,8 @@ contains
 
    !> Guaranteed bounds of the contact of the surface under a mean pressure, from any pressure and gap at points of the
    !> whole surface: (E18) to (E26) of the page of src/core/half_space. They hold whatever is given; a solution makes
-   !> them close. Negative pressures count as 0, as do negative gaps without a hardness, and the pressure is scaled to the
-   !> mean. Errors: also exit_bad_input for a flat surface, free edges and a grid that lacks waves of the surface.
+   !> them close. Negative pressures count as 0, as do negative gaps without a hardness, and the pressure is scaled to
+   !> the mean. Errors: also exit_bad_input for a flat surface, free edges and a grid that lacks waves of the surface.
    subroutine bounds_from_fields(session, mean_pressure, points, pressure, gap, error, bounds)
       type(deck_session), intent(in) :: session
       real(dp), intent(in) :: mean_pressure     !! > 0, below the hardness [pressure]

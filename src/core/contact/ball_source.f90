@@ -122,8 +122,8 @@ contains
       allocate (answer, source=ball_fields(parts=surface%parts(), surface=surface, contact=self%contact))
    end subroutine fields
 
-   !> The displacement outside is (C31). A round punch under a force F has the pressure F/(2 pi a^2) (1 - r^2/a^2)^(-1/2)
-   !> and displaces F/(pi E* a) asin(a/r) outside.
+   !> The displacement outside is (C31). A round punch under a force F has the pressure F/(2 pi a^2)
+   !> (1 - r^2/a^2)^(-1/2) and displaces F/(pi E* a) asin(a/r) outside.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(ball_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y

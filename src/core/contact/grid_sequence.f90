@@ -65,8 +65,8 @@ contains
       real(dp), intent(in), optional :: residual
       !> Whether the edge of a surface with free edges is to have the gap at points far from the contact too.
       logical, intent(in), optional :: needs_gap
-      !> Of each grid of the surface from the coarsest: on entry the load before, if one was solved, then this one, which
-      !> leaves no pressure in answer%state.
+      !> Of each grid of the surface from the coarsest: on entry the load before, if one was solved, then this one,
+      !> which leaves no pressure in answer%state.
       type(grid_start), intent(inout), optional :: starts(:)
 
       real(dp), allocatable :: h(:, :)

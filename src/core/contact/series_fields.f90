@@ -20,9 +20,10 @@ module wavycon_series_fields
       type(fourier_series) :: displacement   !! (u - ubar)/Delta
       type(surface_type) :: surface
       real(dp) :: mean_gap = 1.0_dp          !! G
-      !> Whether the true pressure and gap are nowhere less than their bounds, least_pressure and 0: what the series have
-      !> below is rounding, or lies between the points of a height map.
+      !> Whether the true pressure and gap are nowhere less than least_pressure and 0: what the series have below is
+      !> rounding, or lies between the points of a height map.
       logical, private :: is_edgeless = .false.
+      !> Without a bound in full contact below p*, which adhesion holds.
       real(dp), private :: least_pressure = 0.0_dp
    contains
       procedure :: at

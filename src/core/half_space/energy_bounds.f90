@@ -72,7 +72,7 @@ contains
       real(dp), intent(in) :: pbar_over_pstar         !! P >= 0, below the hardness
       type(energy_bounds), intent(out) :: answer
 
-      real(dp) :: dual, half_pu, overlap, ph, primal, rounding, scale, share, width
+      real(dp) :: dual, half_pu, mean_p, overlap, ph, primal, rounding, scale, share, width
       real(dp), allocatable :: g(:, :), p(:, :)
 
       if (pbar_over_pstar <= 0.0_dp) return
@@ -83,13 +83,14 @@ contains
       if (.not. (all(ieee_is_finite(pressure)) .and. all(ieee_is_finite(gap)) .and. any(p > 0.0_dp))) return
       g = gap
       if (.not. surface%has_hardness()) g = max(gap, 0.0_dp)
-      rounding = transform_rounding*(2 + log(real(product(self%cell), dp))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
+      rounding = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
+      mean_p = mean(p)
       call energies(self, surface, p, g, rounding, half_pu, ph, dual)
       ! Of mean P: what is missing up to a hardness is a share of the hardness itself.
-      scale = pbar_over_pstar/mean(p)
+      scale = pbar_over_pstar/mean_p
       share = 0.0_dp
       if (surface%has_hardness() .and. scale > 1.0_dp) then
-         share = (pbar_over_pstar - mean(p))/(surface%hardness - mean(p))
+         share = (pbar_over_pstar - mean_p)/(surface%hardness - mean_p)
          scale = 1.0_dp - share
       end if
       half_pu = max(half_pu*scale**2*(1.0_dp + 4*rounding), tiny(1.0_dp))
@@ -117,10 +118,10 @@ contains
    contains
 
       !> The mean of a field, whose rounding is below `rounding` of that of its absolute values.
-      pure real(dp) function mean(field)
+      real(dp) function mean(field)
          real(dp), intent(in) :: field(:, :)
 
-         mean = sum(sum(field, dim=1))/size(field)
+         mean = self%transform%slab%sum_of(field)/size(field)
       end function mean
 
    end subroutine bound
@@ -168,11 +169,13 @@ contains
             largest = max(largest, [maxval(folded*compliance), maxval(folded*(stiffness + w**2*f))])
          end associate
       end do
-      norm = sqrt([sum(sum(p**2, dim=1))/size(p), sums(4), sum(sum(g**2, dim=1))/size(g) + sums(4)])
-      sums([1, 3]) = sqrt(sums([1, 3])*(1.0_dp + table_rounding + rounding)) + 2*rounding*sqrt(largest)*norm([1, 3])
-      half_pu = 0.5_dp*sums(1)**2/surface%stiffness
-      half_uq = 0.5_dp*sums(3)**2*surface%stiffness
-      ph = sum(sum(p, dim=1))/size(p) - sums(2) + 2*rounding*norm(1)*(1.0_dp + norm(2))
+      associate (slab => self%transform%slab)
+         norm = sqrt([slab%sum_of(p**2)/size(p), sums(4), slab%sum_of(g**2)/size(g) + sums(4)])
+         sums([1, 3]) = sqrt(sums([1, 3])*(1.0_dp + table_rounding + rounding)) + 2*rounding*sqrt(largest)*norm([1, 3])
+         half_pu = 0.5_dp*sums(1)**2/surface%stiffness
+         half_uq = 0.5_dp*sums(3)**2*surface%stiffness
+         ph = slab%sum_of(p)/size(p) - sums(2) + 2*rounding*norm(1)*(1.0_dp + norm(2))
+      end associate
    end subroutine energies
 
 end module wavycon_energy_bounds

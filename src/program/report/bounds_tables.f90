@@ -1,5 +1,5 @@
-!> <case>.bounds.dat: guaranteed bounds of complementary energy, approach and mean gap of the surface, from the pressures
-!> and gaps of each solution, and whether the solution's own numbers lie within them. They are those of a grid: the one
+!> <case>.bounds.dat: guaranteed bounds of complementary energy, approach and mean gap of the surface, from pressures and
+!> gaps of each solution, and whether the solution's own numbers lie within them. They are those of a grid: the one
 !> that was solved on, otherwise one that the solution is evaluated on. The page of src/core/half_space derives them.
 module wavycon_bounds_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan

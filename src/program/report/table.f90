@@ -121,8 +121,8 @@ contains
          if (max(surface%amplitude, maxval(surface%length)) > largest_length) words = 'it has the fourth power of '// &
             'lengths, which may be up to '//short_number(largest_length)//'; choose another unit of length'
       case ('bounds')
-         if (surface%has_free_edges) words = 'bounds are known for periodic and mirrored surfaces only, and this one has '// &
-            'free edges'
+         if (surface%has_free_edges) words = &
+            'bounds are known for periodic and mirrored surfaces only, and this one has free edges'
       case ('theory', 'theory_lines')
          if (is_paper_wave(surface)) return
          words = 'closed forms exist only for the waves of the paper: '//paper_waves
