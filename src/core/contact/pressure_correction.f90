@@ -8,7 +8,7 @@ module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: longest_chunk
-   use wavycon_contact_tuning, only: blocked_part, overlap_part, stencil_fraction
+   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, stencil_fraction, whole_step
    use wavycon_correction_state, only: correction_state
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -45,7 +45,9 @@ contains
       real(dp) :: blocked, descent
       real(sp), allocatable :: r(:), d(:)      !! residual and direction of the last iteration, shape (region%points)
       real(sp), allocatable :: field(:, :)     !! own columns, shape (M, columns)
+      real(sp) :: tau                          !! the step that the next iteration will probably take; 0: unknown
       integer :: iterations
+      logical :: is_bounded
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
       call assert(most_iterations > 0, 'most_iterations > 0')
@@ -56,6 +58,7 @@ contains
       descent = 0.0_dp
       ! Smaller overlaps may be rounding: such points would enter and leave the contact without end.
       state%allowance = real(overlap_part*part, sp)
+      tau = real(first_step, sp)
       iterations = 0
       do while (state%residual > part*state%scale .and. iterations < most_iterations)
          if (present(progress)) grid%interrupted = progress%shall_stop(iterations, state%residual)
@@ -66,8 +69,13 @@ contains
          if (blocked > blocked_part*state%contact_points) &
             call precondition(extension, stencil, half_space, state, field)
          call find_direction(state, field, r, d, descent)                            ! (C5): field = d
+         call bound_direction(state, tau, d, field, is_bounded)                      ! (C7a)
          call state%displace(half_space, field)                                      !       field = Sd
-         call take_step(state, half_space, r, d, field)                              ! (C6) to (C8), (C3)
+         if (is_bounded) then
+            call take_bounded_step(state, r, d, field, tau, descent)                 ! (C7b), (C8), (C3)
+         else
+            call take_step(state, half_space, r, d, field, tau)                      ! (C6) to (C8), (C3)
+         end if
       end do
       call state%add_to(grid)
       grid%corrections = grid%corrections + 1
@@ -120,7 +128,9 @@ contains
       real(sp), intent(inout), contiguous :: field(:, :)    !! z, then d
       real(sp), intent(inout), contiguous :: residuals(:)   !! r_old, then r
       real(sp), intent(inout), contiguous :: direction(:)   !! d_old, then d
-      real(dp), intent(inout) :: descent                    !! (gap_old, z_old), then (gap, z); zero: d = z
+      !> What (gap - gap_old, z) is divided by: (gap_old, z_old), after (C7b) tau (d_old, S d_old); zero: d = z. Then
+      !> (gap, z).
+      real(dp), intent(inout) :: descent
 
       real(dp) :: sums(5)
       real(dp), allocatable :: parts(:, :)
@@ -162,36 +172,149 @@ contains
       end do
    end subroutine find_direction
 
-   !> Moves pressure and gap by the step to the least energy along the direction (C6), within the bounds of the pressure
-   !> and with its mean (C7), and updates the contact (C8).
-   subroutine take_step(state, half_space, residuals, direction, field)
-      type(correction_state), intent(inout) :: state
-      type(compliance_operator), intent(inout) :: half_space
-      real(sp), intent(in), contiguous :: residuals(:), direction(:)
-      real(sp), intent(inout), contiguous :: field(:, :)   !! Sd; of no use afterwards
+   !> Replaces the direction by the change of the pressure (C7a), if points would leave the contact with the expected
+   !> step. Areas at a hardness have (C24), which foresees no step.
+   subroutine bound_direction(state, tau, direction, field, is_bounded)
+      type(correction_state), intent(in) :: state
+      real(sp), intent(in) :: tau                               !! the expected step; 0: unknown
+      real(sp), intent(inout), contiguous :: direction(:)       !! d; if is_bounded the change, with the sign of d
+      real(sp), intent(inout), contiguous :: field(:, :)        !! the same at the points of the region
+      logical, intent(out) :: is_bounded
 
       real(dp) :: sums(4)
-      real(dp), allocatable :: parts(:, :)
-      real(sp) :: mean, step
-      real(sp), dimension(longest_chunk) :: change, free, image
+      real(sp) :: change(longest_chunk), excess
       integer :: c, n
 
-      allocate (parts(size(sums), state%region%chunks), source=0.0_dp)
+      is_bounded = .false.
+      if (tau <= 0.0_sp .or. allocated(state%room)) return
+      sums = sums_after(state, direction, tau)
+      ! The first sum is zero if no point would be left.
+      is_bounded = sums(1) > 0.0_dp .and. sums(1) < state%contact_points .and. sums(3) < sums(2)
+      if (.not. is_bounded) return
+      excess = real(-sums(3)/sums(2), sp)
+      !$omp parallel do num_threads(state%region%threads) private(change, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
+            n = b - a + 1
+            change(:n) = max(state%change(a:b) - tau*direction(a:b), -start(a:b))
+            change(:n) = change(:n) + state%contact(a:b)*(excess*(start(a:b) + change(:n)))
+            direction(a:b) = state%change(a:b) - change(:n)
+            call state%region%put_chunk(c, direction(a:b), field)
+         end associate
+      end do
+   end subroutine bound_direction
+
+   !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change (C7b), and updates the
+   !> contact (C8).
+   subroutine take_bounded_step(state, residuals, direction, field, tau, descent)
+      type(correction_state), intent(inout) :: state
+      real(sp), intent(in), contiguous :: residuals(:), direction(:)
+      real(sp), intent(inout), contiguous :: field(:, :)   !! Sd; of no use afterwards
+      real(sp), intent(inout) :: tau                       !! the expected step, then that of the next iteration
+      real(dp), intent(out) :: descent                     !! as `find_direction` takes it
+
+      !> Pressures below so much of the numbers that they are the sum of are zero but for rounding.
+      real(sp), parameter :: rounding = 4*epsilon(1.0_sp)
+      real(dp) :: sums(2)
+      real(dp), allocatable :: parts(:, :)
+      real(sp) :: best, step
+      real(sp), dimension(longest_chunk) :: image, least
+      integer :: c, n
+
+      allocate (parts(size(sums), state%region%chunks))
       !$omp parallel do num_threads(state%region%threads) private(image, n)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
             n = b - a + 1
             call state%region%take_chunk(c, field, image)
-            parts(:3, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
-                            sdot(n, state%contact(a:b), 1, image, 1)]
+            parts(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1)]
          end associate
       end do
       sums = state%totals(parts)
+      best = 0.0_sp
+      if (sums(1) > 0.0_dp) best = real(max(sums(2)/sums(1), 0.0_dp), sp)
+      step = best
+      if (best > whole_step) step = 1.0_sp
+      descent = step*sums(1)
+      ! After a step that was foreseen badly the next one is (C6).
+      tau = tau*best
+      if (best < least_foreseen) tau = 0.0_sp
+      !$omp parallel do num_threads(state%region%threads) private(image, least, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
+            n = b - a + 1
+            call state%region%take_chunk(c, field, image)
+            image(:n) = -step*image(:n)
+            call state%region%put_chunk(c, image, field)
+            least(:n) = rounding*(start(a:b) + abs(state%change(a:b)))
+            state%change(a:b) = state%change(a:b) - step*direction(a:b)
+            where (start(a:b) + state%change(a:b) <= least(:n))
+               state%change(a:b) = -start(a:b)
+               state%contact(a:b) = 0.0_sp
+            end where
+         end associate
+      end do
+      state%contact_is_new = .true.
+      call state%update_contact(state%mean_gap(field))
+   end subroutine take_bounded_step
+
+   !> Moves pressure and gap by the step to the least energy along the direction (C6), within the bounds of the pressure
+   !> and with its mean (C7), and updates the contact (C8).
+   subroutine take_step(state, half_space, residuals, direction, field, step)
+      type(correction_state), intent(inout) :: state
+      type(compliance_operator), intent(inout) :: half_space
+      real(sp), intent(in), contiguous :: residuals(:), direction(:)
+      real(sp), intent(inout), contiguous :: field(:, :)   !! Sd; of no use afterwards
+      real(sp), intent(out) :: step                        !! that was taken
+
+      real(dp) :: sums(4)
+      real(dp), allocatable :: parts(:, :)
+      real(sp) :: image(longest_chunk), mean
+      integer :: c, n
+
+      allocate (parts(3, state%region%chunks))
+      !$omp parallel do num_threads(state%region%threads) private(image, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
+            n = b - a + 1
+            call state%region%take_chunk(c, field, image)
+            parts(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
+                           sdot(n, state%contact(a:b), 1, image, 1)]
+         end associate
+      end do
+      sums(:3) = state%totals(parts)
       ! A contact of one point has no direction; overlaps may still be added.
       step = 0.0_sp
       if (sums(1) > 0.0_dp) step = real(sums(2)/sums(1), sp)
       mean = real(-step*sums(3)/max(state%contact_points, 1.0_dp), sp)
-      ! The points that stay above zero and their pressures, the changes since the start, and the points that pass H.
+      sums = sums_after(state, direction, step)
+      if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) then
+         call state%update_contact(mean, step, direction, field)
+         return
+      end if
+      if (sums(4) > 0.0_dp) then
+         call project(state, direction, step, field)
+      else
+         call restore_mean(state, direction, step, sums(2), sums(3), field)
+      end if
+      state%contact_is_new = .true.
+      call state%displace(half_space, field)
+      call state%update_contact(state%mean_gap(field))
+   end subroutine take_step
+
+   !> Sums over the grid after a step that keeps p >= 0: the number of points with p > 0 and the sum of their pressures,
+   !> the sum of all changes since the start, and the number of points that pass H.
+   function sums_after(state, direction, step) result(sums)
+      type(correction_state), intent(in) :: state
+      real(sp), intent(in), contiguous :: direction(:)
+      real(sp), intent(in) :: step
+      real(dp) :: sums(4)
+
+      real(dp), allocatable :: parts(:, :)
+      real(sp), dimension(longest_chunk) :: change, free
+      integer :: c, n
+
+      allocate (parts(size(sums), state%region%chunks), source=0.0_dp)
       !$omp parallel do num_threads(state%region%threads) private(change, free, n)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
@@ -207,19 +330,7 @@ contains
          end associate
       end do
       sums = state%totals(parts)
-      if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) then
-         call state%update_contact(mean, step, direction, field)
-         return
-      end if
-      if (sums(4) > 0.0_dp) then
-         call project(state, direction, step, field)
-      else
-         call restore_mean(state, direction, step, sums(2), sums(3), field)
-      end if
-      state%contact_is_new = .true.
-      call state%displace(half_space, field)
-      call state%update_contact(state%mean_gap(field))
-   end subroutine take_step
+   end function sums_after
 
    !> Moves the pressure by a step with which points leave the contact, and then multiplies it by the factor that
    !> restores its mean (C7).
