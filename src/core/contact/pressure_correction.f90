@@ -72,7 +72,7 @@ contains
          call bound_direction(state, tau, d, field, is_bounded)                      ! (C7a)
          call state%displace(half_space, field)                                      !       field = Sd
          if (is_bounded) then
-            call take_bounded_step(state, r, d, field, tau, descent)                 ! (C7b), (C8), (C3)
+            call take_bounded_step(state, r, d, field, tau, descent)                 ! (C7a), (C8), (C3)
          else
             call take_step(state, half_space, r, d, field, tau)                      ! (C6) to (C8), (C3)
          end if
@@ -204,8 +204,8 @@ contains
       end do
    end subroutine bound_direction
 
-   !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change (C7b), and updates the
-   !> contact (C8).
+   !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change, and updates the contact
+   !> (C8).
    subroutine take_bounded_step(state, residuals, direction, field, tau, descent)
       type(correction_state), intent(inout) :: state
       real(sp), intent(in), contiguous :: residuals(:), direction(:)
