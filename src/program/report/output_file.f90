@@ -200,7 +200,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (associated(self%memory)) then
-         if (self%memory%is_full) call self%note_trouble('there is not the memory for all rows')
+         if (self%memory%is_full) call self%note_trouble('there is not enough memory for all rows')
          if (allocated(self%trouble)) call fatal_error(error, exit_file_trouble, 'table in memory: '//self%trouble)
          return
       end if
