@@ -51,7 +51,7 @@ module wavycon_deck_session
       type(results_type) :: results
       type(unit_scale) :: scale                           !! the program's units in the deck's units
       real(dp), allocatable, private :: mean_pressure(:)  !! the deck's loads [pressure], if it gives them by pressure
-      type(solution_record), allocatable, private :: records(:)   !! of each load of the deck; status < 0: not solved
+      type(solution_record), allocatable, private :: records(:)   !! records of the deck's loads; status < 0: not solved
       type(run_log), private :: log                       !! writes nothing, but keeps notes on surface and tables
       integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load; else 0
    contains

@@ -17,7 +17,7 @@ module wavycon_system
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, path_unknown = 4
 
    interface
-      !> What a path names, one of the values of `path_kind`, and the size of the file [byte].
+      !> The kind of file that a path names, one of the values of `path_kind`, and the size of the file [byte].
       integer(c_int) function c_path_kind(path, size) bind(c, name='wavycon_path_kind')
          import :: c_char, c_int, c_int64_t
          character(kind=c_char), intent(in) :: path(*)

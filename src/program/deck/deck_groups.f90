@@ -132,7 +132,7 @@ contains
       !> has given that group before.
       subroutine open_group(name, place)
          character(*), intent(in) :: name   !! in lower case, without '&'
-         integer, intent(in) :: place       !! of the '&' in the text
+         integer, intent(in) :: place       !! position of the '&' in the text
 
          logical :: is_known
 
@@ -254,7 +254,7 @@ contains
       !> Finds a key of the open group. Unknown keys and keys given twice are reported.
       subroutine find_key(name, place, k)
          character(*), intent(in) :: name   !! in lower case
-         integer, intent(in) :: place       !! of the key in the text
+         integer, intent(in) :: place       !! position of the key in the text
          !> Number of the key; 0 if its values are not to be read: it was reported, the group is unknown, or a setting
          !> of the command line replaces the key.
          integer, intent(out) :: k

@@ -106,7 +106,7 @@ contains
       type(load_group), intent(inout) :: values                  !! without problems before
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
-      logical, intent(in) :: with_adhesion                       !! as of check_load_group
+      logical, intent(in) :: with_adhesion                       !! as in check_load_group
       integer, intent(out) :: loads_by                           !! by_pressure or another name of wavycon_scene
       real(dp), allocatable, intent(out) :: target(:)            !! the component of scene_type
       real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure

@@ -121,7 +121,7 @@ contains
    subroutine read_surface(scene, error, heights)
       type(scene_type), intent(inout) :: scene
       type(error_type), allocatable, intent(out) :: error
-      real(dp), intent(in), optional :: heights(:, :)   !! as of parse_deck
+      real(dp), intent(in), optional :: heights(:, :)   !! as in parse_deck
 
       associate (values => scene%surface_values, labels => scene%scene_values)
          call check_surface_group(values)

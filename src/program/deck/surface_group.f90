@@ -180,7 +180,7 @@ contains
       !> Reports two radii of curvature whose ratio is too large.
       subroutine check_radii(x, y, name)
          type(key_value), intent(in) :: x, y
-         character(*), intent(in) :: name   !! of both keys, without '_x' and '_y'
+         character(*), intent(in) :: name   !! name of both keys, without '_x' and '_y'
 
          real(dp), parameter :: largest_ratio = 1e4_dp
 

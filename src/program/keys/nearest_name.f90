@@ -84,7 +84,7 @@ contains
 
    contains
 
-      !> What it costs to insert or delete a letter.
+      !> The cost to insert or delete a letter.
       pure integer function cost_of(letter)
          character(1), intent(in) :: letter
 

@@ -148,7 +148,7 @@ contains
    type(mpi_datatype) function part_of(bytes, runs, length, distance, first) result(part)
       integer, intent(in) :: bytes              !! size of an element
       integer, intent(in) :: runs               !! number of runs
-      integer, intent(in) :: length, distance   !! of a run, and between the starts of two runs, in elements
+      integer, intent(in) :: length, distance   !! length of a run; distance of the starts of two runs [elements]
       !> Number of elements before the first run. It may exceed the integers that mpi_alltoallw takes as offsets.
       integer(mpi_address_kind), intent(in) :: first
 

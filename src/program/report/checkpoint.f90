@@ -93,7 +93,7 @@ contains
    subroutine create(self, results, known)
       class(checkpoint_file), intent(out) :: self
       type(results_type), intent(in) :: results   !! its directory exists
-      logical, intent(in) :: known(:)             !! of each load: whether its solution is known
+      logical, intent(in) :: known(:)             !! whether the solution of each load is known
 
       character(:), allocatable :: text
       integer :: load
@@ -181,7 +181,7 @@ contains
 
    !> Reads the next record of a checkpoint.
    subroutine get(unit, words)
-      integer, intent(in) :: unit   !! of the file, which is open for reading as a stream
+      integer, intent(in) :: unit   !! unit of the file, which is open for reading as a stream
       !> The words of the record; not allocated if the file ends before the record does; size 0 if they do not agree
       !> with their checksum.
       integer(int64), allocatable, intent(out) :: words(:)
@@ -287,7 +287,7 @@ contains
 
    !> A sentence that says how the descriptions of two runs differ; empty if they are equal.
    function difference(before, now) result(words)
-      character(*), intent(in) :: before, now   !! of the interrupted run and of this one
+      character(*), intent(in) :: before, now   !! descriptions of the interrupted run and of this one
       character(:), allocatable :: words
 
       integer :: i, k

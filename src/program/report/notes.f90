@@ -1,5 +1,5 @@
-!> What the log says of a run: its input, the tables of the solved loads and of the largest stresses, and notes on what
-!> a user should know of input and solutions.
+!> The text of a run's log: the input, the tables of the solved loads and of the largest stresses, and notes on what a
+!> user should know of input and solutions.
 module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
@@ -227,7 +227,7 @@ contains
    !> Adds a column with a number at its right. An error estimate has two digits, an unknown one is '-'.
    subroutine add(self, name, number)
       class(log_line), intent(inout) :: self
-      character(*), intent(in) :: name   !! of the column; 'error' for an error estimate
+      character(*), intent(in) :: name   !! name of the column; 'error' for an error estimate
       real(dp), intent(in) :: number
 
       character(12) :: buffer

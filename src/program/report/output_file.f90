@@ -40,7 +40,7 @@ module wavycon_output_file
       logical :: has_names = .false.              !! whether the line with the names of the columns was written
       integer :: blocks = 0                       !! number of data sets begun by begin_block
       integer(c_int), allocatable :: column_end(:)       !! position in a row at which each column ends
-      integer(c_int), allocatable :: kinds(:)            !! of each column: of_reals, of_integers or of_words
+      integer(c_int), allocatable :: kinds(:)            !! kind of each column: of_reals, of_integers, of_words
    contains
       procedure :: open => open_file
       procedure :: is_open

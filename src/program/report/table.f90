@@ -108,7 +108,7 @@ contains
    !> Why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it can.
    function refusal(self, traits, surface) result(words)
       class(table_type), intent(in) :: self
-      type(solver_traits), intent(in) :: traits   !! of the solver, which need not be started
+      type(solver_traits), intent(in) :: traits   !! traits of the solver, which need not be started
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 

@@ -129,7 +129,7 @@ contains
    !> Gives all ranks the numbers that one rank has, exactly, also NaN and -0.
    subroutine share_numbers(is_own, numbers)
       logical, intent(in) :: is_own   !! whether this rank has the numbers: .true. on one rank
-      real(dp), intent(inout), contiguous :: numbers(:, :)   !! of the same shape on all ranks
+      real(dp), intent(inout), contiguous :: numbers(:, :)   !! the same shape on all ranks
 
       integer(int64), allocatable :: words(:)
 

@@ -136,7 +136,8 @@ contains
    !> The solvers that can solve a surface and have a trait, such as "'grid' or 'auto'"; empty if there is none.
    function solvers_for(surface, trait) result(words)
       type(surface_type), intent(in) :: surface
-      !> What the solutions must have: 'details' or 'coefficients', those of a series; absent: neither.
+      !> The trait: solutions with 'details', or with the 'coefficients' of a Fourier series; absent: no trait is
+      !> needed.
       character(*), intent(in), optional :: trait
       character(:), allocatable :: words
 

@@ -125,7 +125,7 @@ contains
    !> has its format's default may be given by the deck. Errors: exit_bad_input if file and deck both give a side.
    subroutine take_sides(values, path, heights, length, assumed, error)
       type(surface_group), intent(inout) :: values   !! the values of &surface
-      character(*), intent(in) :: path               !! of the file, for messages
+      character(*), intent(in) :: path               !! name of the file, for messages
       type(measured_map), intent(in) :: heights      !! the map with the steps that its file gives
       real(dp), intent(out) :: length(2)             !! L_x, L_y [length]; of a profile the second is not used
       !> Words about sides that neither file nor deck gives; empty if there are none.

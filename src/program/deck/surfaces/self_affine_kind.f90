@@ -74,7 +74,7 @@ contains
       !> Reports a wavelength that is longer than its limit.
       subroutine check_order(key, name, length, most_words, most)
          type(key_value), intent(in) :: key
-         character(*), intent(in) :: name, most_words   !! of the key; of the limit
+         character(*), intent(in) :: name, most_words   !! name of the key; the limit in words
          real(dp), intent(in) :: length, most           !! the wavelength; its limit [length]
 
          if (length > most) call values%complain(key, name//' = '//short_number(length)// &
