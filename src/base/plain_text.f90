@@ -66,12 +66,12 @@ contains
       real(dp), intent(in) :: number
       character(:), allocatable :: text
 
-      integer, parameter :: digits(*) = [6, 15, 16, 17]   ! 17 digits are enough for any double precision number
+      integer, parameter :: lengths(*) = [6, 15, 16, 17]   ! 17 digits are enough for any double precision number
       real(dp) :: again
       integer :: i
 
-      do i = 1, size(digits)
-         text = rounded(number, digits(i))
+      do i = 1, size(lengths)
+         text = rounded(number, lengths(i))
          if (text == 'NaN') return   ! comparisons with a NaN raise an exception, which Debug builds trap
          read (text, '(f32.0)') again
          if (.not. (again < number .or. again > number)) return
@@ -80,9 +80,9 @@ contains
 
    !> A number rounded to a number of significant digits, without final zeros: as an integer, a decimal fraction or, if
    !> very small or large, with an exponent.
-   pure function rounded(number, digits) result(text)
+   pure function rounded(number, significant) result(text)
       real(dp), intent(in) :: number
-      integer, intent(in) :: digits   !! 6 to 17
+      integer, intent(in) :: significant   !! number of digits, 6 to 17
       character(:), allocatable :: text
 
       integer, parameter :: least_plain = -4, most_plain = 5   ! powers of ten that need no exponent
@@ -93,7 +93,7 @@ contains
          if (sign(1.0_dp, number) > 0.0_dp .and. .not. number > aint(number)) text = integer_text(int(number))
       end if
       if (allocated(text)) return
-      write (layout, '(a, i0, a)') '(es32.', digits - 1, 'e3)'
+      write (layout, '(a, i0, a)') '(es32.', significant - 1, 'e3)'
       write (buffer, layout) number
       text = trim(adjustl(buffer))
       letter = index(text, 'E')
@@ -103,17 +103,17 @@ contains
          text = without_final_zeros(text(:letter - 1))//'e'//integer_text(power)
          return
       end if
-      write (layout, '(a, i0, a)') '(f32.', digits - 1 - power, ')'
+      write (layout, '(a, i0, a)') '(f32.', significant - 1 - power, ')'
       write (buffer, layout) number
       text = without_final_zeros(trim(adjustl(buffer)))
    end function rounded
 
    !> A decimal fraction without the zeros that end it, and without the point if no digit follows it.
-   pure function without_final_zeros(fraction) result(text)
-      character(*), intent(in) :: fraction   !! with a point
+   pure function without_final_zeros(decimal) result(text)
+      character(*), intent(in) :: decimal   !! decimal fraction with a point
       character(:), allocatable :: text
 
-      text = fraction(:verify(fraction, '0', back=.true.))
+      text = decimal(:verify(decimal, '0', back=.true.))
       if (text(len(text):) == '.') text = text(:len(text) - 1)
    end function without_final_zeros
 

@@ -171,11 +171,8 @@ contains
          else
             call grid%start(surface, points, surface%mirrored, is_fine_enough)
             least = surface%shape%last([1, 2])
-            if (surface%mirrored) then
-               least = least + 1
-            else
-               least = max(2*least, 1)
-            end if
+            least = max(2*least, 1)
+            if (surface%mirrored) least = surface%shape%last([1, 2]) + 1
             if (.not. is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
                                                 integer_text(least(1))//' x '//integer_text(least(2))//' points'
          end if

@@ -278,10 +278,8 @@ contains
       character(:), allocatable :: directory
 
       directory = path(:max(index(path, '/', back=.true.) - 1, 0))
-      if (directory == '') then
-         directory = '.'
-         if (index(path, '/') == 1) directory = '/'
-      end if
+      if (directory == '' .and. index(path, '/') == 1) directory = '/'
+      if (directory == '') directory = '.'
    end function directory_of
 
 end module wavycon_collected_table

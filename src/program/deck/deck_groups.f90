@@ -260,7 +260,7 @@ contains
          integer, intent(out) :: k
 
          character(:), allocatable :: before
-         integer :: first, i, last, nearest
+         integer :: candidate, first, i, last
          logical, allocatable :: is_given(:)
 
          k = 0
@@ -273,9 +273,9 @@ contains
             ! A misspelt key of the deck counts as the nearest one, without a value: that is not reported as missing
             ! too. The deck may still give the right key behind it.
             is_given = [(lists(g)%keys(i)%value%is_given, i=1, size(lists(g)%keys))]
-            nearest = nearest_name(name, lists(g)%rows%name, is_given)
-            if (nearest == 0 .or. place > text%own) return
-            if (.not. is_given(nearest)) call lists(g)%take(nearest, place)
+            candidate = nearest_name(name, lists(g)%rows%name, is_given)
+            if (candidate == 0 .or. place > text%own) return
+            if (.not. is_given(candidate)) call lists(g)%take(candidate, place)
             return
          end if
          associate (given => lists(g)%keys(k)%value)

@@ -120,11 +120,10 @@ contains
       kappa = shear_factors(e, nu)
       if (material%nu1%is_given) setting%beta = dundurs_beta(e, nu)
       setting%kappa = [kappa(3), minval(kappa), maxval(kappa)]
-      ! On a profile the tangential load has one direction: across its ridges (1) or along them (2).
-      if (surface%dimension == 1) then
-         setting%kappa = kappa(1)
-         if (values%shear_direction%text == 'y') setting%kappa = kappa(2)
-      end if
+      ! On a profile the tangential load has one direction: across its ridges (1) or along them (2). In 2-D the
+      ! direction 'y' was reported.
+      if (surface%dimension == 1) setting%kappa = kappa(1)
+      if (values%shear_direction%text == 'y') setting%kappa = kappa(2)
    end subroutine check_interface_group
 
    !> Whether adhesion is computed for a surface: a round ball and the 1-D wave of the paper by closed forms, 2-D waves

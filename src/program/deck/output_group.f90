@@ -62,9 +62,9 @@ contains
 
    !> Sets the directory and the points of lines and maps. Tables that the solver or the surface cannot have are
    !> reported.
-   subroutine check_output_group(values, case, method, surface)
+   subroutine check_output_group(values, case_name, method, surface)
       type(output_group), intent(inout) :: values
-      character(*), intent(in) :: case     !! name of the case; the default directory is outputs/<case>
+      character(*), intent(in) :: case_name     !! the default directory is outputs/<case>
       type(method_group), intent(in) :: method   !! the values of &method after check_method_group
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it could not be made
 
@@ -72,7 +72,7 @@ contains
       character(:), allocatable :: refusal
       integer :: i
 
-      call values%directory%set_default(text='outputs/'//case)
+      call values%directory%set_default(text='outputs/'//case_name)
       call values%directory%set(text=plain_directory(values%directory%text))
       if (.not. allocated(surface)) return
       if (.not. method%grid_points%is_bad) call set_points(values, method, surface)

@@ -55,11 +55,8 @@ contains
       name = ''
       do i = 1, len(usual)
          if (iachar(usual(i:i)) >= 128 .and. iachar(usual(i:i)) < 192) cycle
-         if (index(name_letters, usual(i:i)) > 0) then
-            name = name//usual(i:i)
-         else
-            name = name//'_'
-         end if
+         name = name//usual(i:i)
+         if (index(name_letters, usual(i:i)) == 0) name(len(name):) = '_'
       end do
       if (scan(name, '-.') == 1) name(1:1) = '_'
       words = "the deck's file name is too long for the name of the case, at most "//integer_text(longest_name)// &

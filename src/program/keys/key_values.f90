@@ -22,7 +22,7 @@ module wavycon_key_values
       character(:), allocatable :: text      !! value of a text or a choice, without the quotes
    end type word_value
 
-   character(*), parameter :: digits = '0123456789'
+   character(*), parameter :: decimal_digits = '0123456789'
    character(*), parameter :: true_words(*) = ['.true.', 'true  ', '.t.   ', 't     ']
    character(*), parameter :: false_words(*) = ['.false.', 'false  ', '.f.    ', 'f      ']
 
@@ -68,7 +68,7 @@ contains
 
       repeats = 1
       start = 1
-      star = verify(word, digits)
+      star = verify(word, decimal_digits)
       if (star < 2) return
       if (word(star:star) /= '*') return
       start = star + 1
@@ -91,7 +91,7 @@ contains
       call ieee_set_halting_mode(ieee_overflow, .false.)
       call read_decimal(word, number, is_number)
       call ieee_set_status(floating_point)
-      if (key%kind == integer_value) is_number = is_number .and. verify(word, digits//'+-') == 0
+      if (key%kind == integer_value) is_number = is_number .and. verify(word, decimal_digits//'+-') == 0
       if (is_number) then
          call check_number(key, word, number, trouble)
       else

@@ -30,10 +30,7 @@ contains
       if (len(name) == 0 .or. len(name) > longest .or. size(known) == 0) return
       distance = [(edit_distance(name, trim(known(i))), i=1, size(known))]
       if (minval(distance) <= change*max(1, len(name)/3)) then
-         if (present(is_given)) then
-            distance = 2*distance
-            where (is_given) distance = distance + 1
-         end if
+         if (present(is_given)) distance = 2*distance + merge(1, 0, is_given)
          nearest = minloc(distance, dim=1)
       else if (len(name) >= shortest_part) then
          nearest = findloc(index(known, name), 1, dim=1)
@@ -49,15 +46,15 @@ contains
       logical, intent(in), optional :: is_given(:)          !! as for nearest_name
       character(:), allocatable :: words
 
-      integer :: nearest
+      integer :: candidate
 
       words = ''
       if (present(otherwise)) words = otherwise
-      nearest = nearest_name(name, known, is_given)
-      if (nearest == 0) return
-      words = '; did you mean '//before//trim(known(nearest))//after
+      candidate = nearest_name(name, known, is_given)
+      if (candidate == 0) return
+      words = '; did you mean '//before//trim(known(candidate))//after
       if (present(is_given)) then
-         if (is_given(nearest)) words = words//', which is there'
+         if (is_given(candidate)) words = words//', which is there'
       end if
       words = words//'?'
    end function did_you_mean
@@ -74,24 +71,14 @@ contains
       d(0, :) = [(change*j, j=0, len(b))]
       do j = 1, len(b)
          do i = 1, len(a)
-            d(i, j) = min(d(i - 1, j) + cost_of(a(i:i)), d(i, j - 1) + cost_of(b(j:j)), d(i - 1, j - 1) + change)
-            if (a(i:i) == b(j:j)) d(i, j) = min(d(i, j), d(i - 1, j - 1))
+            d(i, j) = min(d(i - 1, j) + merge(1, change, a(i:i) == '_'), &
+                          d(i, j - 1) + merge(1, change, b(j:j) == '_'), &
+                          d(i - 1, j - 1) + merge(0, change, a(i:i) == b(j:j)))
             if (min(i, j) == 1) cycle
             if (a(i - 1:i) == b(j:j)//b(j - 1:j - 1)) d(i, j) = min(d(i, j), d(max(i - 2, 0), max(j - 2, 0)) + change)
          end do
       end do
       distance = d(len(a), len(b))
-
-   contains
-
-      !> The cost to insert or delete a letter.
-      pure integer function cost_of(letter)
-         character(1), intent(in) :: letter
-
-         cost_of = change
-         if (letter == '_') cost_of = 1
-      end function cost_of
-
    end function edit_distance
 
 end module wavycon_nearest_name

@@ -53,7 +53,7 @@ contains
    subroutine add_row(self, numbers, words)
       class(memory_table), intent(inout) :: self
       real(dp), intent(in) :: numbers(:)               !! values of the columns of integers and of numbers, in order
-      character(*), intent(in), optional :: words(:)   !! values of the columns of words, at most longest_word bytes each
+      character(*), intent(in), optional :: words(:)   !! values of the columns of words, <= longest_word bytes
 
       integer :: i
       logical :: is_word(size(self%columns))

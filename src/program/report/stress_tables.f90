@@ -69,12 +69,13 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      integer :: body, parts(2)
+      integer :: body
+      integer :: images(2)     ! how often a mirrored map fits into the cell along x and y
       real(dp) :: ratio(2)     ! equivalent stress over the yield stress, and its error
       real(dp) :: to_unit(5)   ! units of value, error, x, y and depth in the deck's units
 
       associate (surface => results%solver%surface)
-         parts = surface%parts()
+         images = surface%parts()
          to_unit = [results%scene%p_star, results%scene%p_star, surface%length, surface%length(1)]
       end associate
       do body = 1, size(results%scene%stress_setting%body)
@@ -87,8 +88,8 @@ contains
                                results%in_p_star([results%loads(load)%pbar_over_pstar, yielding%value, &
                                                   yielding%error, shear%value, shear%error]), ratio, &
                                results%mean_pressure(load), &
-                               to_unit*[yielding%value, yielding%error, yielding%place_in_cell(parts)], &
-                               to_unit*[shear%value, shear%error, shear%place_in_cell(parts)], &
+                               to_unit*[yielding%value, yielding%error, yielding%place_in_cell(images)], &
+                               to_unit*[shear%value, shear%error, shear%place_in_cell(images)], &
                                status_code(status)], [status_name(status)])
          end associate
       end do

@@ -114,7 +114,7 @@ contains
 
       !> The fourth power of a length must not overflow in double precision.
       real(dp), parameter :: largest_length = 1.0e75_dp
-      character(:), allocatable :: lack, others
+      character(:), allocatable :: alternatives, lack
 
       words = ''
       lack = ''
@@ -138,12 +138,12 @@ contains
       end select
       if (lack == '') return
       ! The solvers for this surface that have, or do, what this solver lacks.
-      others = solvers_for(surface, trim(self%file))
+      alternatives = solvers_for(surface, trim(self%file))
       words = "solver = '"//trim(solver_names(traits%solver))//"' "//lack
-      if (others == '') then
+      if (alternatives == '') then
          words = words//', nor does any other for this surface'
       else
-         words = words//'; '//others//' '//lack(:index(lack, ' ') - 1)
+         words = words//'; '//alternatives//' '//lack(:index(lack, ' ') - 1)
       end if
    end function refusal
 

@@ -73,16 +73,15 @@ contains
       integer, intent(out) :: status          !! the program's exit status: exit_fine, exit_not_converged or the error's
       type(error_type), allocatable, intent(out) :: error
 
+      integer :: number   ! of settings
       type(results_type) :: results
       type(scene_type), allocatable :: scene
       type(setting_type), allocatable :: settings(:)
 
-      allocate (settings(0))
-      if (directory /= '') then
-         deallocate (settings)
-         allocate (settings(1))
-         settings(1) = setting_type('output', 'directory', directory)
-      end if
+      number = 0
+      if (directory /= '') number = 1
+      allocate (settings(number))
+      if (number == 1) settings(1) = setting_type('output', 'directory', directory)
       status = exit_fine
       allocate (scene)
       call read_deck(path, scene, error, settings)
