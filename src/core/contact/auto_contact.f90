@@ -120,6 +120,7 @@ contains
       traits%choice = self%choice
    end function traits
 
+   !> Forgets the last collocation. Grids keep nothing of a load outside a search.
    subroutine forget_last_load(self)
       class(auto_contact), intent(inout) :: self
 

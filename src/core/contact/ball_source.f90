@@ -121,6 +121,7 @@ contains
       mean = mean*contact%peak_pressure*product(contact%half_axis)/(pi*surface%nominal_area()*surface%amplitude)
    end function mean_displacement
 
+   !> Makes the fields (`at`) of the ball. They need the surface, whose cell is that of the mirrored map.
    subroutine fields(self, surface, answer)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -217,6 +218,7 @@ contains
       call move_alloc(stress, answer)
    end subroutine stresses
 
+   !> The stresses at a point, from those at the corresponding point below the smaller rectangle.
    subroutine stress_at(self, x, y, depth, parts, error)
       class(ball_stress), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -232,6 +234,7 @@ contains
       if (present(error)) error = error*self%unit
    end subroutine stress_at
 
+   !> Start points of the search for the largest stress, converted from those on the smaller rectangle.
    subroutine start_places(self, body, places)
       class(ball_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body

@@ -78,6 +78,7 @@ contains
       self%is_started = closed_form_exists(surface)
    end subroutine start
 
+   !> The traits; no load depends on the load before.
    type(solver_traits) function traits(self)
       class(closed_form_contact), intent(in) :: self
 
@@ -115,6 +116,7 @@ contains
       end associate
    end subroutine solve_partial_contact
 
+   !> Makes the fields (`at`) of Westergaard's solution.
    subroutine fields(self, surface, answer)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -148,6 +150,7 @@ contains
       displacement = displacement + opening + self%tension*log(self%pbar_over_pstar)
    end subroutine at
 
+   !> The edge of contact: both ends of the only strip, X = -pi A and pi A, which carries the whole load.
    subroutine contact_contours(self, surface, curves, loads)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -159,6 +162,7 @@ contains
       loads = [1.0_dp]
    end subroutine contact_contours
 
+   !> Makes the stresses (`stress_at`) below Westergaard's pressure.
    subroutine stresses(self, surface, answer)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface

@@ -231,10 +231,9 @@ contains
                k = self%position(r) + i - self%first(r)
                if (contact(k) > 0.0_sp) then
                   p(i) = min(bound, max(0.0_dp, p(i) + unit*change(k)))
-               else if (at_bound(k)) then
-                  p(i) = bound
                else
                   p(i) = 0.0_dp
+                  if (at_bound(k)) p(i) = bound
                end if
             end do
          end associate

@@ -80,7 +80,7 @@ contains
    !> Pressure, displacement and gap. They are NaN for a partial contact without a source.
    subroutine fields(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface             !! that was solved
+      type(surface_type), intent(in) :: surface             !! the surface that was solved
       class(contact_fields), allocatable, intent(out) :: answer
 
       type(series_fields), allocatable :: own
@@ -98,7 +98,7 @@ contains
    !> without load, and without a source.
    subroutine contact_contours(self, surface, curves, loads)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface             !! that was solved
+      type(surface_type), intent(in) :: surface             !! the surface that was solved
       type(contact_contour), allocatable, intent(out) :: curves(:)
       !> The part of the load that each spot carries, in the order of the spots' numbers; size 0 if it is not known.
       real(dp), allocatable, intent(out), optional :: loads(:)
@@ -117,7 +117,7 @@ contains
    !> not exist for a partial contact without a source.
    subroutine stresses(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface             !! that was solved
+      type(surface_type), intent(in) :: surface             !! the surface that was solved
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fourier_series) :: pressure
@@ -140,7 +140,7 @@ contains
    !> those of the map. The arrays of `answer` are not allocated for a partial contact without a source.
    subroutine spots(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface      !! that was solved
+      type(surface_type), intent(in) :: surface      !! the surface that was solved
       type(contact_spots), intent(out) :: answer
 
       type(contact_contour), allocatable :: curves(:)
@@ -161,7 +161,7 @@ contains
    !> contact has its own series, and without a source all coefficients are zero.
    subroutine coefficients(self, surface, series)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface      !! that was solved
+      type(surface_type), intent(in) :: surface      !! the surface that was solved
       type(fourier_series), intent(out) :: series
 
       if (allocated(self%source)) then
@@ -192,7 +192,7 @@ contains
    !> stays closed. Without load, and for a partial contact without a source, all derivatives are unknown.
    subroutine derivatives(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface      !! that was solved
+      type(surface_type), intent(in) :: surface      !! the surface that was solved
       type(quantities), intent(out) :: answer
 
       if (allocated(self%source)) then

@@ -128,7 +128,7 @@ contains
       associate (unused => self); end associate
    end subroutine forget_last_load
 
-   !> Begins or ends a search for a load. Loads within a search are near one another, and each may start from the last
+   !> Begins or ends a search for a load. Loads within a search differ little, and each may start from the last
    !> one. The end of a search deletes these starts. By default nothing is done.
    subroutine set_search(self, begins)
       class(contact_solver), intent(inout) :: self

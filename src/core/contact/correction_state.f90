@@ -34,7 +34,7 @@ module wavycon_correction_state
       real(sp) :: approach = 0.0_sp               !! change of the approach, which is still to be subtracted from `gap`
       real(sp) :: allowance = huge(1.0_sp)        !! points with a smaller overlap than this do not enter (C8)
       real(sp), allocatable :: start_pressure(:)  !! pressure p at the start
-      real(sp), allocatable :: room(:)            !! H - p at the start; not allocated without a hardness
+      real(sp), allocatable :: below_hardness(:)  !! H - p at the start; not allocated without a hardness
       real(sp), allocatable :: change(:)          !! change of the pressure since the start
       real(sp), allocatable :: gap(:)             !! gap before `approach` is subtracted
       real(sp), allocatable :: contact(:)         !! 1 at free points, 0 at those with p = 0 or p = H
@@ -78,10 +78,10 @@ contains
       call self%region%gather_scaled(grid%gap, self%scale, self%gap)
       self%contact = merge(1.0_sp, 0.0_sp, self%start_pressure > 0.0_sp)
       if (grid%hardness < huge(grid%hardness)) then
-         allocate (self%room, mold=self%gap)
+         allocate (self%below_hardness, mold=self%gap)
          ! The difference loses no digits where the pressure is close to H.
-         call self%region%gather_scaled(grid%hardness - grid%pressure, self%scale, self%room)
-         where (self%room <= 0.0_sp) self%contact = 0.0_sp
+         call self%region%gather_scaled(grid%hardness - grid%pressure, self%scale, self%below_hardness)
+         where (self%below_hardness <= 0.0_sp) self%contact = 0.0_sp
       end if
       call self%update_contact(self%mean_gap())
    end subroutine start
@@ -139,8 +139,8 @@ contains
             call self%region%take_chunk(c, field, z)
             excluded(:n) = 0.0_sp
             where (z(:n) > mean .and. self%change(a:b) <= -self%start_pressure(a:b)) excluded(:n) = contact(a:b)
-            if (allocated(self%room)) then
-               where (z(:n) < mean .and. self%room(a:b) <= self%change(a:b)) excluded(:n) = contact(a:b)
+            if (allocated(self%below_hardness)) then
+               where (z(:n) < mean .and. self%below_hardness(a:b) <= self%change(a:b)) excluded(:n) = contact(a:b)
             end if
             contact(a:b) = contact(a:b) - excluded(:n)
             gap(:n) = self%gap(a:b) - self%approach
@@ -220,9 +220,9 @@ contains
             end if
             gap(:n) = self%gap(a:b) - mean
             outside(:n) = gap(:n)
-            if (allocated(self%room)) then
+            if (allocated(self%below_hardness)) then
                ! At the hardness the condition on the gap has the other sign (C21).
-               where (self%room(a:b) <= self%change(a:b)) outside(:n) = -gap(:n)
+               where (self%below_hardness(a:b) <= self%change(a:b)) outside(:n) = -gap(:n)
             end if
             enter(:n) = merge(1.0_sp - self%contact(a:b), 0.0_sp, outside(:n) < -self%allowance)
             contact(:n) = self%contact(a:b) + enter(:n)
@@ -279,7 +279,7 @@ contains
       real(dp) :: load
 
       allocate (at_hardness(self%region%points), source=.false._c_bool)
-      if (allocated(self%room)) at_hardness = self%room <= self%change
+      if (allocated(self%below_hardness)) at_hardness = self%below_hardness <= self%change
       load = grid%slab%sum_of(grid%pressure)
       call self%region%correct(self%change, self%contact, at_hardness, self%scale, grid%hardness, grid%pressure)
       call set_load(grid%slab, grid%pressure, load, grid%hardness)

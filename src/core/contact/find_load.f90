@@ -44,7 +44,7 @@ contains
    !> has the status not_accurate if the search did not find such a load. The status is not_found if the target is not
    !> reached even at the lightest loads; the solution is then that for P -> 0, with P set to 0.
    subroutine solve_for(solver, quantity, target, solution)
-      class(contact_solver), intent(inout) :: solver    !! started
+      class(contact_solver), intent(inout) :: solver    !! a solver that has been started
       integer, intent(in) :: quantity                   !! contact_area, mean_gap or approach
       !> Area fraction or G, 0 .. 1, or approach [Delta]. The load is zero for an area or approach of 0 or less and for
       !> G of 1 or more. Without free edges P = 1 for an area of 1 and for G = 0.

@@ -94,6 +94,7 @@ contains
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
+   !> The traits. A solution starts from the last one, so that its last digits depend on the load before.
    type(solver_traits) function traits(self)
       class(fitted_contact), intent(in) :: self
 
@@ -101,6 +102,7 @@ contains
       traits = solver_traits(solver=by_expansions, has_details=.true., continues_last_load=.true.)
    end function traits
 
+   !> Forgets the last solution; the next one starts without it.
    subroutine forget_last_load(self)
       class(fitted_contact), intent(inout) :: self
 

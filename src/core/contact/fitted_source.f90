@@ -47,6 +47,7 @@ module wavycon_fitted_source
 
 contains
 
+   !> Makes the fields (`at`), with the symmetries of the lattice.
    subroutine fields(self, surface, answer)
       class(fitted_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -64,6 +65,7 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
+   !> Makes the stresses, with the symmetries of the lattice.
    subroutine stresses(self, surface, answer)
       class(fitted_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -80,6 +82,7 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
+   !> Pressure, displacement and gap at a point, converted from the units of the lattice.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(fitted_contact_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -87,11 +90,12 @@ contains
 
       call self%fitted%at(self%frame%place(x, y), pressure, displacement, gap)
       pressure = pressure*self%frame%pressure_unit
-      ! Without adhesion there is no tension but for errors next to the edge.
+      ! Without adhesion a negative pressure can only be an error next to the edge.
       if (self%fitted%answer%solution%work <= 0.0_dp) pressure = max(pressure, 0.0_dp)
       gap = max(gap, 0.0_dp)
    end subroutine at
 
+   !> Prepares the fields of src/core/fitted for many points.
    subroutine prepare_places(self, places)
       class(fitted_contact_fields), intent(inout) :: self
       integer, intent(in) :: places
@@ -151,6 +155,7 @@ contains
       end do
    end subroutine contact_contours
 
+   !> Adds the gap at the troughs, and gap and pressure at the saddles.
    subroutine details(self, answer)
       class(fitted_source), intent(in) :: self
       type(quantities), intent(inout) :: answer

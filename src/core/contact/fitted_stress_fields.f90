@@ -23,6 +23,7 @@ module wavycon_fitted_stress_fields
 
 contains
 
+   !> The stresses at a point, converted from the axes and units of the lattice.
    subroutine at(self, x, y, depth, parts, error)
       class(fitted_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y

@@ -96,6 +96,7 @@ contains
       end if
    end function coarser_levels
 
+   !> The traits. The finest grid is the last one of the plan, on the cell that is solved.
    type(solver_traits) function traits(self)
       class(grid_contact), intent(in) :: self
 
@@ -165,6 +166,7 @@ contains
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
+   !> Begins or ends a search: allocates or deletes the pressures from which its loads start.
    subroutine set_search(self, begins)
       class(grid_contact), intent(inout) :: self
       logical, intent(in) :: begins

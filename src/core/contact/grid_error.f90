@@ -76,7 +76,7 @@ contains
    !> contact. The peak pressure has one if too few points are in contact for the polynomial (C13).
    function unresolved_errors(surface, edge, bend) result(errors)
       type(surface_type), intent(in) :: surface
-      type(grid_edge), intent(in) :: edge    !! with its neighbours fetched (`fetch_neighbours`)
+      type(grid_edge), intent(in) :: edge    !! after `fetch_neighbours`
       real(dp), intent(in) :: bend           !! bend of (C16) [p*], from grid_peak_pressure; 0: the polynomial exists
       real(dp) :: errors(3)
 
@@ -100,7 +100,7 @@ contains
    !> Number of points in contact beside which a gap may lie, o of (C15): the four neighbours are in contact and have no
    !> lower pressure, and the pressure of one of them is more than `opening_ratio` times as large.
    integer(int64) function possible_openings(edge) result(openings)
-      type(grid_edge), intent(in) :: edge   !! with its neighbours fetched (`fetch_neighbours`)
+      type(grid_edge), intent(in) :: edge   !! after `fetch_neighbours`
 
       real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
       integer :: j, m

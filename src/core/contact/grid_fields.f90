@@ -61,6 +61,7 @@ contains
       end where
    end subroutine start_grid_fields
 
+   !> The fields at the points of one own column: the solution's numbers, without interpolation.
    subroutine at_own_column(self, column, shape, pressure, displacement, gap)
       class(grid_fields), intent(in) :: self
       integer, intent(in) :: column
@@ -74,6 +75,7 @@ contains
       displacement = gap - (1.0_dp - self%approach) + shape
    end subroutine at_own_column
 
+   !> The fields at one point, interpolated by (C20).
    subroutine at(self, x, y, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -83,6 +85,7 @@ contains
       displacement = gap - (1.0_dp - self%approach) + self%surface%shape_at(x, y)
    end subroutine at
 
+   !> The fields at many points, interpolated by (C20), with the surface's shape that the caller knows.
    subroutine at_points(self, angle, shape, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       real(dp), intent(in) :: angle(:, :)
@@ -97,6 +100,7 @@ contains
       displacement = gap - (1.0_dp - self%approach) + shape
    end subroutine at_points
 
+   !> The fields on a grid of the cell: the solution's numbers if this is its own grid, otherwise interpolated.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       integer, intent(in) :: points(2)

@@ -152,7 +152,7 @@ contains
       type(compliance_operator) :: half_space
       integer :: most                                 ! largest number of iterations
       real(dp) :: carried, load                       ! sums of the pressures of the start and of the solution
-      real(dp) :: cell(surface%dimension)             ! sides of the part of the cell that is solved
+      real(dp) :: cell(surface%dimension), ratio      ! sides of the cell; the longest of them over the shortest step
 
       associate (slab => answer%state%slab, pressure => answer%state%pressure)
          allocate (h(slab%points(1), slab%columns()))
@@ -167,11 +167,9 @@ contains
          end if
          if (has_points_at(slab, surface%hardness, pressure)) call set_load(slab, pressure, load, surface%hardness)
          cell = surface%length(:surface%dimension)
-         if (surface%shape%is_even()) cell = cell/2
-         associate (longest => maxval(surface%length(:surface%dimension)))
-            most = max(iteration_limit, &
-                       nint(iterations_of_root*sqrt(longest/minval(cell/slab%points(:surface%dimension)))))
-         end associate
+         ratio = maxval(cell)/minval(cell/slab%points(:surface%dimension))
+         if (surface%shape%is_even()) ratio = 2*ratio
+         most = max(iteration_limit, nint(iterations_of_root*sqrt(ratio)))
       end associate
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension
       if (surface%has_free_edges) then

@@ -211,7 +211,7 @@ contains
    !> looked at.
    real(dp) function gap_at_edge(even, state, touched) result(gap)
       logical, intent(in) :: even             !! whether the grid continues by mirror images, otherwise periodically
-      type(grid_state), intent(in) :: state   !! with pressure and gap
+      type(grid_state), intent(in) :: state   !! pressure and gap are used
       logical, intent(in) :: touched(:)       !! whether a column has points in contact, shape (slab%columns())
 
       real(dp), dimension(0:size(state%gap, 1) + 1) :: before, here, next   ! 1 at the free points of a column, else 0
@@ -271,7 +271,7 @@ contains
    !> that violate their condition or whose open gap is below the residual, and all points within `halo` steps of them.
    subroutine find_region(even, state, inside)
       logical, intent(in) :: even             !! whether the grid continues by mirror images, otherwise periodically
-      type(grid_state), intent(in) :: state   !! with pressure, gap and residual [Delta]
+      type(grid_state), intent(in) :: state   !! pressure, gap and residual [Delta] are used
       real(sp), allocatable, intent(out) :: inside(:, :)   !! > 0 at these points, shape (M, slab%columns())
 
       integer :: j, step

@@ -80,6 +80,7 @@ contains
       call self%take_edge(whole)
    end subroutine collect
 
+   !> Makes the fields, which interpolate between the points (`grid_fields`).
    subroutine fields(self, surface, answer)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -92,6 +93,8 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
+   !> The edge of contact (C11), (C12), and the loads of the spots. In 2-D the polygons are moved into the contact by
+   !> the offset of (C12).
    subroutine contact_contours(self, surface, curves, loads)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface

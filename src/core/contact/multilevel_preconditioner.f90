@@ -149,7 +149,7 @@ contains
    !> procedures.
    subroutine average(fine, averaged, slab, coarse)
       real(sp), intent(in), contiguous :: fine(:, :)        !! field on the finer grid, columns of this process
-      !> Of the coarser grid the columns that are computed here, and those that `coarse` has.
+      !> Columns of the coarser grid: those that are computed here, and those that `coarse` has.
       type(grid_slab), intent(in) :: averaged, slab
       real(sp), intent(inout), contiguous :: coarse(:, :)   !! field on the coarser grid, shape (M/2, slab%columns())
 

@@ -208,8 +208,8 @@ contains
             chunk_sums(1, c) = sdot(n, free, 1, free, 1)
             chunk_sums(2, c) = sdot(n, free, 1, start(a:b), 1) + sdot(n, free, 1, change, 1)
             chunk_sums(3, c) = sdot(n, change, 1, ones, 1)
-            if (.not. allocated(state%room)) cycle
-            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) >= state%room(a:b))
+            if (.not. allocated(state%below_hardness)) cycle
+            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) >= state%below_hardness(a:b))
             chunk_sums(4, c) = sdot(n, free, 1, free, 1)
          end associate
       end do
@@ -285,17 +285,17 @@ contains
       associate (start => state%start_pressure, contact => state%contact)
          allocate (change, source=state%change - real(step, dp)*direction)
          above = contact*(start + change)
-         below = contact*(state%room - change)
+         below = contact*(state%below_hardness - change)
          shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(change))
-         change = min(max(change + contact*shift, -real(start, dp)), real(state%room, dp))
+         change = min(max(change + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
       end associate
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
             n = b - a + 1
             delta(:n) = real(change(a:b), sp) - state%change(a:b)
             state%change(a:b) = real(change(a:b), sp)
-            where (state%change(a:b) <= -state%start_pressure(a:b) .or. state%change(a:b) >= state%room(a:b)) &
-               state%contact(a:b) = 0.0_sp
+            where (state%change(a:b) <= -state%start_pressure(a:b) .or. &
+                   state%change(a:b) >= state%below_hardness(a:b)) state%contact(a:b) = 0.0_sp
             call state%region%put_chunk(c, delta, field)
          end associate
       end do

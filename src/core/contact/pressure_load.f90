@@ -20,7 +20,8 @@ contains
       real(dp), intent(in) :: load                !! sum of the pressures, > 0 and < H times their number
       real(dp), intent(in) :: hardness            !! H, huge if there is none
 
-      real(dp) :: lack, room, shift   ! load that is missing; largest change by the points between zero and H
+      !> Load that is missing (too much if negative), and the largest change that the points between zero and H allow.
+      real(dp) :: lack, largest_change, shift
       logical, allocatable :: changes(:, :)
       integer :: first(slab%strips() + 1), s
 
@@ -31,12 +32,9 @@ contains
       pressure = min(pressure, hardness)
       lack = load - slab%sum_of(pressure)
       allocate (changes, source=pressure > 0.0_dp .and. pressure < hardness)
-      if (lack > 0.0_dp) then
-         room = slab%sum_of(merge(hardness - pressure, 0.0_dp, changes))
-      else
-         room = slab%sum_of(merge(pressure, 0.0_dp, changes))
-      end if
-      if (abs(lack) >= room) changes = .true.
+      largest_change = slab%sum_of(merge(pressure, 0.0_dp, changes))
+      if (lack > 0.0_dp) largest_change = slab%sum_of(merge(hardness - pressure, 0.0_dp, changes))
+      if (abs(lack) >= largest_change) changes = .true.
       do s = 1, slab%strips() + 1
          first(s) = 1 + size(pressure, 1)*min((s - 1)*strip_columns, size(pressure, 2))
       end do

@@ -209,6 +209,7 @@ contains
       end associate
    end function continues
 
+   !> The traits. The errors of a truncated series are not estimated.
    type(solver_traits) function traits(self)
       class(series_contact), intent(in) :: self
 
@@ -216,6 +217,7 @@ contains
                              continues_last_load=continues(self))
    end function traits
 
+   !> Forgets the last active constraints; the next load starts from none.
    subroutine forget_last_load(self)
       class(series_contact), intent(inout) :: self
 
@@ -238,6 +240,7 @@ contains
       call self%terms%coefficients(self%terms%compliance*self%x, series%c)
    end function displacement
 
+   !> Makes the fields from the series of pressure and displacement.
    subroutine fields(self, surface, answer)
       class(series_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -269,6 +272,7 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
+   !> The Fourier series of p/p* in X and Y.
    subroutine coefficients(self, series)
       class(series_source), intent(in) :: self
       type(fourier_series), intent(out) :: series

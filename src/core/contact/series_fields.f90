@@ -55,6 +55,7 @@ contains
       end if
    end subroutine start_edgeless_fields
 
+   !> The fields at one point, as sums of the series.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(series_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -68,6 +69,7 @@ contains
       gap = max(gap, 0.0_dp)
    end subroutine at
 
+   !> The fields on a grid of the cell, by fast Fourier transforms.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(series_fields), intent(inout) :: self
       integer, intent(in) :: points(2)
