@@ -162,8 +162,9 @@ contains
       type(adhesive_point), intent(inout) :: point          !! on entry with its area and branch
       type(fitted_answer), intent(in), optional :: start    !! as of find_point
 
-      real(dp) :: cell   ! area of the cell of one spot; of one pool minus this, as contact shrinks where a pool grows
-      real(dp) :: area   ! of the spot or pool, in the lattice's units
+      !> The area of the cell of one spot; of one pool minus this, as contact shrinks where a pool grows. The area of
+      !> the spot or pool. Both in the lattice's units.
+      real(dp) :: cell, area
 
       allocate (point%answer)
       associate (lattice => self%frame%lattice, unit => self%frame%pressure_unit, answer => point%answer)

@@ -113,11 +113,9 @@ contains
       logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
 
       real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp
-      real(dp) :: cell_area      ! area of the lattice that belongs to one spot or pool
-      real(dp) :: cell_radius    ! radius of a circle of this area
-      real(dp) :: full_step, next, radius, step
-      real(dp) :: part           ! of the cell that the spot or pool covers
-      real(dp) :: ratio          ! merging ratio of the last point; 0 if there is none yet
+      !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
+      !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
+      real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
       type(adhesive_point) :: point
       type(fitted_answer) :: start
 
@@ -368,12 +366,12 @@ contains
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp, tightening = 0.3_dp, &
          least_tightening = 0.01_dp
       integer :: n
-      logical :: is_extreme   ! whether a slope is to become 0
-      logical :: is_last      ! whether the search is repeated with a smaller accuracy
-      real(dp) :: area(most_steps), miss(most_steps)   ! areas so far; value(which) less the target there
-      real(dp) :: bracket(2), next                     ! areas between which the point lies; the next area
-      real(dp) :: changes(2), errors(2)                ! of load and approach: the next step's changes; their errors
-      real(dp) :: curvature, distance                  ! derivative of the slope, from two areas so far apart
+      !> Whether a slope is to become 0; whether the search is repeated with a smaller accuracy.
+      logical :: is_extreme, is_last
+      !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
+      !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
+      !> of the last point. `curvature`, `distance`: the derivative of the slope, from two areas so far apart.
+      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, distance, errors(2), miss(most_steps), next
       type(adhesive_problem) :: problem
 
       problem = curve%problem
@@ -422,11 +420,7 @@ contains
          if (.not. point%exists) return
          area(n + 1) = next
          miss(n + 1) = point%value(which) - target
-         if ((miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp)) then
-            bracket(1) = next
-         else
-            bracket(2) = next
-         end if
+         bracket(merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))) = next
       end do
       if (.not. is_extreme) point%area_error = abs((abs(miss(n)) + point%error(which))/point%value(2 + which))
       if (.not. maxval(point%error) <= curve%problem%accuracy) point%status = not_accurate

@@ -76,9 +76,8 @@ contains
       type(solver_traits) :: traits
       !> Values of ln P: the bracket of the root, the hardness, the last and the next load, that of the largest stress.
       real(dp) :: low, high, at_hardness, last_log_p, next, at_largest
-      !> Values of ln r - log_target: now, at the last load, the largest one, and the allowed one.
-      real(dp) :: miss, last_miss, largest, tolerance
-      real(dp) :: error, ratio   ! r, and the error of ln r
+      !> Values of ln r - log_target: now, at the last load, the largest one, and the allowed one; the error of ln r; r.
+      real(dp) :: miss, last_miss, largest, tolerance, error, ratio
       integer :: i
       logical :: jumps           ! whether the bracket of a coarser grid is so narrow that r jumps over the target in it
       !> Rounding of the logarithm of a stress.
@@ -103,10 +102,7 @@ contains
          miss = log(ratio) - log_target
          error = error/ratio
          ! A solver without error estimates is taken as exact. An estimate that is not known meets no accuracy.
-         if (.not. ieee_is_finite(error)) then
-            error = 0.0_dp
-            if (traits%has_errors) error = unknown
-         end if
+         if (.not. ieee_is_finite(error)) error = merge(unknown, 0.0_dp, traits%has_errors)
          if (miss > largest + rounding) then
             largest = miss
             at_largest = log_p
@@ -156,8 +152,7 @@ contains
    pure real(dp) function light_slope(solver)
       class(contact_solver), intent(in) :: solver
 
-      light_slope = 1.0_dp/3
-      if (solver%surface%dimension == 1) light_slope = 0.5_dp
+      light_slope = merge(0.5_dp, 1.0_dp/3, solver%surface%dimension == 1)
    end function light_slope
 
 end module wavycon_find_yield

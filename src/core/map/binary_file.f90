@@ -100,14 +100,8 @@ contains
       if (.not. allocated(error)) call check_room(self%path, points, error, slab)
       lines = 0
       if (.not. allocated(error)) then
-         allocate (map%height(points(1), slab%columns()))
-         if (by_columns) then
-            allocate (line(slab%columns()))
-            if (size(line) > 0) lines = points(1)
-         else
-            allocate (line(points(1)))
-            lines = slab%columns()
-         end if
+         allocate (map%height(points(1), slab%columns()), line(merge(slab%columns(), points(1), by_columns)))
+         lines = size(map%height)/max(size(line), 1)
       end if
       do k = 1, lines
          if (by_columns) then

@@ -137,34 +137,24 @@ contains
       real(dp), intent(inout) :: field(:, :)    !! shape (M, N)
       real(dp), intent(out) :: image(:)         !! sum of weight times (value - neighbour), at the n points
 
-      integer :: n
+      integer :: next_x(0:size(field, 1) + 1), next_y(0:size(field, 2) + 1)
+      integer :: k, n
 
+      ! Beyond a border there is the point itself, whose difference from itself is zero, or in a periodic map the point on
+      ! the other side.
+      next_x = [1, (k, k=1, size(field, 1)), size(field, 1)]
+      next_y = [1, (k, k=1, size(field, 2)), size(field, 2)]
+      if (periodic) next_x = [size(field, 1), (k, k=1, size(field, 1)), 1]
+      if (periodic) next_y = [size(field, 2), (k, k=1, size(field, 2)), 1]
       do n = 1, size(value)
          field(point(1, n), point(2, n)) = value(n)
       end do
-      associate (next_x => with_neighbours(size(field, 1)), next_y => with_neighbours(size(field, 2)))
-         do n = 1, size(value)
-            associate (i => point(1, n), j => point(2, n), here => value(n))
-               image(n) = weight(1)*((here - field(next_x(i), j)) + (here - field(next_x(i + 2), j))) &
-                        + weight(2)*((here - field(i, next_y(j))) + (here - field(i, next_y(j + 2))))
-            end associate
-         end do
-      end associate
-
-   contains
-
-      !> The numbers of the points 0 .. n + 1 in one direction: beyond a border the point on the other side or, if the
-      !> map is not periodic, the last point itself, whose difference from itself is zero.
-      pure function with_neighbours(points) result(numbers)
-         integer, intent(in) :: points
-         integer :: numbers(points + 2)
-
-         integer :: k
-
-         numbers = [1, (k, k=1, points), points]
-         if (periodic) numbers([1, points + 2]) = [points, 1]
-      end function with_neighbours
-
+      do n = 1, size(value)
+         associate (i => point(1, n), j => point(2, n), here => value(n))
+            image(n) = weight(1)*((here - field(next_x(i - 1), j)) + (here - field(next_x(i + 1), j))) &
+                     + weight(2)*((here - field(i, next_y(j - 1))) + (here - field(i, next_y(j + 1))))
+         end associate
+      end do
    end subroutine apply
 
 end module wavycon_fill_missing

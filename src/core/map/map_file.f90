@@ -98,7 +98,6 @@ contains
 
       type(number_table) :: table
       character(:), allocatable :: remedy
-      integer :: heights
 
       remedy = remedy_of_content(file%head, file%path)
       if (index(file%head, npy_magic) == 1) remedy = "this is a file of numpy: file_format = 'npy' reads it"
@@ -127,9 +126,7 @@ contains
             if (allocated(error)) return
          end if
       end if
-      heights = size(table%values)
-      if (map%format == 'xyz') heights = heights/3
-      call check_room(file%path, [heights, 1], error)
+      call check_room(file%path, [size(table%values)/merge(3, 1, map%format == 'xyz'), 1], error)
       if (allocated(error)) return
       select case (map%format)
       case ('xyz')

@@ -143,8 +143,7 @@ contains
       real(dp), allocatable :: smooth(:, :)
       real(dp) :: periods(2), squares(1)
 
-      periods = sides
-      if (mirrored) periods = 2*sides
+      periods = merge(2, 1, mirrored)*sides
       call transform%start(points, even=mirrored)
       call transform%series(height, waves)
       call waves%multiply(merge(1.0_dp, 0.0_dp, shortest*waves%frequencies(periods) <= 1 + rounding))

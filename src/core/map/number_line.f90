@@ -145,7 +145,8 @@ contains
          value = ieee_value(0.0_dp, ieee_quiet_nan)
          return
       end if
-      select case (lower_case(without_sign(word)))
+      ! `scan` is 1 if the word has a sign, otherwise 0.
+      select case (lower_case(word(1 + scan(word(1:1), '+-'):)))
       case ('inf', 'infinity')
          trouble = "'"//excerpt(word)//"' is not a height: write nan if it is missing"
       case default
@@ -163,18 +164,9 @@ contains
                                              '#num!', '#value!', '#div/0!', '#ref!']
       character(:), allocatable :: unsigned
 
-      unsigned = lower_case(without_sign(word))
+      unsigned = lower_case(word(1 + scan(word(1:1), '+-'):))
       is_missing = any(unsigned == words) .or. index(unsigned, '1.#') == 1 .or. word == '--'
    end function is_missing
-
-   !> A word without its sign.
-   pure function without_sign(word) result(unsigned)
-      character(*), intent(in) :: word   !! not empty
-      character(:), allocatable :: unsigned
-
-      unsigned = word
-      if (scan(word(1:1), '+-') == 1) unsigned = word(2:)
-   end function without_sign
 
    !> Whether a byte separates numbers, as those of `gaps` do.
    elemental logical function is_gap(byte)

@@ -50,9 +50,10 @@ contains
 
       character(:), allocatable :: content, trouble
       real(dp), allocatable :: row(:), values(:, :)
-      integer :: behind, columns, first, i, last, line, most_columns, most_rows, rows, status, used
-      logical :: ends_open   ! whether a row ends in a separator: a last number may be missing
-      logical :: may_grow    ! whether all rows so far end so: all may lack a last number, and the table a column
+      integer :: behind, columns, first, i, last, line, most_rows, rows, status, used
+      !> Whether a row ends in a separator, so that a last number may be missing; whether all rows so far end so, so
+      !> that the table may lack a column.
+      logical :: ends_open, may_grow
 
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
@@ -96,10 +97,8 @@ contains
          if (used == 0) cycle
          if (rows == 0) then
             columns = used
-            most_columns = used
             ! The first row may lack a last number.
-            if (ends_open) most_columns = used + 1
-            allocate (table%values(most_columns, most_rows), table%line(most_rows), stat=status)
+            allocate (table%values(merge(used + 1, used, ends_open), most_rows), table%line(most_rows), stat=status)
             if (status /= 0) exit
          else if (may_grow .and. used == min(columns + 1, size(table%values, 1))) then
             columns = used
@@ -166,7 +165,7 @@ contains
    pure subroutine write_decimal_points(content)
       character(*), intent(inout) :: content
 
-      character(*), parameter :: digits = '0123456789'
+      character(*), parameter :: decimal_digits = '0123456789'
       integer :: behind, first, k, last, next, pass
 
       if (index(content, ',') == 0) return
@@ -180,9 +179,9 @@ contains
                if (content(k:k) /= ',') cycle
                if (pass == 2) content(k:k) = '.'
                if (pass == 2) cycle
-               next = k + verify(content(k + 1:last)//' ', digits)
+               next = k + verify(content(k + 1:last)//' ', decimal_digits)
                if (k == first .or. next == k + 1) return
-               if (verify(content(k - 1:k - 1), digits) > 0 .or. content(next:min(next, last)) == ',') return
+               if (verify(content(k - 1:k - 1), decimal_digits) > 0 .or. content(next:min(next, last)) == ',') return
             end do
          end do
       end do

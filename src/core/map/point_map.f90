@@ -46,7 +46,6 @@ contains
       type(measured_map) :: map
       type(number_table) :: points
       type(error_type), allocatable :: trouble
-      character(6) :: line
       logical :: is_axis(2)   ! whether the first column, and the first row, may be coordinates
 
       associate (v => table%values, columns => size(table%values, 1), rows => size(table%values, 2))
@@ -54,9 +53,7 @@ contains
          is_axis = [are_coordinates(v(1, 2:), v(2, 2:)), are_coordinates(v(2:, 1), v(2:, 2))]
          if (any(is_axis .and. [rows, columns] > least_numbers) .or. &
              (all(is_axis) .and. rows + columns - 2 >= least_of_both)) then
-            line = 'row'
-            if (is_axis(1)) line = 'column'
-            call table%refuse(1, 'the first '//trim(line)//' has numbers in equal '// &
+            call table%refuse(1, 'the first '//trim(merge('column', 'row   ', is_axis(1)))//' has numbers in equal '// &
                               'steps, as coordinates or numbers of lines are'//advice, error)
          else if (columns <= most_columns .and. rows >= least_points) then
             points = table
@@ -79,8 +76,8 @@ contains
       type(axis_type) :: axis(2)
       character(:), allocatable :: grid_words
       logical, allocatable :: is_there(:, :)
-      real(dp) :: one_step(2), steps(2)   ! the grid's steps; a point's distance from the first coordinates, in steps
-      integer :: k, place(2), points(2)
+      real(dp) :: steps(2)   ! a point's distance from the first coordinates, in steps
+      integer :: k, node(2), points(2)
 
       if (size(table%values, 1) /= 3) then
          call table%refuse(1, 'this line has '//integer_text(size(table%values, 1))// &
@@ -107,22 +104,20 @@ contains
       if (allocated(error)) return
       allocate (map%height(points(1), points(2)), source=ieee_value(0.0_dp, ieee_quiet_nan))
       allocate (is_there(points(1), points(2)), source=.false.)
-      one_step = axis%step
-      where (points == 1) one_step = 1.0_dp
       do k = 1, size(table%line)
          associate (point => table%values(:, k))
-            steps = (point(:2) - axis%first)/one_step
-            place = 1 + nint(steps)
+            steps = (point(:2) - axis%first)/merge(axis%step, 1.0_dp, points > 1)
+            node = 1 + nint(steps)
             if (any(abs(steps - nint(steps)) > tolerance)) then
                call refuse(' is out of step: the points must form a regular grid, of '//grid_words// &
                            ' as it seems. Interpolate the heights to one')
                return
-            else if (is_there(place(1), place(2))) then
+            else if (is_there(node(1), node(2))) then
                call refuse(' is a point of a line before')
                return
             end if
-            is_there(place(1), place(2)) = .true.
-            map%height(place(1), place(2)) = point(3)
+            is_there(node(1), node(2)) = .true.
+            map%height(node(1), node(2)) = point(3)
          end associate
       end do
       map%step = axis%step

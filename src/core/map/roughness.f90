@@ -76,7 +76,7 @@ contains
 
       real(dp), allocatable :: bins(:, :)
       real(dp) :: highest, powers(0:series%last(1)), unit, width
-      integer :: bin, first, k, l
+      integer :: bin, k, l
 
       unit = minval(length)
       highest = number(series%last(1), series%last(2))
@@ -84,9 +84,7 @@ contains
       allocate (bins(5, nint(highest/width)), source=0.0_dp)
       do l = 0, series%last(2)
          powers = wave_powers(series, points, l)
-         first = 0
-         if (l == 0) first = 1
-         do k = first, series%last(1)
+         do k = merge(1, 0, l == 0), series%last(1)
             bin = max(1, nint(number(k, l)/width))
             bins(:, bin) = bins(:, bin) + sums_of(number(k, l), waves_of_number(k, points(1))* &
                                                   waves_of_number(l, points(2)), powers(k))
@@ -118,8 +116,8 @@ contains
       type(spectrum_bin), allocatable :: spectrum(:)
 
       real(dp) :: bins(5, 0:series%last(direction))
-      real(dp) :: of_lines(0:series%last(direction))   ! mean squares, summed over the wave numbers across the profiles
-      real(dp) :: powers(0:series%last(1))
+      !> `of_lines`: mean squares, summed over the wave numbers across the profiles.
+      real(dp) :: of_lines(0:series%last(direction)), powers(0:series%last(1))
       integer :: first, k, l
 
       of_lines = 0.0_dp
@@ -200,8 +198,7 @@ contains
       integer, intent(in) :: k        !! >= 0
       integer, intent(in) :: points   !! number of points of the grid in this direction; 0 if there is no grid
 
-      waves = 2
-      if (k == 0 .or. 2*k == points) waves = 1
+      waves = merge(1, 2, k == 0 .or. 2*k == points)
    end function waves_of_number
 
 end module wavycon_roughness

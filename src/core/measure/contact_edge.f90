@@ -79,12 +79,8 @@ contains
       inside = self%in_contact(first(1), first(2))
       if (inside .eqv. self%in_contact(last(1), last(2))) return
       point%number = number
-      point%inner = first
-      point%outer = last
-      if (.not. inside) then
-         point%inner = last
-         point%outer = first
-      end if
+      point%inner = merge(first, last, inside)
+      point%outer = merge(last, first, inside)
       call self%place_edge(point)
    end function side
 

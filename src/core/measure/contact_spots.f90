@@ -92,19 +92,12 @@ contains
       type(contact_region) :: region
 
       region%area_fraction = 1.0_dp
-      region%perimeter = 0.0_dp
-      if (dimension == 1) region%perimeter = or_nan(unknown)
+      region%perimeter = merge(0.0_dp, or_nan(unknown), dimension == 2)
+      region%load_fraction = merge(1.0_dp, or_nan(unknown), is_contact)
       region%centre = or_nan(unknown)
       region%percolates = .true.
-      if (is_contact) then
-         region%load_fraction = 1.0_dp
-         answer%spots = [region]
-         allocate (answer%pools(0))
-      else
-         region%load_fraction = or_nan(unknown)
-         allocate (answer%spots(0))
-         answer%pools = [region]
-      end if
+      allocate (answer%spots(merge(1, 0, is_contact)), source=region)
+      allocate (answer%pools(merge(0, 1, is_contact)), source=region)
    end subroutine one_region
 
    !> Finds the regions of one kind, spots or pools, in 2-D: (A2), (A3), (A5).

@@ -30,13 +30,10 @@ contains
       real(dp), allocatable :: areas(:, :), edges(:)
       integer, dimension(0:edge%slab%points(1) + 1) :: here, next   ! 1 at points in contact, else 0
       integer :: first, j, m
-      real(dp) :: last_angle
 
       if (edge%slab%points(2) == 1) then
          call grid_strip_edges(edge, edges)
-         last_angle = 2*pi
-         if (edge%even) last_angle = pi
-         fraction = part_inside(edges, edge%in_contact(1, 1), last_angle)
+         fraction = part_inside(edges, edge%in_contact(1, 1), merge(pi, 2*pi, edge%even))
          return
       end if
 
@@ -66,13 +63,11 @@ contains
       integer, intent(in) :: corners(0:)
 
       real(dp) :: of_cell
-      integer :: first, i, m
+      integer :: i, m
 
       m = edge%slab%points(1)
       area = 0.0_dp
-      first = 1
-      if (edge%even) first = 0
-      do i = first, m
+      do i = merge(0, 1, edge%even), m
          if (corners(i) == 0) cycle
          of_cell = 1.0_dp
          if (corners(i) < 4) of_cell = edge%cell_area(i, l)/product(edge%step)
@@ -90,14 +85,12 @@ contains
       real(dp), allocatable, intent(out) :: edges(:)   !! ascending [rad]
 
       real(dp) :: angle(2), distance, crossings(edge%slab%points(1))
-      integer :: found, i, intervals
+      integer :: found, i
       type(edge_point) :: point
 
       call assert(edge%slab%points(2) == 1, 'the grid is one of 1-D')
-      intervals = size(crossings)
-      if (edge%even) intervals = intervals - 1
       found = 0
-      do i = 1, intervals
+      do i = 1, size(crossings) - merge(1, 0, edge%even)
          point = edge%side(i, 1, 1)
          if (point%number == 0) cycle
          found = found + 1

@@ -107,14 +107,9 @@ contains
       edge%touched = [(any(field(:, j) > 0.0_dp), j=1, size(field, 2))]
       call move_alloc(field, edge%pressure_or_gap)
       edge%even = even
-      if (even) then
-         edge%period = 2*edge%slab%points
-         edge%origin = 0.5_dp
-      else
-         edge%period = edge%slab%points
-         edge%origin = 1.0_dp
-      end if
+      edge%period = merge(2, 1, even)*edge%slab%points
       edge%step = 2*pi/edge%period
+      edge%origin = merge(0.5_dp, 1.0_dp, even)
       if (present(stiffness)) edge%stiffness = stiffness
    end subroutine make_grid_edge
 
@@ -125,11 +120,7 @@ contains
 
       ! Gaps that rounding made negative are set to 0. Their negatives would count as pressures, and the pressures of
       ! the lightest loads are as small.
-      where (pressure > 0.0_dp)
-         gap = pressure
-      elsewhere
-         gap = -max(gap, 0.0_dp)
-      end where
+      gap = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
    end subroutine join
 
    !> Copies the columns next to the own ones from the neighbouring processes. Does nothing if the grid is whole.
@@ -148,12 +139,8 @@ contains
       integer, intent(in) :: points(2)   !! points of the grid: of a quarter of the cell if the surface is even
       real(dp) :: stiffness(2)
 
-      integer :: of_cell(2)   ! numbers of points in the whole cell
-
-      of_cell = points
-      if (surface%shape%is_even()) of_cell = 2*points
       ! sigma = pi E* by (C2) and eq. (22) of Johnson, Greenwood & Higginson (1985).
-      stiffness = surface%stiffness/(2*pi)*of_cell/surface%length
+      stiffness = surface%stiffness/(2*pi)*merge(2, 1, surface%shape%is_even())*points/surface%length
    end function pressure_per_gap
 
    !> Whether a point of the plane is in contact.

@@ -58,7 +58,7 @@ contains
       !> How far the search may leave the middle step, where the polynomial is accurate [grid steps].
       real(dp), parameter :: margin = 0.5_dp
       type(peak_polynomial) :: field
-      real(dp) :: beside(4), height, place(2)
+      real(dp) :: beside(4), height, position(2)
       integer :: base(2), i, j
 
       ! Along each direction the middle step of the polynomial goes from the largest pressure to the larger one of its
@@ -75,8 +75,8 @@ contains
       peak = max(maxval(field%values), 0.0_dp)
       if (all(field%values > 0.0_dp)) then
          bend = 0.0_dp
-         place = best - base
-         call field%maximise(place, height)
+         position = best - base
+         call field%maximise(position, height)
          peak = max(peak, height)
       else
          beside = [edge%at(best(1) - 1, best(2)), edge%at(best(1) + 1, best(2)), edge%at(best(1), best(2) - 1), &

@@ -86,8 +86,7 @@ contains
       integer :: along, across, low(2), high(2), line
       real(dp) :: unused
 
-      along = 2
-      if (point%inner(2) == point%outer(2)) along = 1
+      along = merge(1, 2, point%inner(2) == point%outer(2))
       across = 3 - along
       low = min(point%inner, point%outer)
       high = max(point%inner, point%outer)

@@ -39,13 +39,9 @@ contains
       logical, intent(in) :: starts_inside      !! whether 0 lies inside
       real(dp), intent(in) :: last              !! end of the range [rad]
 
-      integer :: first   ! number of the first interval that lies inside
-
-      first = 2
-      if (starts_inside) first = 1
       associate (ends => [0.0_dp, edges, last])
          associate (widths => ends(2:) - ends(:size(ends) - 1))
-            part = sum(widths(first::2))/last
+            part = sum(widths(merge(1, 2, starts_inside)::2))/last
          end associate
       end associate
    end function part_inside

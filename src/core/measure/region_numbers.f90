@@ -45,8 +45,7 @@ contains
          do k = 0, cell(1) - 1
             is_contact = edge%in_contact(k, l)
             if (k == 0 .or. (is_contact .neqv. last)) runs = runs + 1
-            numbers%at(k, l) = -runs
-            if (is_contact) numbers%at(k, l) = runs
+            numbers%at(k, l) = merge(runs, -runs, is_contact)
             last = is_contact
          end do
       end do

@@ -160,8 +160,7 @@ contains
       real(dp), parameter :: rounding = 1e-14_dp
       integer, allocatable :: axes(:)   ! the directions of the search: 1, 3 in 1-D, otherwise 1, 2, 3
       !> Of the current model: bound of the stress's error [p*], distance of its points [rad], its centre X, Y, Z [rad].
-      real(dp) :: noise, reach, start(3)
-      real(dp) :: smallest, last_value, promise, step
+      real(dp) :: noise, reach, start(3), smallest, last_value, promise, step
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
@@ -241,24 +240,24 @@ contains
          real(dp), intent(in) :: move(3)      !! the place less `start` [rad]
          real(dp), intent(out) :: value       !! the stress there [p*]
 
-         real(dp) :: place(3)
+         real(dp) :: position(3)
 
-         place = start + move
-         place(3) = abs(place(3))
-         value = size_near(place)
+         position = start + move
+         position(3) = abs(position(3))
+         value = size_near(position)
          if (value > best%value + noise) then
             best%value = value
-            best%place = place
+            best%place = position
          end if
       end subroutine try
 
       !> The von Mises or shear stress [p*] at a place near that of the last call of `expand`.
-      real(dp) function size_near(place)
-         real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
+      real(dp) function size_near(position)
+         real(dp), intent(in) :: position(3)   !! X, Y, Z [rad]
 
          real(dp) :: parts(6, 2)
 
-         call fields%near(place, parts)
+         call fields%near(position, parts)
          size_near = size_of(by_shear, body%stress(parts, fields%pbar_over_pstar))
       end function size_near
 

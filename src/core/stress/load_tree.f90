@@ -124,8 +124,7 @@ contains
       !> The points of the computed sums: their distance [rad of x], how many lie before the plane's first point, and
       !> how many there are.
       real(dp) :: few_step(2)
-      integer :: before(2), few(2)
-      integer :: i, k, l
+      integer :: before(2), few(2), i, k, l
 
       few_step = (depth + self%shift)/smooth_places
       few = ceiling(step*(points - 1)/few_step) + nodes
@@ -150,15 +149,15 @@ contains
       !> The weights of the computed sums, in one direction, in the interpolated value at each point of the plane.
       pure function weights(way) result(weight)
          integer, intent(in) :: way   !! the direction: 1 is x, 2 is y
-         real(dp) :: weight(few(way), points(way)), place
+         real(dp) :: weight(few(way), points(way)), position
          integer :: from, k, n
 
          weight = 0.0_dp
          n = min(nodes, few(way))
          do k = 1, points(way)
-            place = 1 + before(way) + (k - 1)*step(way)/few_step(way)
-            from = max(0, min(floor(place) - n/2, few(way) - n))
-            weight(from + 1:from + n, k) = lagrange(place - from, n)
+            position = 1 + before(way) + (k - 1)*step(way)/few_step(way)
+            from = max(0, min(floor(position) - n/2, few(way) - n))
+            weight(from + 1:from + n, k) = lagrange(position - from, n)
          end do
       end function weights
 

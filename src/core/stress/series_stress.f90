@@ -93,26 +93,26 @@ contains
       real(dp), intent(in) :: first(2)              !! X, Y of the surface at the origin of the series [rad]
 
       real(dp), allocatable :: pressure(:, :)
-      real(dp) :: scale(2), shift
+      real(dp) :: ratios(2), shift
       integer :: points(2)
 
       self%first(:2) = first
-      scale = [1.0_dp, self%side_ratio]
+      ratios = [1.0_dp, self%side_ratio]
       self%whole = self%waves
       call self%whole%pressure%set_mean(self%pbar_over_pstar)
-      shift = pi*minval(scale)*shift_of_smooth
+      shift = pi*minval(ratios)*shift_of_smooth
       points = 2*self%waves%pressure%last([1, 2])
-      points = points*ceiling(2*pi*scale*steps_in_shift/(points*shift))
+      points = points*ceiling(2*pi*ratios*steps_in_shift/(points*shift))
       call sample_series(self%whole%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
       ! Set the pressures outside of contact to zero where they are rounding: blocks without force cost nothing. Where
       ! the points are finer than those of the series, the series oscillates all over the cell, and no value is zero.
       where (abs(pressure) <= rounding*maxval(pressure)) pressure = 0.0_dp
       pressure = cshift(cshift(pressure, -points(1)/4, 1), -points(2)/4, 2)
       allocate (self%load)
-      associate (step => 2*pi*scale/points)
-         call plant_load_tree(self%load, pressure, first*scale - (points/4)*step, step, shift)
+      associate (step => 2*pi*ratios/points)
+         call plant_load_tree(self%load, pressure, first*ratios - (points/4)*step, step, shift)
       end associate
-      call self%waves%pressure%multiply(self%load%left_out(self%waves%pressure%frequencies(scale)))
+      call self%waves%pressure%multiply(self%load%left_out(self%waves%pressure%frequencies(ratios)))
       self%pressure_error = self%pressure_error + 120*self%pbar_over_pstar*shift_of_smooth**4
       self%pbar_over_pstar = 0.0_dp
    end subroutine remove_images
@@ -247,7 +247,7 @@ contains
       complex(dp) :: turned, wave
       real(dp), allocatable :: q(:)
       real(dp) :: even(6), n_x, n_y, q_y, q_z, sums(number_of_sums)
-      integer :: first_k, i, k, l, last(2), m
+      integer :: i, k, l, last(2), m
 
       last = self%waves%last_waves(depth)
       m = dot_product(abs(direction), last)
@@ -258,9 +258,7 @@ contains
          q_y = l/self%side_ratio
          q(:) = sqrt([(real(k, dp)**2 + q_y**2, k=0, last(1))])
          waves(:) = exp(-q*depth)*self%waves%pressure%row(l, last(1))*turn_x*turn(l*(start(2) - self%first(2)))
-         first_k = 0
-         if (l == 0) first_k = 1
-         do k = first_k, count(q*depth <= self%waves%faintest) - 1
+         do k = merge(1, 0, l == 0), count(q*depth <= self%waves%faintest) - 1
             wave = waves(k)
             turned = cmplx(-wave%im, wave%re, dp)
             n_x = k/q(k)
@@ -315,8 +313,7 @@ contains
       type(grid_transform) :: plane
       integer :: i, k, l, number
 
-      number = 6
-      if (self%waves%octave_reaches(depth)) number = 9
+      number = merge(9, 6, self%waves%octave_reaches(depth))
       mean = body%stress(no_waves, self%pbar_over_pstar)
       associate (of_cell => self%parts*points)
          step = 2*pi/of_cell
@@ -355,15 +352,15 @@ contains
 
       integer, parameter :: window(2) = window_points
       real(dp), allocatable :: highest(:, :), pressure(:, :)
-      real(dp) :: largest   ! von Mises stress found so far [p*]
-      real(dp) :: region    ! part of the cell's sides to be searched, from X = Y = 0
-      real(dp) :: step      ! depth of the first plane below the surface [rad]
+      !> The largest von Mises stress so far [p*]; the part of the cell's sides to be searched, from X = Y = 0; the
+      !> depth of the first plane below the surface [rad].
+      real(dp) :: largest, region, step
       type(fourier_series) :: series
       type(grid_transform) :: plane
       type(stress_waves) :: all_waves, waves
-      integer :: block(2), i, points(2)
-      integer :: last      ! number of the deepest plane
-      integer :: shallow   ! the planes 0 to `shallow` are those of windows; -1 without windows
+      !> `last`: number of the deepest plane. `shallow`: the planes 0 to this one are those of windows; -1 without
+      !> windows.
+      integer :: block(2), i, last, points(2), shallow
 
       step = least_width(self)
       last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
@@ -428,7 +425,7 @@ contains
          real(dp), intent(in) :: from, to          !! points from `from` to `to` of its sides are compared, 0 to 1
 
          real(dp) :: depth, stress(6, 2)
-         integer :: i, k, number(2), place(2, 2)
+         integer :: i, k, number(2), point(2, 2)
 
          ! Sides of the window over those of the cell. An angle of the cell over this is the window's angle.
          associate (side => extent/real(points, dp))
@@ -438,9 +435,9 @@ contains
                number = points_of(waves, depth/side(1))
                ! The memory is not checked: it was for the series itself, and a plane takes less.
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
-                                     min(floor(to*number), number - 1), depth/side(1), body, place, stress)
+                                     min(floor(to*number), number - 1), depth/side(1), body, point, stress)
                do k = 1, 2
-                  places = [places, start_place([2*pi*(corner/real(points, dp) + side*place(:, k)/number), depth] &
+                  places = [places, start_place([2*pi*(corner/real(points, dp) + side*point(:, k)/number), depth] &
                                                 + self%first, max(depth, step), stress(:, k))]
                end do
                largest = max(largest, von_mises(stress(:, 1)))

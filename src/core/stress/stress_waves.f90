@@ -87,19 +87,12 @@ contains
       real(dp), allocatable :: factor(:), powers(:, :, :), q(:), weighted(:, :, :)
       complex(dp) :: along_y, sum_x(0:order + 3, -2:-1), turn_x, turn_y
       real(dp) :: q_y, sums(2, 0:order + 3, 2, 2)
-      integer :: a, b, c, columns, first_l, k, l, last(2), n, number
+      integer :: a, b, c, k, l, last(2), n, number
       logical :: is_even
 
       n = order + 3
       last = self%last_waves(place(3))
       is_even = self%pressure%is_even()
-      ! The waves of an even pressure are real, and those of l and -l are equal.
-      first_l = -last(2)
-      columns = 4
-      if (is_even) then
-         first_l = 0
-         columns = 2
-      end if
       allocate (moment(0:n, 0:n, -2:n - 2), source=(0.0_dp, 0.0_dp))
       allocate (powers(2, 0:n, 0:last(1)), weighted(0:last(1), 2, 2), q(0:last(1)), factor(0:last(1)), waves(0:last(1)))
       do k = 0, last(1)
@@ -108,7 +101,8 @@ contains
          powers(2, :, k) = [(turn_x%im*real(k, dp)**a, a=0, n)]
       end do
       sums = 0.0_dp
-      do l = first_l, last(2)
+      ! The waves of an even pressure are real, and those of l and -l are equal.
+      do l = merge(0, -last(2), is_even), last(2)
          q_y = l/self%side_ratio
          do k = 0, last(1)
             q(k) = sqrt(real(k, dp)**2 + q_y**2)
@@ -127,7 +121,7 @@ contains
                weighted(:m, 1, 2) = weighted(:m, 2, 2)/q(:m)
             end if
          end associate
-         call dgemm('N', 'N', 2*(n + 1), columns, number, 1.0_dp, powers, 2*(n + 1), &
+         call dgemm('N', 'N', 2*(n + 1), merge(2, 4, is_even), number, 1.0_dp, powers, 2*(n + 1), &
                     weighted, last(1) + 1, 0.0_dp, sums, 2*(n + 1))
          sum_x = cmplx(sums(1, :, :, 1) - sums(2, :, :, 2), sums(2, :, :, 1) + sums(1, :, :, 2), dp)
          turn_y = turn(l*place(2))
@@ -167,8 +161,7 @@ contains
 
       spectra = 0.0_dp
       number = size(spectra, 3)
-      limit = self%faintest
-      if (number <= 5) limit = faintest_on_planes
+      limit = merge(faintest_on_planes, self%faintest, number <= 5)
       last = self%last_waves(depth*max(1.0_dp, self%faintest/limit))
       allocate (here(0:last(1), 9), k(0:last(1)), q(0:last(1)), q_z(0:last(1)), shear(0:last(1)), wave(0:last(1)))
       k = [(real(i, dp), i=0, last(1))]
@@ -227,8 +220,7 @@ contains
       type(grid_transform) :: plane
       integer :: i, j, number
 
-      number = 5
-      if (self%pressure%is_even()) number = 2
+      number = merge(2, 5, self%pressure%is_even())
       allocate (spectra(0:points(1)/2, 0:points(2) - 1, number))
       call self%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
       mean = body%stress(no_waves, pbar_over_pstar)

@@ -143,9 +143,8 @@ contains
       type(fourier_series) :: waves
       type(grid_transform) :: transform
       !> The sum (G4) that `rms` is the root of, with c = 1; for each wave number along x its part.
-      real(dp) :: moment(1)
+      real(dp) :: moment(1), rms
       real(dp), allocatable :: moments(:, :)
-      real(dp) :: rms
       integer :: first, highest(2), k, last, m, n
 
       call transform%start(points, even=.false.)
