@@ -1,4 +1,5 @@
-!> The equations of contact of one spot below merging, or of one open pool above, at points of the mapped disc.
+!> The equations of contact of one of several separate spots, or of one of several separate pools, at points of the
+!> mapped disc.
 !>
 !> Spot: the pressure p of the spot and of all its images displaces the surface by u, and u + h = delta in contact. The
 !> pressure carries the load, P times the area of a cell: README.md (F8) and (F9).

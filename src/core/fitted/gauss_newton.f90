@@ -32,8 +32,9 @@ module wavycon_gauss_newton
    !> Largest ratio of a step's change to the square of the last change while convergence is quadratic.
    real(dp), parameter, public :: change_per_square = 10.0_dp
 
-   !> Safety limit: most steps at one degree. The loads of scripts/constants take at most half as many. At the limit the
-   !> change of the last step is above the tolerance, and the caller decides whether the solution is of use.
+   !> Safety limit: the largest number of steps at one degree. The loads of scripts/constants take at most half as many.
+   !> At the limit the change of the last step is above the tolerance, and the caller decides whether the solution is of
+   !> use.
    integer, parameter :: most_newton_steps = 12
    !> Guard: Jacobian at the centre over b_0^2 below which a shape is rejected and the iteration fails. An ellipse of
    !> 100 to 1 has 0.04, longer ones are not solved for. Only spots far past merging, which would fold, come that low
@@ -114,10 +115,10 @@ contains
       real(dp), intent(out) :: load_change(2)   !! first and second derivative of the integral of p or g
       logical, intent(out) :: finite            !! whether the derivatives are finite; if not they are of no use
 
-      !> Step of P over its distance from 0 and from the closing pressure: the differences' error of fourth order and
-      !> the rounding are some 1e-11.
+      !> Step of P for finite differences, over the smaller of P and the closing pressure less P. The error of the
+      !> differences, which is of fourth order, and their rounding are about 1e-11.
       real(dp), parameter :: part = 1e-3_dp
-      !> Weights of the solutions at one and two steps.
+      !> Weights in the finite difference of the solutions one step and two steps away.
       real(dp), parameter :: weight(2) = [2.0_dp/3, -1.0_dp/12]
       real(dp) :: load_row(size(change)), matrix(size(equations%matrix, 1), size(equations%matrix, 2)), misfit, &
          right(size(equations%residual)), row_change, step

@@ -104,7 +104,7 @@ contains
          source = reshape(copies(fold, self%radius*rule%point), [n, 2*fold])
          allocate (near(2*fold*n), nodes(n, n), part(n, terms), value(2*fold*n), values(n, terms))
          do j = 1, n
-            ! F is symmetric in target and source: only the sources from the target on are needed.
+            ! F is symmetric in target and source. So only the sources j .. n are computed for the target j.
             z = reshape(self%radius*rule%point(j) - source(j:, :), [2*fold*(n - j + 1)])
             k = size(z)
             call kernel%evaluate(k, z%re, z%im, value)

@@ -157,8 +157,8 @@ module wavycon_fitted_tuning
       !! Factor of the numbers of points from one rule to the next. Smaller: more rules to make. Larger: rules finer
       !! than needed.
    real(dp), parameter, public :: rule_angles_factor = 1.3_dp
-      !! Number of angles that a point needs, over the number above a round disc. Smaller: the errors of rules limit the
-      !! accuracy.
+      !! Number of angles that a rule needs for a point, over the number that would be needed if the shape were a round
+      !! disc. Smaller: the errors of rules limit the accuracy.
    real(dp), parameter, public :: rule_radii_factor = 1.5_dp
       !! The same for radii.
    real(dp), parameter, public :: ray_points = 17.0_dp

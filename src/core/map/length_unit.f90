@@ -14,7 +14,7 @@ module wavycon_length_unit
    character(*), parameter :: greek_letter = char(206)//char(188)//'m'
    character(*), parameter :: units(*) = [character(3) :: 'km', 'm', 'cm', 'mm', 'um', micro_sign, greek_letter, 'nm', &
                                           angstrom, 'pm']
-   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -10, -12]   !! of ten, in metres
+   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -10, -12]   !! each unit is this power of 10 m
 
 contains
 
