@@ -140,8 +140,8 @@ contains
       integer :: next_x(0:size(field, 1) + 1), next_y(0:size(field, 2) + 1)
       integer :: k, n
 
-      ! Beyond a border there is the point itself, whose difference from itself is zero, or in a periodic map the point on
-      ! the other side.
+      ! Beyond a border there is the point itself, whose difference from itself is zero, or in a periodic map the point
+      ! on the other side.
       next_x = [1, (k, k=1, size(field, 1)), size(field, 1)]
       next_y = [1, (k, k=1, size(field, 2)), size(field, 2)]
       if (periodic) next_x = [size(field, 1), (k, k=1, size(field, 1)), 1]
