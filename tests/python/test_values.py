@@ -23,6 +23,8 @@ import warnings
 from program import ProgramTest, main, skip, take_options
 from virtual_environment import go_on_with
 
+# Half a unit of the last of the 16 digits that tables have.
+DIGITS = 1e-15
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ROOT/"src"/"library"/"python"
 PROGRAM = """
@@ -272,6 +274,47 @@ class Problems(ValuesTest):
             self.refuse("", p.solve, mean_pressure=-1)
             self.refuse("", p.find, mean_pressure=float("nan"))
         self.refuse("has ended", p.solve, mean_pressure=1)
+
+
+class Sweeps(ValuesTest):
+    def test_surfaces_and_loads_in_memory(self):
+        """The digits are those of solves one after the other."""
+        h = numpy.random.default_rng(1).normal(size=(16, 24))
+        h[2, 3] = numpy.nan
+        surfaces = {"rough": self.rough, "map": wc.heights(h, fill_missing="harmonic", length_x=2, edges="mirror")}
+        loads = [0.2, 0.05]
+        frame = wc.sweep(surfaces, {"load.pbar_over_pstar": [loads, 0.1]}, 2, e_star=3, pressure_unit="MPa")
+        self.assertEqual(6, len(frame))
+        for name, surface in surfaces.items():
+            results = wc.solve(surface, e_star=3, pbar_over_pstar=loads)
+            rows = frame[(frame.surface == name)].iloc[:2]
+            for column in results.table().dtype.names:
+                if results[column].dtype.kind == "f":
+                    numpy.testing.assert_allclose(rows[column], results[column], rtol=DIGITS)
+                else:
+                    numpy.testing.assert_array_equal(results[column], rows[column])
+        self.assertEqual(("MPa", "length"), tuple(map(frame.attrs["units"].get, ("mean_pressure", "mean_gap"))))
+
+    def test_one_surface_and_a_list(self):
+        seeds = wc.sweep(self.rough, {"surface.seed": [3, 4]}, pbar_over_pstar=0.1)
+        self.assertEqual(["surface.seed", "load"], list(seeds)[:2])
+        listed = wc.sweep([self.rough, wc.wave_2d()], pbar_over_pstar=0.1)
+        self.assertEqual([0, 1], listed.surface.tolist())
+        self.assertEqual(seeds.contact_area[0], listed.contact_area[0])
+
+    def test_a_wrong_key_is_an_error_before_anything_starts(self):
+        with unittest.mock.patch("subprocess.Popen", side_effect=AssertionError):
+            self.refuse("'surface.sed'; did you mean 'surface.seed'", wc.sweep, self.rough, {"surface.sed": [1]})
+            self.refuse("did you mean 'e_star'", wc.sweep, self.rough, e_sta=1)
+            self.refuse("must be a surface", wc.sweep, [1], pbar_over_pstar=1)
+            self.refuse("has its own keys", wc.sweep, "deck.nml", e_star=1)
+
+    def test_the_module_is_the_program(self):
+        (self.folder/"deck.nml").write_text("&surface kind = 'wave_1d' / &load pbar_over_pstar = 0.5 /")
+        for words, status in (["deck.nml", "--quiet"], 0), (["none.nml"], 3):
+            done = subprocess.run([sys.executable, "-m", "wavycon", *words], check=False, capture_output=True, text=True,
+                                  env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
+            self.assertEqual(status, done.returncode, done.stderr)
 
 
 class Progress(ValuesTest):

@@ -74,8 +74,8 @@ def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: A
         ax.plot(result.x, values[0], **style)
         ax.set(xlabel=x, ylabel=words)
         return ax
-    if field == "pressure":
-        values = np.ma.masked_equal(values, 0)   # no contact is no colour
+    if field != "displacement":
+        values = np.ma.masked_equal(values, 0)   # where the bodies are apart, or touch, there is no colour
     return mesh(ax, result.x, result.y, values, words, xlabel=x, ylabel=y, aspect="equal", style=style)
 
 
