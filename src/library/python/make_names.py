@@ -115,7 +115,8 @@ def make_keys(name, meaning, keys, bases="TypedDict", groups=()):
     words = ", ".join(f"{key['name']!r}: {type_of(key)} | None" for key in keys if iskeyword(key["name"]))
     begin = f'_{name} = TypedDict("_{name}", {{{words}}}, total=False)\n\n\n' if words else ""
     doc = docstring([meaning, *map(describe, keys)], "    ")
-    return f"{begin}class {name}({f'_{name}' if words else bases}, total=False):\n{doc}\n" + "\n".join(fields) + "\n\n\n"
+    begin += f"class {name}({f'_{name}' if words else bases}, total=False):\n"
+    return begin + doc + "\n" + "\n".join(fields) + "\n\n\n"
 
 
 def make_columns(columns, meanings):

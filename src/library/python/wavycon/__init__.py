@@ -14,14 +14,14 @@ from . import names as _names
 from .deck import heights
 from .files import read
 from .library import Note, keys
-from .names import *
+from .names import *  # noqa: F403
 from .programs import sweep
 from .results import Result, Results, Roughness, load
 from .solving import Bounds, Problem, certify, problem, run, solve
 from .surfaces import Surface
 
-__all__ = ["Bounds", "Note", "Problem", "Result", "Results", "Roughness", "Surface", "certify", "heights", "keys", "load",
-           "problem", "read", "run", "set_threads", "solve", "sweep"]
+__all__ = ["Bounds", "Note", "Problem", "Result", "Results", "Roughness", "Surface", "certify", "heights", "keys",
+           "load", "problem", "read", "run", "set_threads", "solve", "sweep"]
 __all__ += _names.__all__
 __version__ = _library.text(None, "version")
 

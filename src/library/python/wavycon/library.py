@@ -2,8 +2,6 @@
 
 Errors are exceptions: ValueError for what is wrong in a call, OSError for files and memory, with the library's message.
 """
-from __future__ import annotations
-
 import functools
 import importlib
 import json
@@ -66,18 +64,13 @@ class Handle:
         delete(byref(self._as_parameter_))
 
 
-class _ThreadErrors(threading.local):
-    """Each thread has an error object of its own."""
-
-    def __init__(self) -> None:
-        self.error = Handle(lib.wavycon_new_error())
-
-
-_own = _ThreadErrors()
+_own = threading.local()   # each thread has an error object of its own
 
 
 def call(name: str, *arguments: Any) -> Any:
     """Calls a function by its name without 'wavycon_', without its first argument."""
+    if not hasattr(_own, "error"):
+        _own.error = Handle(lib.wavycon_new_error())
     answer = functions[name](_own.error, *arguments)
     code = lib.wavycon_get_code(_own.error)
     if code:

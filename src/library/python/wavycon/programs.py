@@ -44,13 +44,13 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
 
     what: the file of a deck; or a surface, a list of surfaces, or a dictionary of them by names, with options as of
     solve. values: such as {"surface.seed": range(50), "load.mean_pressure": [1e6, 1e7]}; each value, a number, a text
-    or a list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless given.
-    directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
+    or a list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless
+    given. directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
 
     Returns a frame of pandas: a row for each run and load, with the name or number of the surface if there are several,
-    the values, the columns of the summary, whose units are in frame.attrs["units"], and message, what the program notes
-    of the run. A run that failed is a row with the status 'failed' and the message of the program. An unknown key is a
-    ValueError before anything starts.
+    the values, the columns of the summary, whose units are in frame.attrs["units"], and message, what the program
+    notes of the run. A run that failed is a row with the status 'failed' and the message of the program. An unknown
+    key is a ValueError before anything starts.
     """
     pandas = need("pandas", "frames")
     known = [f"{group}.{key}" for group, own in keys().items() for key in own]

@@ -1,6 +1,4 @@
 """Bars of progress, where tqdm is installed."""
-from __future__ import annotations
-
 import time
 from typing import Any
 

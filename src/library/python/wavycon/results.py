@@ -53,19 +53,14 @@ class Facts:
             number = library.number(scene, name)
             return int(number) if kind == "int" else number
 
-        given: dict[str, Any] = {one.name: get(one.name, one.type) for one in dataclasses.fields(cls)
-                                 if one.type in ("float", "int", "str")}
-        return cls(**given)
+        facts = cls(**{one.name: get(one.name, one.type) for one in dataclasses.fields(cls)   # type: ignore[arg-type]
+                       if one.type in ("float", "int", "str")})
+        facts.units |= {"pressure": facts.pressure_unit, **dict.fromkeys(("x", "y", *FIELDS[1:]), facts.length_unit)}
+        return facts
 
     def unit(self, column: str) -> str:
-        """The unit of a column of a table or of a field; '' if it has none."""
-        unit = {"pressure": self.pressure_unit, "gap": self.length_unit, "displacement": self.length_unit,
-                "x": self.length_unit, "y": self.length_unit}.get(column) or self.units.get(column, "-")
-        return "" if unit in ("-", "word") else unit
-
-    def label(self, column: str) -> str:
-        """A column in words, with its unit."""
-        return column.replace("_", " ") + (f" [{unit}]" if (unit := self.unit(column)) else "")
+        """The unit of a column of a table that was made, or of a field; '' if it has none."""
+        return "" if (unit := self.units.get(column, "-")) in ("-", "word") else unit
 
 
 class Result(Columns[float, str]):
@@ -224,7 +219,8 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
 
     def _repr_html_(self) -> str:
         """A table for notebooks; loads that were not solved as requested are red."""
-        heads = [f"<th>{html.escape(self._facts.label(name))}</th>" for name in SHOWN]
+        units = [f" [{unit}]" if (unit := self.unit(name)) else "" for name in SHOWN]
+        heads = [f"<th>{name.replace('_', ' ')}{html.escape(unit)}</th>" for name, unit in zip(SHOWN, units)]
         rows = [f"<tr{' style=color:red' if one.status_code >= 10 else ''}>" +
                 "".join(f"<td>{value if isinstance(value, str) else f'{value:.5g}'}</td>"
                         for value in map(one.__getitem__, SHOWN)) + "</tr>" for one in self]
@@ -251,10 +247,11 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
     def to_xarray(self) -> Any:
         """The summary over loads and, if they were kept, the fields over loads, y and x, as a Dataset of xarray."""
         xarray, rows = need("xarray", "frames"), self.table()
-        data: dict[str, Any] = {name: ("load", rows[name], {"units": self._facts.unit(name)}) for name in rows.dtype.names or ()}
+        data: dict[str, Any] = {name: ("load", rows[name], {"units": self.unit(name)})
+                                for name in rows.dtype.names or ()}
         with contextlib.suppress(ValueError):   # without fields
             data |= {name: (("load", "y", "x"), np.stack([load._fields[name] for load in self]),
-                            {"units": self._facts.unit(name)}) for name in FIELDS}
+                            {"units": self.unit(name)}) for name in FIELDS}
             data |= {axis: (axis, self[0]._fields[axis], {"units": self.length_unit}) for axis in "xy"}
         return xarray.Dataset(data, attrs={"method": self.method, "deck": self.deck})
 
@@ -270,11 +267,12 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         facts = json.dumps(vars(self._facts))
         if hasattr(file, "write"):
             np.savez(file, facts=facts, **arrays)   # type: ignore[arg-type]
-        elif os.fspath(file).endswith(".h5"):
-            with written(os.fspath(file), b"\x89HDF") as opened:
+            return
+        path = os.fspath(file) + ("" if os.fspath(file).endswith((".npz", ".h5")) else ".npz")
+        with written(path, b"\x89HDF" if path.endswith(".h5") else b"PK") as opened:
+            if path.endswith(".h5"):
                 write_h5(opened.name, arrays, facts)
-        else:
-            with written(os.fspath(file) + ("" if os.fspath(file).endswith(".npz") else ".npz"), b"PK") as opened:
+            else:
                 np.savez(opened, facts=facts, **arrays)   # type: ignore[arg-type]
 
 
@@ -301,7 +299,7 @@ def write_h5(path: str, arrays: dict[str, Rows], facts: str) -> None:
     with need("h5py", "h5").File(path, "w") as saved:
         saved.attrs["facts"] = facts
         for name, rows in arrays.items():
-            saved[name] = retyped(rows, "U", "S")
+            saved[name] = retyped(rows, "<U", "|S")
 
 
 def read_h5(path: str) -> tuple[dict[str, Rows], str]:
@@ -309,7 +307,7 @@ def read_h5(path: str) -> tuple[dict[str, Rows], str]:
 
     def take(name: str, one: Any) -> None:
         if hasattr(one, "dtype"):
-            arrays[name] = retyped(one[()], "S", "U")
+            arrays[name] = retyped(one[()], "|S", "<U")
 
     with need("h5py", "h5").File(path, "r") as saved:
         saved.visititems(take)
@@ -317,11 +315,9 @@ def read_h5(path: str) -> tuple[dict[str, Rows], str]:
 
 
 def retyped(rows: Rows, old: str, new: str) -> Rows:
-    """A table with its words of another kind, U, or S, which HDF5 has."""
-    kinds = [(name, rows.dtype[name]) for name in rows.dtype.names or ()]
-    size = np.dtype(f"{old}1").itemsize
-    return rows.astype([(name, f"{new}{max(kind.itemsize//size, 1)}" if kind.kind == old else kind)
-                        for name, kind in kinds]) if kinds else rows
+    """A table with its words of another kind."""
+    kinds = [(name, rows.dtype[name].str.replace(old, new)) for name in rows.dtype.names or ()]
+    return rows.astype(kinds) if kinds else rows
 
 
 def note_news(scene: Handle | None, facts: Facts) -> None:

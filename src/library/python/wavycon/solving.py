@@ -18,8 +18,7 @@ from .library import Handle, address, call, keys, reals
 from .names import Load, Options, Settings, Unpack
 from .progress import Watch
 from .results import Facts, Result, Results, note_news
-from .surfaces import Surface, unknown
-
+from .surfaces import Surface
 
 
 def solve(surface: Surface, *, keep_fields: bool = True, progress: bool = True, **options: Unpack[Options]) -> Results:
@@ -27,7 +26,7 @@ def solve(surface: Surface, *, keep_fields: bool = True, progress: bool = True, 
 
     options: keys of decks without their groups, such as e_star, e1, nu1 [pressure], accuracy, length_unit; the loads, a
     number or a list, are one of pbar_over_pstar, mean_pressure [pressure], mean_gap [length], contact_area_fraction and
-    so on; groups as dictionaries, such as stress={"nu": 0.3}. help(wavycon.Settings) and help(wavycon.Loads) have all.
+    so on; groups as dictionaries, such as stress={"nu": 0.3}. help(wavycon.Settings) and help(wavycon.Load) have all.
     The solver is 'auto' unless one is given. keep_fields: False for results without fields, contours and stresses,
     which are smaller. progress: whether what takes longer than a second shows a bar where tqdm is installed.
 
@@ -71,12 +70,20 @@ def certify(surface: Surface, pressure: npt.ArrayLike, gap: npt.ArrayLike, *, me
 
 
 class Problem:
-    """A surface whose solver stays for the loads to come, as wavycon.problem makes it. Use it in a `with`, which lets
-    go of it at the end; results stay."""
+    """A surface that is solved for many loads, one after the other: heights, grids and plans stay.
 
-    def __init__(self, scene: Handle, facts: Facts) -> None:
-        self._scene: Handle | None = scene
-        self._facts = facts
+        with wc.problem(wc.wave_2d(), e_star=2e11) as p:
+            areas = p.solve(mean_pressure=[1e7, 1e8]).contact_area_fraction
+            needed = p.find(contact_area_fraction=0.3).mean_pressure
+
+    settings: as of solve, without loads. The end of `with` lets go of the solver; results stay.
+    """
+
+    def __init__(self, surface: Surface, *, keep_fields: bool = True, **settings: Unpack[Settings]) -> None:
+        if "load" in groups_of(surface, settings):
+            raise ValueError("loads belong to the solve of a problem")
+        self._scene: Handle | None = scene_of(surface, settings, keep_fields)
+        self._facts = Facts.of_scene(self._scene)
 
     def __enter__(self) -> Problem:
         return self
@@ -89,13 +96,9 @@ class Problem:
         from the load before, so that last digits depend on it."""
         if self._scene is None:
             raise ValueError("this problem has ended with its `with`")
-        given = {name: value for name, value in load.items() if value is not None}
-        for name in given:
-            if name not in keys()["load"]:
-                raise ValueError(unknown("load", name, keys()["load"]))
-        if len(given) != 1:
+        if len(load) != 1:
             raise ValueError(f"give the loads by one of {', '.join(keys()['load'])}")
-        (name, value), = given.items()
+        (name, value), = load.items()
         values = np.atleast_1d(reals(value))   # type: ignore[arg-type]
         if values.ndim != 1 or not values.size:
             raise ValueError(f"{name} must be a number or a list of numbers")
@@ -109,19 +112,7 @@ class Problem:
         return self.solve(**load)[0]
 
 
-def problem(surface: Surface, *, keep_fields: bool = True, **settings: Unpack[Settings]) -> Problem:
-    """A surface that is solved for many loads, one after the other: heights, grids and plans stay.
-
-        with wc.problem(wc.wave_2d(), e_star=2e11) as p:
-            areas = p.solve(mean_pressure=[1e7, 1e8]).contact_area_fraction
-            needed = p.find(contact_area_fraction=0.3).mean_pressure
-
-    settings: as of solve, without loads.
-    """
-    if unwanted := set(settings) & {"load", *keys()["load"]}:
-        raise ValueError(f"loads belong to the solve of a problem: {', '.join(sorted(unwanted))}")
-    scene = scene_of(surface, settings, keep_fields)
-    return Problem(scene, Facts.of_scene(scene))
+problem = Problem
 
 
 def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool, needs_load: bool = False) -> Handle:

@@ -1,6 +1,4 @@
 """Surfaces, and what the functions that make them have in common."""
-from __future__ import annotations
-
 import dataclasses
 import difflib
 import functools
