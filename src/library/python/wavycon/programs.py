@@ -55,7 +55,7 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     pandas = need("pandas", "frames")
     known = [f"{group}.{key}" for group, own in keys().items() for key in own]
     for key in values:
-        if key.lower() not in known:
+        if str(key).lower() not in known:
             raise ValueError(unknown("key", key, known))
     points = [dict(zip(values, one)) for one in itertools.product(*values.values())]
     units: dict[str, str] = {}

@@ -53,8 +53,9 @@ class Facts:
             number = library.number(scene, name)
             return int(number) if kind == "int" else number
 
-        facts = cls(**{one.name: get(one.name, one.type) for one in dataclasses.fields(cls)   # type: ignore[arg-type]
-                       if one.type in ("float", "int", "str")})
+        given: dict[str, Any] = {one.name: get(one.name, one.type) for one in dataclasses.fields(cls)
+                                 if one.type in ("float", "int", "str")}
+        facts = cls(**given)
         facts.units |= {"pressure": facts.pressure_unit, **dict.fromkeys(("x", "y", *FIELDS[1:]), facts.length_unit)}
         return facts
 
@@ -260,30 +261,35 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
     def save(self, file: str | os.PathLike[str] | IO[bytes], fields: bool = True) -> None:
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to a file .npz or, with
         h5py, .h5. It appears whole or not at all, and replaces no other kind of file."""
-        self.table("summary")
-        arrays = {f"{load._load}/{name}": rows for load in self for name, rows in load._tables.items()}
-        if fields:
-            arrays |= {f"{load._load}/fields/{name}": values for load in self for name, values in load._fields.items()}
-        facts = json.dumps(vars(self._facts))
+        content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
+        for one in self:
+            content |= {f"{one._load}/{name}": rows for name, rows in one._tables.items()}
+            content |= {f"{one._load}/fields/{name}": values for name, values in one._fields.items()} if fields else {}
         if hasattr(file, "write"):
-            np.savez(file, facts=facts, **arrays)   # type: ignore[arg-type]
+            np.savez(file, **content)
             return
         path = os.fspath(file) + ("" if os.fspath(file).endswith((".npz", ".h5")) else ".npz")
         with written(path, b"\x89HDF" if path.endswith(".h5") else b"PK") as opened:
-            if path.endswith(".h5"):
-                write_h5(opened.name, arrays, facts)
-            else:
-                np.savez(opened, facts=facts, **arrays)   # type: ignore[arg-type]
+            if path.endswith(".npz"):
+                np.savez(opened, **content)
+                return
+            with need("h5py", "h5").File(opened.name, "w") as saved:
+                for name, values in content.items():
+                    saved[name] = retyped(values, "<U", "|S")
 
 
 def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
     """The results in a file of Results.save. What was not saved cannot be asked for."""
     if not hasattr(file, "read") and os.fspath(file).endswith(".h5"):
-        arrays, facts_text = read_h5(os.fspath(file))
+        content: dict[str, Any] = {}
+        with need("h5py", "h5").File(file, "r") as saved:
+            saved.visititems(lambda name, one: content.update({name: one[()]} if hasattr(one, "dtype") else {}))
+        arrays = {name: retyped(values, "|S", "<U") for name, values in content.items()}
     else:
         with np.load(file, allow_pickle=False) as saved:
-            facts_text, arrays = str(saved["facts"]), {name: saved[name] for name in saved.files[1:]}
-    facts, loads = Facts(**json.loads(facts_text)), dict[int, Result]()
+            arrays = dict(saved)
+    told = arrays.pop("facts")
+    facts, loads = Facts(**json.loads(told if isinstance(told, bytes) else str(told))), dict[int, Result]()
     for name, values in arrays.items():
         number, table, *field = name.split("/")
         one = loads.setdefault(int(number), Result(int(number), facts, {}))
@@ -294,30 +300,10 @@ def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
     return Results([loads[number] for number in sorted(loads)], facts)
 
 
-def write_h5(path: str, arrays: dict[str, Rows], facts: str) -> None:
-    """A file of HDF5 with the tables and fields of each load in a group. Its texts are bytes."""
-    with need("h5py", "h5").File(path, "w") as saved:
-        saved.attrs["facts"] = facts
-        for name, rows in arrays.items():
-            saved[name] = retyped(rows, "<U", "|S")
-
-
-def read_h5(path: str) -> tuple[dict[str, Rows], str]:
-    arrays: dict[str, Rows] = {}
-
-    def take(name: str, one: Any) -> None:
-        if hasattr(one, "dtype"):
-            arrays[name] = retyped(one[()], "|S", "<U")
-
-    with need("h5py", "h5").File(path, "r") as saved:
-        saved.visititems(take)
-        return arrays, str(saved.attrs["facts"])
-
-
-def retyped(rows: Rows, old: str, new: str) -> Rows:
-    """A table with its words of another kind."""
-    kinds = [(name, rows.dtype[name].str.replace(old, new)) for name in rows.dtype.names or ()]
-    return rows.astype(kinds) if kinds else rows
+def retyped(rows: Any, old: str, new: str) -> Any:
+    """A table with its words of another kind: HDF5 has bytes alone. What is no table stays."""
+    names = getattr(getattr(rows, "dtype", None), "names", None)
+    return rows.astype([(name, rows.dtype[name].str.replace(old, new)) for name in names]) if names else rows
 
 
 def note_news(scene: Handle | None, facts: Facts) -> None:

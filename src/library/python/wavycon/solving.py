@@ -98,8 +98,9 @@ class Problem:
             raise ValueError("this problem has ended with its `with`")
         if len(load) != 1:
             raise ValueError(f"give the loads by one of {', '.join(keys()['load'])}")
-        (name, value), = load.items()
-        values = np.atleast_1d(reals(value))   # type: ignore[arg-type]
+        given: Any
+        (name, given), = load.items()
+        values = np.atleast_1d(reals(given))
         if values.ndim != 1 or not values.size:
             raise ValueError(f"{name} must be a number or a list of numbers")
         # From high to low loads, as the program solves them.
