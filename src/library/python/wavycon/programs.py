@@ -92,7 +92,8 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
 
         with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
             try:
-                frames = list(counted(pool.map(run, range(len(combinations))), len(combinations)))
+                runs = pool.map(run, range(len(combinations)))
+                frames = list(new_bar(len(combinations), "run", runs) or runs)
             finally:
                 # After an interruption: those that have ended are left alone.
                 pool.shutdown(wait=False, cancel_futures=True)
@@ -122,14 +123,3 @@ def decks_of(what: Any, folder: str, options: Mapping[str, Any]) -> Iterator[tup
         deck = Path(folder, f"surface{number}.nml")
         deck.write_text(deck_text(groups), encoding="utf-8")
         yield str(deck), {"surface": name} if len(surfaces) > 1 else {}
-
-
-def counted(steps: Iterable[Any], number: int) -> Iterator[Any]:
-    """The steps, with a bar where tqdm is installed."""
-    bar = new_bar(number, "run")
-    for step in steps:
-        yield step
-        if bar is not None:
-            bar.update(1)
-    if bar is not None:
-        bar.close()

@@ -6,7 +6,7 @@ import dataclasses
 import html
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import IO, Any, NamedTuple, overload
 
@@ -47,15 +47,10 @@ class Facts:
 
     @classmethod
     def of_scene(cls, scene: Handle) -> Facts:
-        def get(name: str, kind: object) -> float | str:
-            if kind == "str":
-                return library.text(scene, "resolved_deck" if name == "deck" else name)
-            number = library.number(scene, name)
-            return int(number) if kind == "int" else number
-
-        given: dict[str, Any] = {one.name: get(one.name, one.type) for one in dataclasses.fields(cls)
-                                 if one.type in ("float", "int", "str")}
-        facts = cls(**given)
+        ask: dict[Any, Callable[[Handle, str], Any]] = {
+            "str": library.text, "float": library.number, "int": lambda *one: int(library.number(*one))}
+        facts = cls(**{one.name: ask[one.type](scene, "resolved_deck" if one.name == "deck" else one.name)
+                       for one in dataclasses.fields(cls) if one.type in ask})
         facts.units |= {"pressure": facts.pressure_unit, **dict.fromkeys(("x", "y", *FIELDS[1:]), facts.length_unit)}
         return facts
 
@@ -74,10 +69,9 @@ class Result(Columns[float, str]):
         self._load, self._facts, self._tables, self._solution, self._scene = load, facts, tables, solution, scene
 
     def _column(self, name: str) -> Any:
-        return self.table("summary")[name][0].item()
-
-    def __getitem__(self, name: str) -> Any:
         return column(self.table("summary"), name)[0].item()
+
+    __getitem__ = _column
 
     def __repr__(self) -> str:
         return (f"Result(load {self.load}: mean_pressure={self.mean_pressure:.6g}, contact_area_fraction="
@@ -208,9 +202,6 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         if isinstance(load, str):
             return column(self.table(), load)
         return Results(self._loads[load], self._facts) if isinstance(load, slice) else self._loads[load]
-
-    def __iter__(self) -> Iterator[Result]:
-        return iter(self._loads)
 
     def _column(self, name: str) -> Any:
         return self.table()[name]

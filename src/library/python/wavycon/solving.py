@@ -1,11 +1,8 @@
 """Solving: loads of surfaces, of decks, one after the other; bounds."""
 from __future__ import annotations
 
-import contextlib
 import os
-import signal
-import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -149,7 +146,7 @@ def solve_all(scene: Handle, facts: Facts, order: Sequence[int], progress: bool,
               solve_one: Callable[[Handle, int], Handle]) -> Results:
     """Solves loads, numbered from 1, in this order."""
     loads = {}
-    with watched(scene, len(order) if progress else 0) as watch:
+    with Watch(scene, len(order) if progress else 0) as watch:
         for number in order:
             if not watch.is_stopped:
                 loads[number] = Result(number, facts, {}, solve_one(scene, number), scene)
@@ -158,24 +155,3 @@ def solve_all(scene: Handle, facts: Facts, order: Sequence[int], progress: bool,
         one.table("summary")   # which tells the units
     note_news(scene, facts)
     return Results([loads[number] for number in sorted(loads)], facts)
-
-
-@contextlib.contextmanager
-def watched(scene: Handle, loads: int) -> Iterator[Watch]:
-    """Meanwhile Ctrl-C ends the load that is being solved; KeyboardInterrupt follows at the end. An exception cannot
-    leave a callback, so the signal must not raise one there. Signals come to the main thread alone."""
-    watch = Watch(loads)
-    ask = library.PROGRESS(watch)
-    call("set_progress", scene, ask, None)
-    is_main = threading.current_thread() is threading.main_thread() and callable(signal.getsignal(signal.SIGINT))
-    if is_main:
-        before = signal.signal(signal.SIGINT, lambda *_: setattr(watch, "is_stopped", True))
-    try:
-        yield watch
-    finally:
-        if is_main:
-            signal.signal(signal.SIGINT, before)
-        call("set_progress", scene, library.PROGRESS(), None)
-        watch.end()
-    if watch.is_stopped:
-        raise KeyboardInterrupt
