@@ -320,7 +320,7 @@ class Sweeps(ValuesTest):
 class Progress(ValuesTest):
     def test_a_bar_appears_if_it_takes_long(self):
         class Bar:
-            def __init__(self, total, unit):
+            def __init__(self, total, unit, begun):
                 self.total, self.n, self.texts, self.is_closed = total, 0, [], False
                 bars.append(self)
 

@@ -11,13 +11,15 @@ from . import library
 PATIENCE = 1.0   # seconds before a solve shows its progress
 
 
-def new_bar(total: int, unit: str, steps: Any = None) -> Any:
-    """A bar, through which steps go if they are given; None without tqdm."""
+def new_bar(total: int, unit: str, steps: Any = None, begun: float = 0.0) -> Any:
+    """A bar, which began so many seconds ago, and through which steps go if they are given; None without tqdm."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
         return None
-    return tqdm(steps, total=total, unit=unit)
+    bar = tqdm(steps, total=total, unit=unit, smoothing=0)
+    bar.start_t -= begun
+    return bar
 
 
 class Watch:
@@ -32,7 +34,7 @@ class Watch:
 
     def __call__(self, _: object, iterations: int, residual: float) -> bool:
         if self.loads and self.bar is None and time.monotonic() > self.begin:
-            self.bar = new_bar(self.loads, "load")
+            self.bar = new_bar(self.loads, "load", begun=PATIENCE)
             self.loads = 0
         if self.bar is not None:
             self.bar.set_postfix_str(f"{iterations} iterations, residual {residual:.0e}", refresh=False)
