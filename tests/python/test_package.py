@@ -133,7 +133,7 @@ class Examples(PackageTest):
         with contextlib.redirect_stdout(printed):
             for example in examples:
                 exec(example, names)
-        for words in "2 errors|wavelength", "status='converged'", r"\(256, 256\)", "load.mean_pressure":
+        for words in "error 1 of 2: wavelength", "status='converged'", r"\(256, 256\)", "load.mean_pressure":
             self.assertRegex(printed.getvalue(), words)
 
     @unittest.skipUnless(importlib.util.find_spec("ContactMechanics"), "needs ContactMechanics")
@@ -564,8 +564,8 @@ except ImportError as error: print(error)"""
                                "there is no such file": wc.file(file="none.txt"), "kind": wc.Surface({})}.items():
             self.refuse(words, wc.solve, surface, pbar_over_pstar=0.1, error=(ValueError, OSError))
         numpy.save("h.npy", numpy.eye(8))
-        for make in wc.wave_2d, lambda **keys: wc.heights(numpy.eye(8), **keys), lambda **keys: wc.read("h.npy", **keys):
-            self.refuse("there is no key 'lengt_x'", make, lengt_x=1)
+        for make, first in (wc.wave_2d, []), (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]):
+            self.refuse("there is no key 'lengt_x'", make, *first, lengt_x=1)
         with self.assertRaises(AttributeError):
             wc.wave_3d
         locked = numpy.eye(8)

@@ -5,11 +5,9 @@ usage: test_values.py --program WAVYCON --package FOLDER --needs PACKAGES --envi
 
 The tests of types need mypy, those of some files h5py and xarray: they are skipped where these are not installed.
 """
-import contextlib
 import copy
 import importlib.util
 import inspect
-import io
 import os
 import pathlib
 import pickle
@@ -210,7 +208,7 @@ class Values(ValuesTest):
                 told = float(re.search(rf"{name}\[[^]]*\] = ([^,\s]*)", head)[1])
                 self.assertAlmostEqual(1, getattr(surface, name)/told, delta=1e-12)
         profile = wc.solve(wc.wave_1d(amplitude=2, wavelength=3), pbar_over_pstar=0.1).surface
-        self.assertAlmostEqual(4*numpy.pi/3/2**0.5, profile.rms_slope/1, delta=1e-12)
+        self.assertAlmostEqual(4*numpy.pi/3/2**0.5, profile.rms_slope, delta=1e-12)
         self.assertIn("spectrum_1d", profile.spectrum.dtype.names)
 
     def test_a_table_for_notebooks(self):
@@ -245,6 +243,37 @@ class Values(ValuesTest):
         self.assertNotIn("pressure", self.solve_rough(keep_fields=False).to_xarray())
 
 
+class Pictures(ValuesTest):
+    def setUp(self):
+        self.addCleanup(matplotlib.pyplot.close, "all")
+
+    def test_loads_that_are_not_resolved_are_open(self):
+        loads = wc.solve(self.rough, pbar_over_pstar=[1e-4, 0.1, 0.3])
+        self.assertEqual(["unresolved", "converged", "converged"], loads.status.tolist())
+        ax = loads.plot()
+        # Behind the line and its error bars.
+        points = ax.lines[-1]
+        self.assertEqual(("white", [loads.contact_area_fraction[0]]), (points.get_markerfacecolor(),
+                                                                      points.get_ydata().tolist()))
+        self.assertEqual(["not resolved"], [text.get_text() for text in ax.get_legend().get_texts()])
+        self.assertIsNone(loads[1:].plot().get_legend())
+        self.assertIn("unresolved", loads[0].plot_map().get_title())
+
+    def test_units(self):
+        one = wc.solve(self.rough, e_star=2, mean_pressure=0.01, pressure_unit="MPa", length_unit="um")
+        self.assertEqual(("contact area [µm²]", "mean gap [µm]"), [(ax.get_xlabel(), ax.get_ylabel()) for ax in
+                                                                  [one.plot("mean_gap", "contact_area")]][0])
+        ax = one[0].plot_map()
+        self.assertEqual(("mean pressure 0.01 MPa", "x [µm]"), (ax.get_title(), ax.get_xlabel()))
+        # Without labels over p* and Delta.
+        plain = wc.solve(self.rough, e_star=2, mean_pressure=0.01)
+        ax = plain[0].plot_map("gap")
+        self.assertEqual(f"mean pressure {plain[0].pbar_over_pstar:.4g} p*", ax.get_title())
+        shown = ax.collections[0].get_array()
+        self.assertAlmostEqual(plain[0].gap.max()/plain.amplitude, shown.max(), delta=1e-12)
+        numpy.testing.assert_array_equal(plain[0].gap == 0, shown.mask.reshape(plain[0].gap.shape))
+
+
 class Problems(ValuesTest):
     def test_loads_have_the_digits_of_solve(self):
         loads = [0.02, 0.2, 0.1]
@@ -261,7 +290,8 @@ class Problems(ValuesTest):
             one = p.find(contact_area_fraction=0.3)
             self.assertAlmostEqual(0.3, one.contact_area_fraction, delta=1e-6)
             self.assertEqual(one.mean_pressure, p.find(mean_pressure=one.mean_pressure).mean_pressure)
-        self.assertEqual("gap", [name for name in ("gap",) if one.gap.size][0])
+        # Results stay when the problem has ended.
+        self.assertEqual(0, one.gap.min())
 
     def test_misuse(self):
         self.refuse("loads belong to the solve", wc.problem, self.rough, mean_pressure=1)
