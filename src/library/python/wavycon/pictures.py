@@ -45,10 +45,14 @@ def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pres
     """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not given,
     and returns these. Loads that are not resolved or not solved as requested are open symbols, those whose error is
     not known too. style: as of errorbar."""
-    ax, names = axes(ax), results.table().dtype.names
+    names = results.table().dtype.names or ()
+    for column in x, y:
+        if column not in names:
+            raise ValueError(unknown("column", column, names))
+    ax = axes(ax)
     (factor_x, label_x), (factor_y, label_y) = scaled(results._facts, x), scaled(results._facts, y)
     values = factor_y*results[y]
-    error = factor_y*results[f"{y}_error"] if f"{y}_error" in (names or ()) else np.zeros(len(values))
+    error = factor_y*results[f"{y}_error"] if f"{y}_error" in names else np.zeros(len(values))
     order = np.argsort(results[x])
     across, values, error = factor_x*results[x][order], values[order], error[order]
     line = ax.errorbar(across, values, np.nan_to_num(error), **{"marker": "o", "capsize": 2, **style})[0]
