@@ -1,6 +1,6 @@
-!> The pressures at the constraint points by sums over one direction after the other, and the transposed sums. For n
-!> harmonics and N points a side these take of the order of n N^2 operations, the product with the matrix of the
-!> constraints n^2 N^2.
+!> The pressures at the constraint points by sums over one direction after the other. For n harmonics and N points a
+!> side these take of the order of n N^2 operations, the product with the matrix of the constraints n^2 N^2. And the
+!> matrix of weighted sums of squares of the constraints, by such sums too.
 module wavycon_cosine_rows
    use wavycon_constraint_points, only: choose_points
    use wavycon_cosine_table, only: cosine_table
@@ -22,7 +22,6 @@ module wavycon_cosine_rows
       integer, allocatable :: k(:), l(:)      !! the points as chosen by `choose_points`, shape (m)
    contains
       procedure :: of
-      procedure :: transposed
       procedure :: squares
    end type cosine_rows
 
@@ -60,24 +59,6 @@ contains
       if (size(values) > size(self%k)) values(size(self%k) + 1:) = -values(:size(self%k))
    end subroutine of
 
-   !> C'v.
-   function transposed(self, v) result(x)
-      class(cosine_rows), intent(in) :: self
-      real(dp), intent(in) :: v(:)         !! shape (m) or (2 m)
-      real(dp) :: x(self%terms%count)
-
-      real(dp) :: t(0:self%terms%harmonics, 0:self%terms%harmonics)
-      integer :: a
-
-      t = point_sums(self, v, -1.0_dp, self%terms%harmonics)
-      associate (i => self%terms%i, j => self%terms%j)
-         do a = 1, size(x)
-            x(a) = t(i(a), j(a))
-            if (self%terms%paired(a)) x(a) = x(a) + t(j(a), i(a))
-         end do
-      end associate
-   end function transposed
-
    !> The lower triangle of C'WC with a diagonal W: by cos a cos b = (cos(a + b) + cos(a - b))/2 its elements follow
    !> from the sums of W times cosines of up to 2n, (Q14).
    subroutine squares(self, weights, matrix)
@@ -85,13 +66,20 @@ contains
       real(dp), intent(in) :: weights(:)           !! the diagonal of W, shape (m) or (2 m)
       real(dp), intent(out) :: matrix(:, :)        !! shape (n, n)
 
-      real(dp) :: t(0:2*self%terms%harmonics, 0:2*self%terms%harmonics)
+      real(dp) :: cosines(0:self%points_per_side - 1, 0:2*self%terms%harmonics)
       real(dp) :: factor(self%terms%count)
+      real(dp) :: grid(0:self%points_per_side - 1, 0:self%points_per_side - 1)
+      real(dp), dimension(0:2*self%terms%harmonics, 0:2*self%terms%harmonics) :: t   ! the sums of W cos cos, over 4
       logical :: has_pairs
-      integer :: a, b
+      integer :: a, b, p
 
+      grid = 0.0_dp
+      do p = 1, size(self%k)
+         grid(self%k(p), self%l(p)) = 0.25_dp*sum(weights(p::size(self%k)))
+      end do
+      cosines = cosine_table(self%points_per_side - 1, 2*self%terms%harmonics)
+      t = matmul(transpose(cosines), matmul(grid, cosines))
       has_pairs = any(self%terms%paired)
-      t = 0.25_dp*point_sums(self, weights, 1.0_dp, 2*self%terms%harmonics)
       if (has_pairs) t = t + transpose(t)
       ! The sums over both orders of i and j count a term twice that has only one.
       factor = merge(0.5_dp, 1.0_dp, has_pairs .and. .not. self%terms%paired)
@@ -113,27 +101,5 @@ contains
       end function four_sums
 
    end subroutine squares
-
-   !> The sums over the points of v cos(i phi) cos(j theta), i, j = 0 .. last.
-   function point_sums(self, v, sign, last) result(sums)
-      type(cosine_rows), intent(in) :: self
-      real(dp), intent(in) :: v(:)         !! shape (m) or, with as many more that are added with the sign, (2 m)
-      real(dp), intent(in) :: sign
-      integer, intent(in) :: last
-      real(dp) :: sums(0:last, 0:last)
-
-      real(dp) :: cosines(0:self%points_per_side - 1, 0:last)
-      real(dp) :: grid(0:self%points_per_side - 1, 0:self%points_per_side - 1)
-      integer :: m, p
-
-      m = size(self%k)
-      grid = 0.0_dp
-      do p = 1, m
-         grid(self%k(p), self%l(p)) = v(p)
-         if (size(v) > m) grid(self%k(p), self%l(p)) = v(p) + sign*v(m + p)
-      end do
-      cosines = cosine_table(self%points_per_side - 1, last)
-      sums = matmul(transpose(cosines), matmul(grid, cosines))
-   end function point_sums
 
 end module wavycon_cosine_rows

@@ -11,7 +11,7 @@
 !> on that set is computed from D, c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have
 !> lost digits the set is factorised afresh and the pass continues.
 module wavycon_dual_solver
-   use wavycon_interior_point, only: likely_active, pays
+   use wavycon_interior_point, only: likely_active
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: ddot, dgemv, dtrsv
    use wavycon_qp_problem, only: kkt_tolerance, qp_converged, qp_iteration_limit, qp_problem, qp_solution
@@ -55,12 +55,10 @@ contains
 
       self%problem = problem
       call self%set%start(problem)
-      if (pays(problem)) then
-         call likely_active(problem, list, all_multipliers, solution%pivots)
-         call self%set%assign_active(problem, list)
-         multipliers(:self%set%count) = all_multipliers(self%set%active(:self%set%count))
-         call release_negative(problem, self%set, x, multipliers, solution%pivots)
-      end if
+      call likely_active(problem, list, all_multipliers, solution%pivots)
+      call self%set%assign_active(problem, list)
+      multipliers(:self%set%count) = all_multipliers(self%set%active(:self%set%count))
+      call release_negative(problem, self%set, x, multipliers, solution%pivots)
       call finish(self, solution)
    end subroutine solve
 

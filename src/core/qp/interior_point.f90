@@ -8,12 +8,12 @@ module wavycon_interior_point
    use wavycon_cosine_rows, only: cosine_rows
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
-   use wavycon_lapack, only: dpotrf, dtrsv
+   use wavycon_lapack, only: dgemv, dpotrf, dtrsv
    use wavycon_qp_problem, only: qp_problem
    implicit none (type, external)
    private
 
-   public :: likely_active, pays
+   public :: likely_active
 
    !> Part of the constraints violated at the minimum without any from which the start pays: contact at P < 0.55.
    real(dp), parameter :: least_violated = 0.17_dp
@@ -26,25 +26,14 @@ module wavycon_interior_point
 
 contains
 
-   !> Whether this start takes less time than the exchanges that it saves: the programme has its rows as sums, x = 0
-   !> satisfies all constraints with some room, and the minimum without constraints violates many of them.
-   logical function pays(problem)
-      type(qp_problem), intent(in) :: problem
-
-      real(dp) :: slacks(size(problem%bounds))
-
-      pays = allocated(problem%rows) .and. all(problem%bounds < 0.0_dp)
-      if (.not. pays) return
-      call problem%slacks(problem%linear/problem%hessian, slacks)
-      pays = count(slacks < 0.0_dp) > least_violated*size(slacks)
-   end function pays
-
    !> The constraints that are likely to be active, the likeliest first, and approximate multipliers of all. The steps
-   !> end where rounding does not leave the matrix positive.
+   !> end where rounding does not leave the matrix positive. There are no steps and no constraints where exchanges take
+   !> less time: without rows as sums, where x = 0 does not satisfy all constraints with some room, and where the
+   !> minimum without constraints violates few of them.
    subroutine likely_active(problem, list, multipliers, steps)
-      type(qp_problem), intent(in) :: problem               !! that `pays`
+      type(qp_problem), intent(in) :: problem
       integer, allocatable, intent(out) :: list(:)
-      real(dp), intent(out) :: multipliers(:)               !! > 0, shape (m)
+      real(dp), intent(out) :: multipliers(:)               !! > 0 if there are steps, shape (m)
       integer, intent(out) :: steps
 
       real(dp), dimension(size(multipliers)) :: slack, slack_change, change, product
@@ -56,13 +45,19 @@ contains
 
       n = size(rest)
       m = size(multipliers)
+      steps = 0
+      allocate (list(0))
+      if (.not. allocated(problem%rows)) return
+      call problem%slacks(problem%linear/problem%hessian, slack)
+      if (any(problem%bounds >= 0.0_dp) .or. count(slack < 0.0_dp) < least_violated*m) return
       allocate (matrix(n, n))
       slack = -problem%bounds
       multipliers = 1.0_dp/m
       select type (rows => problem%rows)
       class is (cosine_rows)
          ! Dx - c - C'y at x = 0; each step shortens it.
-         rest = -problem%linear - rows%transposed(multipliers)
+         rest = -problem%linear
+         call dgemv('N', n, m, -1.0_dp, problem%normals, n, multipliers, 1, 1.0_dp, rest, 1)
          do steps = 0, most_steps - 1
             call rows%squares(multipliers/slack, matrix)
             do i = 1, n
@@ -74,7 +69,8 @@ contains
             mean = sum(product)/m
             ! First towards products of 0; then, with what that says of their curvature, towards equal ones.
             do pass = 1, 2
-               x_change = -rest - rows%transposed(product/slack)
+               x_change = -rest
+               call dgemv('N', n, m, -1.0_dp, problem%normals, n, product/slack, 1, 1.0_dp, x_change, 1)
                call dtrsv('L', 'N', 'N', n, matrix, n, x_change, 1)
                call dtrsv('L', 'T', 'N', n, matrix, n, x_change, 1)
                call rows%of(x_change, slack_change)
