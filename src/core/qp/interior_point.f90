@@ -37,13 +37,13 @@ contains
       integer, intent(out) :: steps
 
       real(dp), dimension(size(multipliers)) :: slack, slack_change, change, product
-      real(dp), dimension(size(problem%linear)) :: rest, x_change
+      real(dp), dimension(size(problem%linear)) :: x, x_change
       real(dp), allocatable :: matrix(:, :)
       integer(c_size_t) :: order(size(multipliers))
       integer :: i, info, m, n, pass
       real(dp) :: mean, step
 
-      n = size(rest)
+      n = size(x)
       m = size(multipliers)
       steps = 0
       allocate (list(0))
@@ -51,13 +51,11 @@ contains
       call problem%slacks(problem%linear/problem%hessian, slack)
       if (any(problem%bounds >= 0.0_dp) .or. count(slack < 0.0_dp) < least_violated*m) return
       allocate (matrix(n, n))
+      x = 0.0_dp
       slack = -problem%bounds
       multipliers = 1.0_dp/m
       select type (rows => problem%rows)
       class is (cosine_rows)
-         ! Dx - c - C'y at x = 0; each step shortens it.
-         rest = -problem%linear
-         call dgemv('N', n, m, -1.0_dp, problem%normals, n, multipliers, 1, 1.0_dp, rest, 1)
          do steps = 0, most_steps - 1
             call rows%squares(multipliers/slack, matrix)
             do i = 1, n
@@ -69,8 +67,8 @@ contains
             mean = sum(product)/m
             ! First towards products of 0; then, with what that says of their curvature, towards equal ones.
             do pass = 1, 2
-               x_change = -rest
-               call dgemv('N', n, m, -1.0_dp, problem%normals, n, product/slack, 1, 1.0_dp, x_change, 1)
+               x_change = problem%linear - problem%hessian*x
+               call dgemv('N', n, m, 1.0_dp, problem%normals, n, multipliers - product/slack, 1, 1.0_dp, x_change, 1)
                call dtrsv('L', 'N', 'N', n, matrix, n, x_change, 1)
                call dtrsv('L', 'T', 'N', n, matrix, n, x_change, 1)
                call rows%of(x_change, slack_change)
@@ -80,9 +78,9 @@ contains
                   (dot_product(slack + step*slack_change, multipliers + step*change)/(m*mean))**3
             end do
             step = step_share*step
+            x = x + step*x_change
             slack = slack + step*slack_change
             multipliers = multipliers + step*change
-            rest = (1.0_dp - step)*rest
          end do
       end select
       call gsl_sort_index(order, slack/multipliers, 1_c_size_t, size(order, kind=c_size_t))
