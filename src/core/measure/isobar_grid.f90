@@ -103,20 +103,22 @@ contains
    pure real(dp) function area_fraction(self)
       class(isobar_grid), intent(in) :: self
 
-      integer :: inside, k, l, whole
+      integer :: corners(0:self%intervals - 1, 0:self%intervals - 1)   ! of each cell that are in contact
+      integer :: inside(0:self%intervals, 0:self%intervals), k, l
       real(dp) :: area
 
+      inside = merge(1, 0, self%pressure >= 0.0_dp)
+      associate (n => self%intervals)
+         corners = inside(:n - 1, :n - 1) + inside(1:, :n - 1) + inside(:n - 1, 1:) + inside(1:, 1:)
+      end associate
       area = 0.0_dp
-      whole = 0
       do l = 0, self%intervals - 1
          do k = 0, self%intervals - 1
             ! Most grid cells lie entirely inside or outside of the isobar. The others are computed by `cell_area`.
-            inside = count(self%pressure(k:k + 1, l:l + 1) >= 0.0_dp)
-            if (inside == 4) whole = whole + 1
-            if (mod(inside, 4) > 0) area = area + self%cell_area(k, l)
+            if (mod(corners(k, l), 4) > 0) area = area + self%cell_area(k, l)
          end do
       end do
-      area_fraction = area/pi**2 + whole/real(self%intervals, dp)**2
+      area_fraction = area/pi**2 + count(corners == 4)/real(self%intervals, dp)**2
    end function area_fraction
 
 end module wavycon_isobar_grid
