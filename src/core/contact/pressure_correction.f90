@@ -8,7 +8,8 @@ module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: longest_chunk
-   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, stencil_fraction, whole_step
+   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, stencil_fraction, &
+      whole_step
    use wavycon_correction_state, only: correction_state
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -176,9 +177,9 @@ contains
       end do
    end subroutine find_direction
 
-   !> If the expected step would take points out of the contact: replaces the direction by the change of the pressure that
-   !> keeps it within its bound and keeps its mean (C7a). The transform that follows is then that of the change itself,
-   !> and (C7) needs no further one. With a hardness (C24) takes the place of (C7), and no step is expected.
+   !> If the expected step would take points out of the contact: replaces the direction by the change of the pressure
+   !> that keeps it within its bound and keeps its mean (C7a). The transform that follows is then that of the change
+   !> itself, and (C7) needs no further one. With a hardness (C24) takes the place of (C7), and no step is expected.
    subroutine bound_direction(state, expected_step, direction, field, is_bounded)
       type(correction_state), intent(in) :: state
       real(sp), intent(in) :: expected_step                     !! tau_e; 0: unknown
@@ -209,13 +210,13 @@ contains
       end do
    end subroutine bound_direction
 
-   !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change, and updates the contact
-   !> (C8). With the whole change points leave the contact, with a shorter step none does.
+   !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change, and updates the
+   !> contact (C8). With the whole change points leave the contact, with a shorter step none does.
    subroutine take_bounded_step(state, residuals, direction, field, expected_step, descent)
       type(correction_state), intent(inout) :: state
       real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d of (C7a), shape (region%points)
       real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
-      real(sp), intent(inout) :: expected_step             !! on entry that of (C7a), on return that of the next iteration
+      real(sp), intent(inout) :: expected_step             !! on entry that of (C7a), on return the next one
       real(dp), intent(out) :: descent                     !! nu (d, S d) of (C7b)
 
       !> A pressure below this part of the numbers that it is the sum of is zero but for rounding.
@@ -308,7 +309,8 @@ contains
    end subroutine take_step
 
    !> Sums over the grid after a step that keeps the pressure at zero or above: number of the free points whose pressure
-   !> stays above zero, sum of their pressures, sum of the changes since the start, and number of the points that reach H.
+   !> stays above zero, sum of their pressures, sum of the changes since the start, and number of the points that
+   !> reach H.
    function sums_after(state, direction, step) result(sums)
       type(correction_state), intent(in) :: state
       real(sp), intent(in), contiguous :: direction(:)     !! d, shape (region%points)
