@@ -28,7 +28,8 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "partial_slip": ("tangential_over_limit", "stick_area_fraction"),
          "slip_loop": ("branch", "tangential_load", "displacement"),
          "slip_map": ("x", "y", "traction", "slip_state"),
-         "adhesion": ("contact_area_fraction", "approach", "branch", "point")}
+         "adhesion": ("contact_area_fraction", "approach", "branch", "point"),
+         "bounds": ("pbar_over_pstar", "energy_lower_over_pstar_amplitude", "energy_is_inside")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
 HEAD_NUMBER = re.compile(r"(Delta|p\*|e_star|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
