@@ -6,7 +6,7 @@ module wavycon_series_fields
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_status, only: full_contact, no_load
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_full_contact, only: full_contact_series
+   use wavycon_full_contact, only: full_contact_series, mean_compliance
    use wavycon_kinds, only: dp
    use wavycon_series_samples, only: sample_series
    use wavycon_surface, only: surface_type
@@ -17,9 +17,9 @@ module wavycon_series_fields
 
    type, extends(contact_fields) :: series_fields
       type(fourier_series) :: pressure       !! p/p*
-      type(fourier_series) :: displacement   !! (u - ubar)/Delta
+      type(fourier_series) :: displacement   !! (u - ubar)/Delta, of full contact on a layer u/Delta
       type(surface_type) :: surface
-      real(dp) :: mean_gap = 1.0_dp          !! G
+      real(dp) :: mean_gap = 1.0_dp          !! G, less the mean of the displacement
       !> Whether the true pressure and gap are nowhere less than least_pressure and 0: what the series have below is
       !> rounding, or lies between the points of a height map.
       logical, private :: is_edgeless = .false.
@@ -44,7 +44,9 @@ contains
       if (status == full_contact) then
          fields%pressure = full_contact_series(surface, pbar_over_pstar)
          fields%displacement = surface%shape
-         fields%mean_gap = 0.0_dp
+         ! On a layer the displacement has a mean, which the approach has too.
+         fields%mean_gap = -mean_compliance(surface)*pbar_over_pstar
+         call fields%displacement%set_mean(-fields%mean_gap)
          ! Only adhesion holds surfaces in full contact below p*: they are under tension at the troughs.
          if (pbar_over_pstar < 1.0_dp) fields%least_pressure = -huge(1.0_dp)
       else

@@ -6,6 +6,7 @@ module wavycon_energy_bounds
    use wavycon_alias_sums, only: alias_sums
    use wavycon_assertion, only: assert
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -114,6 +115,10 @@ contains
          answer%approach(2) = min(answer%approach(2), 1.0_dp)
          answer%mean_gap = 1.0_dp - answer%approach(2:1:-1)
       end if
+      ! What the mean pressure does to a layer, (E31).
+      scale = mean_compliance(surface)*pbar_over_pstar
+      answer%approach = answer%approach + scale*[1.0_dp - rounding, 1.0_dp + rounding]
+      answer%energy = answer%energy + 0.5_dp*scale*pbar_over_pstar*[1.0_dp - rounding, 1.0_dp + rounding]
 
    contains
 

@@ -4,6 +4,7 @@ module wavycon_roughness
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private
 
@@ -13,7 +14,8 @@ module wavycon_roughness
       real(dp) :: height = 0.0_dp      !! of the height over its mean, eq. (M22) [length]
       real(dp) :: slope = 0.0_dp       !! of the size of the gradient, eq. (M23)
       real(dp) :: curvature = 0.0_dp   !! of half the Laplacian, of a profile of h'', eq. (M24) [1/length]
-      !> Sum of the mean squares of all waves, each over its wavelength, eq. (M25a) [length].
+      !> Sum of the mean squares of all waves, each over its wavelength, eq. (M25a) [length]; on a layer each times its
+      !> stiffness.
       real(dp) :: frequency_moment = 0.0_dp
    end type roughness_type
 
@@ -33,12 +35,14 @@ module wavycon_roughness
 contains
 
    !> The roughness of a surface.
-   type(roughness_type) function roughness_of(series, amplitude, length, points) result(roughness)
+   type(roughness_type) function roughness_of(series, amplitude, length, points, kernel) result(roughness)
       type(fourier_series), intent(in) :: series   !! of the height over `amplitude`; its mean is ignored
       real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
       integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
+      type(wave_stiffness), intent(in), optional :: kernel   !! of the bodies; absent: half-spaces
 
+      type(wave_stiffness) :: of_waves
       !> (M22) to (M25a), in the order of roughness_type, of the waves of each wave number in X.
       real(dp) :: moments(4, series%first():series%last(1))
       real(dp), dimension(series%first():series%last(1)) :: powers, q_squared, x_squared
@@ -47,6 +51,7 @@ contains
 
       ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
       unit = minval(length)
+      if (present(kernel)) of_waves = kernel%in_unit(unit)
       x_squared = [((k*(unit/length(1)))**2, k=series%first(), series%last(1))]
       moments = 0.0_dp
       do l = 0, series%last(2)
@@ -55,7 +60,8 @@ contains
          moments(1, :) = moments(1, :) + powers
          moments(2, :) = moments(2, :) + powers*q_squared
          moments(3, :) = moments(3, :) + powers*q_squared**2
-         moments(4, :) = moments(4, :) + powers*sqrt(q_squared)
+         call of_waves%of(q_squared)
+         moments(4, :) = moments(4, :) + powers*q_squared
       end do
       sums = series%rows%column_totals(moments)
       sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))

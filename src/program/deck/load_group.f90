@@ -152,7 +152,8 @@ contains
          target = merge(ieee_value(1.0_dp, ieee_positive_inf), 1.0_dp, mean_pressure > 0.0_dp)
          return
       end if
-      if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges)) then
+      if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges .or. &
+                                         surface%kernel%has_layer())) then
          target = target/most
          return
       end if
