@@ -22,6 +22,7 @@ module wavycon_multilevel_preconditioner
    type :: multilevel_preconditioner
       logical, private :: even = .false.       !! whether the field is mirrored at the borders; otherwise it is periodic
       real(sp), private :: decay = 1.0_sp      !! factor of a value for each doubling of the distance from the contact
+      real(dp), private :: reach = 0.0_dp      !! as of `start`, in steps of this grid
       type(grid_slab), private :: slab         !! the columns of the grid
       !> Part of a point's area that is in contact, on the finest grid 1 or 0; own columns, shape (M, columns).
       !> Allocated by `start`.
@@ -39,14 +40,17 @@ module wavycon_multilevel_preconditioner
 contains
 
    !> Allocates a grid and the coarser ones; no point is in contact.
-   subroutine start(self, points, even)
+   subroutine start(self, points, even, reach)
       class(multilevel_preconditioner), intent(out) :: self
       integer, intent(in) :: points(2)   !! M, N of the whole grid; N = 1 in 1-D
       logical, intent(in) :: even        !! whether the points are those of a quarter of an even field's cell
+      !> Steps beyond which no displacement reaches, the thickness of a layer; 0 or absent: there is no limit.
+      real(dp), intent(in), optional :: reach
 
       type(grid_slab) :: slab
 
       call slab%start(points)
+      if (present(reach)) self%reach = reach
       call start_on(slab, even, self)
    end subroutine start
 
@@ -61,6 +65,7 @@ contains
       if (.not. all((mod(slab%points, 2) == 0 .and. slab%points >= 2*least_points) .or. slab%points == 1)) return
       grid%part = slab%coarser()
       allocate (grid%coarser)
+      grid%coarser%reach = 0.5_dp*grid%reach
       call start_on(distributed_or_whole(grid%part), even, grid%coarser)
       allocate (grid%values(grid%part%points(1), 0:grid%coarser%slab%columns() + 1))
    end subroutine start_on
@@ -85,10 +90,12 @@ contains
          call average(self%contact, self%part, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
          self%decay = self%coarser%decay
+         if (self%reach > 0.0_dp) self%decay = self%decay*real(min(1.0_dp, self%reach)/min(1.0_dp, self%coarser%reach), sp)
       else
          total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
          self%decay = real(min(1.0_dp, decay_alone &
                                        + decay_growth*sqrt(total(1)/product(real(self%slab%points, dp)))), sp)
+         if (self%reach > 0.0_dp) self%decay = self%decay*real(min(1.0_dp, self%reach), sp)
       end if
    end subroutine average_contact
 

@@ -96,7 +96,8 @@ contains
       end if
       field = 0.0_sp
       call state%put_residual(field)
-      if (.not. allocated(extension%contact)) call extension%start(state%slab%points, half_space%even)
+      if (.not. allocated(extension%contact)) call extension%start( &
+         state%slab%points, half_space%even, half_space%kernel%layer%thickness*minval(half_space%stiffness_per_step))
       if (state%contact_is_new) then
          !$omp parallel do num_threads(state%region%threads)
          do c = 1, state%region%chunks
