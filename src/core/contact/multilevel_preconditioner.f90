@@ -90,7 +90,8 @@ contains
          call average(self%contact, self%part, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
          self%decay = self%coarser%decay
-         if (self%reach > 0.0_dp) self%decay = self%decay*real(min(1.0_dp, self%reach)/min(1.0_dp, self%coarser%reach), sp)
+         if (self%reach > 0.0_dp) self%decay = self%decay* &
+            real(min(1.0_dp, self%reach)/min(1.0_dp, self%coarser%reach), sp)
       else
          total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
          self%decay = real(min(1.0_dp, decay_alone &
