@@ -10,7 +10,6 @@ module wavycon_find_load
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, flattest, fraction_of_error, largest_fraction, least_fraction, &
       lightest_load, longest_step, most_solves, steepest, value_roundings
-   use wavycon_full_contact, only: mean_compliance
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: approach, contact_area, is_known, mean_gap
    implicit none (type, external)
@@ -51,27 +50,20 @@ contains
 
       type(root_search) :: search
       type(solver_traits) :: traits
-      real(dp) :: compression   ! of a layer at p* [Delta]
       integer :: level
 
       associate (surface => solver%surface)
          search = root_search(target=target, quantity=quantity)
          search%closes = quantity == contact_area .and. target >= 1.0_dp
          search%most = surface%hardness
-         if (.not. surface%has_free_edges) search%most = min(1.0_dp, surface%hardness)
+         ! The approach goes on beyond full contact where a layer is compressed.
+         if (.not. (surface%has_free_edges .or. (quantity == approach .and. surface%kernel%has_layer()))) &
+            search%most = min(1.0_dp, surface%hardness)
          if (quantity == approach) search%is_bounded = &
             .not. (surface%has_free_edges .or. surface%has_hardness() .or. surface%kernel%has_layer())
          if (target <= 0.0_dp .or. (target >= 1.0_dp .and. search%is_bounded .and. .not. surface%has_free_edges)) then
             call solver%solve(max(merge(1.0_dp - target, target, quantity == mean_gap), 0.0_dp), solution)
             return
-         end if
-         ! Beyond full contact the layer is compressed as a whole. A hardness is met before.
-         if (quantity == approach .and. surface%kernel%has_layer() .and. .not. surface%has_hardness()) then
-            compression = mean_compliance(surface)
-            if (target >= 1.0_dp + compression) then
-               call solver%solve(max(1.0_dp, (target - 1.0_dp)/max(compression, tiny(target))), solution)
-               return
-            end if
          end if
       end associate
       traits = solver%traits()
