@@ -133,8 +133,8 @@ def layer_case(stream, kind):
                    f"   hurst = {stream.choice((0.3, 0.8))!r}, short_wavelength = {stream.choice((4.0, 8.0, 16.0))/points!r},\n"
                    f"   seed = {stream.randint(1, 2**30)}")
     layer = f"layer_thickness = {10.0**stream.uniform(-2.5, 0.3)!r}, "
-    layer += stream.choice(("layer_base = 'smooth'", f"nu = {stream.choice((0.0, 0.3, 0.45, 0.5))!r}",
-                            f"nu = {stream.choice((0.0, 0.3, 0.5))!r}, base_nu = 0.3,\n"
+    layer += stream.choice(("layer_base = 'smooth'", f"layer_nu = {stream.choice((0.0, 0.3, 0.45, 0.5))!r}",
+                            f"layer_nu = {stream.choice((0.0, 0.3, 0.5))!r}, base_nu = 0.3,\n"
                             f"   base_e = {10.0**stream.uniform(-1.0, 2.0)!r}"))
     loads = [1.0/(1.0 + math.exp(-stream.uniform(-6.0, 5.0))) for _ in range(3)]
     return [{"deck.nml": f"&surface {surface} /\n&material {layer} /\n"

@@ -41,13 +41,13 @@ contains
          'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
          'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', above=0))
       call keys%add(values%layer_thickness, key_type(real_value, 'layer_thickness', '', 'length', &
-         'Thickness of an elastic layer, which is the first body: e1 and nu1, or e_star and nu, are its own. '// &
+         'Thickness of an elastic layer, which is the first body: e1 and nu1, or e_star and layer_nu, are its own. '// &
          'Without it the bodies are half-spaces. Within a factor of 1e6 of the longer side of the cell.', above=0))
       call keys%add(values%layer_base, key_type(choice_value, 'layer_base', "'bonded'", '', &
          "what the layer lies on: 'bonded', on a body that it is bonded to, rigid unless base_e is given; "// &
          "'smooth', on a rigid body on which it slides without friction.", choices='bonded smooth', &
          needs='layer_thickness'))
-      call keys%add(values%nu, key_type(real_value, 'nu', '', '-', &
+      call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
          "Poisson's ratio of the layer, if e_star is given.", above=-1, most=0.5_dp, way=10, needs='layer_thickness'))
       call keys%add(values%base_e, key_type(real_value, 'base_e', '', 'pressure', &
          "Young's modulus of the half-space that the layer is bonded to. Without it the base is rigid.", above=0, &
@@ -93,12 +93,12 @@ contains
       real(dp), intent(in) :: e_star                  !! of the pair [pressure]
       type(surface_type), intent(inout) :: surface
 
-      real(dp) :: layer_e, longest, nu
+      real(dp) :: longest
       type(elastic_layer) :: layer
 
       layer%slides = values%layer_base%text == 'smooth'
-      if (.not. (layer%slides .or. values%nu1%is_given .or. values%nu%is_given)) call values%complain( &
-         values%layer_base, "a bonded layer needs nu, Poisson's ratio: its compliance follows from it")
+      if (.not. (layer%slides .or. values%nu1%is_given .or. values%layer_nu%is_given)) call values%complain( &
+         values%layer_base, "a bonded layer needs layer_nu, Poisson's ratio: its compliance follows from it")
       longest = maxval(surface%length(:surface%dimension)/surface%parts())
       layer%thickness = values%layer_thickness%number
       if (surface%has_free_edges) then
@@ -115,18 +115,13 @@ contains
       if (layer%slides .and. values%base_e%is_given) call values%complain(values%base_e, &
          "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
       if (values%problems%number > 0) return
-      nu = 0.0_dp
-      if (values%nu%is_given) nu = values%nu%number
-      layer_e = e_star*(1 - nu**2)
-      if (values%e1%is_given) then
-         nu = values%nu1%number
-         layer_e = values%e1%number
-         layer%share = e_star*(1 - nu**2)/layer_e
-      end if
-      layer%nu = nu
+      if (values%layer_nu%is_given) layer%nu = values%layer_nu%number
+      if (values%nu1%is_given) layer%nu = values%nu1%number
+      ! Without a second body it is one to the last digit: the rest counts beside the factor of a thin layer.
+      if (values%e2%is_given) layer%share = e_star*(1 - layer%nu**2)/values%e1%number
       if (values%base_e%is_given) then
          layer%base_nu = values%base_nu%number
-         layer%shear_ratio = layer_e*(1 + layer%base_nu)/(values%base_e%number*(1 + nu))
+         layer%shear_ratio = e_star*(1 - layer%nu)*(1 + layer%base_nu)/(layer%share*values%base_e%number)
       end if
       surface%kernel%layer = layer
       call set_closure(surface)

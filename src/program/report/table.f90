@@ -130,6 +130,7 @@ contains
          words = 'closed forms exist only for the waves of the paper: '//paper_waves
          if (self%file == 'theory_lines') return
          words = words//', and for a ball'
+         if (surface%kernel%has_layer()) words = 'closed forms are those of half-spaces, not of a layer'
          if (surface%has_free_edges .and. all(surface%form%c(:surface%dimension) > 0.0_dp)) words = ''
       end select
       if (lack == '') return
