@@ -55,10 +55,10 @@ module wavycon_contact_tuning
    !> single spot, as the displacement of a point load does, and not at all in gaps that contact surrounds.
    real(dp), parameter, public :: decay_alone = 0.65_dp
    real(dp), parameter, public :: decay_growth = 1.2_dp
-   !> On a layer it falls faster, in proportion to the distance, beyond this part of the thickness. On a rough map of 256
-   !> x 256 points, t/L = .1, .01 and .001, nu = .3: 25, 18, 19 iterations; with .5 28, 18, 19, with 1 50, 21, 19, without
-   !> a limit 60, 97, 90. On half-spaces ten times softer than the layer it takes up to twice as many as without, on a
-   !> thousand times softer ones it converges where it did not.
+   !> On a layer it falls faster, in proportion to the distance, beyond this part of the thickness. On a rough map of
+   !> 256 x 256 points, t/L = .1, .01 and .001, nu = .3: 25, 18, 19 iterations; with .5 28, 18, 19, with 1 50, 21, 19,
+   !> without a limit 60, 97, 90. On half-spaces ten times softer than the layer it takes up to twice as many as
+   !> without, on a thousand times softer ones it converges where it did not.
    real(dp), parameter, public :: reach_of_layer = 0.25_dp
    !> The preconditioner is applied again if (C4d) excludes more than this part of the points in contact. Larger:
    !> iterations grow by up to a half where many points enter at once. Smaller: it is applied for a few points. On 2048

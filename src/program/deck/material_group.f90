@@ -16,8 +16,9 @@ module wavycon_material_group
 
    !> Largest ratio of hardness and p*: a hardness farther away is most likely a mistake of units.
    real(dp), parameter :: most_hardness = 1.0e6_dp
-   !> Largest ratio of a layer's thickness and the longer side of the cell, for the same reason.
-   real(dp), parameter :: most_thickness = 1.0e6_dp
+   !> Largest ratio of a layer's thickness and the longer side of the cell, and of the stiffness of layer and base, for
+   !> the same reason.
+   real(dp), parameter :: most_of_layer = 1.0e6_dp
 
 contains
 
@@ -50,7 +51,8 @@ contains
       call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
          "Poisson's ratio of the layer, if e_star is given.", above=-1, most=0.5_dp, way=10, needs='layer_thickness'))
       call keys%add(values%base_e, key_type(real_value, 'base_e', '', 'pressure', &
-         "Young's modulus of the half-space that the layer is bonded to. Without it the base is rigid.", above=0, &
+         "Young's modulus of the half-space that the layer is bonded to, within a factor of 1e6 of the layer's. "// &
+         'Without it the base is rigid.', above=0, &
          needs='base_nu layer_thickness'))
       call keys%add(values%base_nu, key_type(real_value, 'base_nu', '', '-', &
          "Poisson's ratio of this half-space.", above=-1, most=0.5_dp, needs='base_e'))
@@ -107,14 +109,13 @@ contains
       else if (surface%amplitude <= 0.0_dp) then
          call values%complain(values%layer_thickness, &
             'the surface is flat: its pressure is the mean pressure on any layer. Leave layer_thickness out')
-      else if (layer%thickness > most_thickness*longest .or. layer%thickness < longest/most_thickness) then
+      else if (layer%thickness > most_of_layer*longest .or. layer%thickness < longest/most_of_layer) then
          call values%complain(values%layer_thickness, 'layer_thickness = '//short_number(layer%thickness)// &
-            ' is not within a factor of '//short_number(most_thickness)//' of the side of the cell, '// &
+            ' is not within a factor of '//short_number(most_of_layer)//' of the side of the cell, '// &
             short_number(longest)//'. Do the units agree?')
       end if
       if (layer%slides .and. values%base_e%is_given) call values%complain(values%base_e, &
          "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
-      if (values%problems%number > 0) return
       if (values%layer_nu%is_given) layer%nu = values%layer_nu%number
       if (values%nu1%is_given) layer%nu = values%nu1%number
       ! Without a second body it is one to the last digit: the rest counts beside the factor of a thin layer.
@@ -122,7 +123,10 @@ contains
       if (values%base_e%is_given) then
          layer%base_nu = values%base_nu%number
          layer%shear_ratio = e_star*(1 - layer%nu)*(1 + layer%base_nu)/(layer%share*values%base_e%number)
+         if (abs(log(layer%shear_ratio)) > log(most_of_layer)) call values%complain(values%base_e, &
+            'layer and base differ in stiffness by more than '//short_number(most_of_layer)//'. Do the units agree?')
       end if
+      if (values%problems%number > 0) return
       surface%kernel%layer = layer
       call set_closure(surface)
    end subroutine lay_on_base

@@ -127,7 +127,7 @@ contains
       end select
       if (any(solver == ['fitted     ', 'closed_form']) .and. surface%has_hardness()) &
          words = 'has no solution with a hardness'
-      if (all(solver /= ['grid', 'auto']) .and. surface%kernel%has_layer()) words = 'is for half-spaces, not for a layer'
+      if (all(solver /= ['grid', 'auto']) .and. surface%kernel%has_layer()) words = 'is for half-spaces alone'
    end function refusal
 
    !> The solvers that can solve a surface, such as "'grid' or 'auto'"; of these only those whose solutions have
