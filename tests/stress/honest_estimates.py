@@ -130,7 +130,8 @@ def layer_case(stream, kind):
     surface = f"kind = '{stream.choice(('wave_1d', 'wave_2d', 'hexagonal'))}'"
     if stream.random() < 0.6:
         surface = (f"kind = 'self_affine', points = {points}, length_x = 1, rms_slope = 0.1, long_wavelength = 0.5,\n"
-                   f"   hurst = {stream.choice((0.3, 0.8))!r}, short_wavelength = {stream.choice((4.0, 8.0, 16.0))/points!r},\n"
+                   f"   hurst = {stream.choice((0.3, 0.8))!r},\n"
+                   f"   short_wavelength = {stream.choice((4.0, 8.0, 16.0))/points!r},\n"
                    f"   seed = {stream.randint(1, 2**30)}")
     layer = f"layer_thickness = {10.0**stream.uniform(-2.5, 0.3)!r}, "
     layer += stream.choice(("layer_base = 'smooth'", f"layer_nu = {stream.choice((0.0, 0.3, 0.45, 0.5))!r}",
