@@ -1,0 +1,50 @@
+"""Sphinx's configuration of the site; make_site.py stages the pages and runs Sphinx."""
+import re
+
+from docutils import nodes
+
+project = "wavycon"
+author = copyright = "The wavycon developers"
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "sphinx-mathjax-offline"]
+html_theme = "furo"
+html_title = "wavycon"
+html_static_path = ["packaging/site/site.css"]
+html_css_files = ["site.css"]
+html_copy_source = html_show_sourcelink = False
+# Pages name their formulas by \tag, quote in plain ASCII, and have links as GitHub makes them.
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+smartquotes = False
+highlight_language = "none"
+# Two columns of formulas in a table, or long displays, scroll in their own box (site.css).
+mathjax3_config = {"chtml": {"displayAlign": "left", "displayIndent": "2em"}, "options": {"enableMenu": False}}
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+
+
+def keep_display(app, doctree):
+    """Displays as they are: Sphinx would put those of several lines into `split`, which has no \\tag."""
+    for block in doctree.findall(nodes.math_block):
+        text = block.astext()
+        block.children[:] = [nodes.Text(f"\\[{text}\\]")]
+        block.rawsource, block["no-wrap"], block["nowrap"] = text, True, True
+
+
+def plain_docstring(app, what, name, obj, options, lines):
+    """Docstrings are plain text: no mark-up, a key with its meaning in a line of its own."""
+    text = []
+    for line in lines:
+        key = re.match(r"(\w+)((?: \[[^]]*\])?: .*)", line)
+        line = re.sub(r"([*`|\\])|_(?!\w)", r"\\\g<0>", line)
+        if key and what == "function" and name.rpartition(".")[2] not in app.config.plain_functions:
+            line = re.sub(r"^(\w+)", r"* ``\1``", line)
+        text.append(line)
+    lines[:] = text
+
+
+def setup(app):
+    import wavycon
+    app.add_config_value("plain_functions", wavycon.__all__, "env")
+    app.connect("doctree-read", keep_display)
+    app.connect("autodoc-process-docstring", plain_docstring)
+    return {"parallel_read_safe": True}
