@@ -17,7 +17,7 @@ myst_heading_anchors = 4
 smartquotes = False
 highlight_language = "none"
 # Two columns of formulas in a table, or long displays, scroll in their own box (site.css).
-mathjax3_config = {"chtml": {"displayAlign": "left", "displayIndent": "2em"}, "options": {"enableMenu": False}}
+mathjax3_config = {"chtml": {"displayAlign": "left", "displayIndent": "1em"}, "options": {"enableMenu": False}}
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 
@@ -33,6 +33,8 @@ def keep_display(app, doctree):
 def plain_docstring(app, what, name, obj, options, lines):
     """Docstrings are plain text: no mark-up, a key with its meaning in a line of its own."""
     text = []
+    if lines[0].startswith("Alias for field number"):
+        lines.clear()
     for line in lines:
         key = re.match(r"(\w+)((?: \[[^]]*\])?: .*)", line)
         line = re.sub(r"([*`|\\])|_(?!\w)", r"\\\g<0>", line)

@@ -114,22 +114,22 @@ def first_signs(text, number):
 
 def columns_page():
     """All columns by name, from the sections on tables, which a test compares with the program's own lists."""
-    columns = []
+    places = {}
     for title, text in re.findall(r"^## ([^\n]*)\n(.*?)(?=^## |\Z)", (ROOT/"outputs/README.md").read_text(encoding="utf-8"),
                                   re.MULTILINE | re.DOTALL):
-        place = f"../outputs/README.md#{title.lower().replace(' ', '-')}"
         rows = "".join(re.findall(r"^\| Column.*\n\|-.*\n((?:\|.*\n)+)", text, re.MULTILINE))
-        for names, unit, meaning in re.findall(r"^\| (`[^|]*?) \|([^|]*)\|(.*)\|$", rows, re.MULTILINE):
-            meaning = re.sub(r"\]\((?=#)", "](README.md", meaning)
-            meaning = re.sub(r"\]\((?!\.\.)", "](../outputs/", meaning)
-            columns += [f"| `{name}` |{unit}| [{title}]({place}) |{meaning}|" for name in re.findall(r"`(\w+)`", names)]
-    return ("# All columns of tables\n\n[Results](../outputs/README.md) has them table by table.\n\n"
-            "| Column | Unit | Table | Meaning |\n|---|---|---|---|\n" + "\n".join(sorted(columns)) + "\n")
+        for names, unit in re.findall(r"^\| (`[^|]*?) \|([^|]*)\|", rows, re.MULTILINE):
+            for name in re.findall(r"`(\w+)`", names):
+                link = f"[{title}](../outputs/README.md#{title.lower().replace(' ', '-')})"
+                places.setdefault((name, unit), []).append(link)
+    rows = "".join(f"| `{name}` |{unit}| {', '.join(links)} |\n" for (name, unit), links in sorted(places.items()))
+    return f"# All columns of tables\n\nThe links lead to their meaning.\n\n| Column | Unit | Tables |\n|---|---|---|\n{rows}"
 
 
 def python_page(package):
     """The names of the package by its docstrings."""
-    kinds = [name for name in dir(package) if name not in package.__all__ and not name.startswith("_")]
+    renamed = package.deck.KINDS_BY_NAME.values()
+    kinds = [name for name in dir(package) if name not in {*package.__all__, *renamed} and not name.startswith("_")]
     page = "# The Python package, name by name\n\n[wavycon in Python](../src/library/python/README.md) has examples.\n"
     for title, names in (("Functions and classes", package.__all__), ("Surfaces", kinds)):
         page += f"\n## {title}\n"
