@@ -20,6 +20,7 @@ import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITE = pathlib.Path("packaging/site")
+KINDS = "type|class|integer|real|logical|character|complex"
 # Chapters and their pages; the first is what a reader sees first.
 CHAPTERS = {
     "Start": ["README.md", SITE/"tutorial.md", SITE/"guide.md"],
@@ -115,21 +116,22 @@ def first_signs(text, number):
 def columns_page():
     """All columns by name, from the sections on tables, which a test compares with the program's own lists."""
     places = {}
-    for title, text in re.findall(r"^## ([^\n]*)\n(.*?)(?=^## |\Z)", (ROOT/"outputs/README.md").read_text(encoding="utf-8"),
-                                  re.MULTILINE | re.DOTALL):
+    page = (ROOT/"outputs/README.md").read_text(encoding="utf-8")
+    for title, text in re.findall(r"^## ([^\n]*)\n(.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL):
         rows = "".join(re.findall(r"^\| Column.*\n\|-.*\n((?:\|.*\n)+)", text, re.MULTILINE))
         for names, unit in re.findall(r"^\| (`[^|]*?) \|([^|]*)\|", rows, re.MULTILINE):
             for name in re.findall(r"`(\w+)`", names):
                 link = f"[{title}](../outputs/README.md#{title.lower().replace(' ', '-')})"
                 places.setdefault((name, unit), []).append(link)
     rows = "".join(f"| `{name}` |{unit}| {', '.join(links)} |\n" for (name, unit), links in sorted(places.items()))
-    return f"# All columns of tables\n\nThe links lead to their meaning.\n\n| Column | Unit | Tables |\n|---|---|---|\n{rows}"
+    return ("# All columns of tables\n\nThe links lead to their meaning.\n\n"
+            f"| Column | Unit | Tables |\n|---|---|---|\n{rows}")
 
 
 def python_page(package):
     """The names of the package by its docstrings."""
-    renamed = package.deck.KINDS_BY_NAME.values()
-    kinds = [name for name in dir(package) if name not in {*package.__all__, *renamed} and not name.startswith("_")]
+    # The function of kind 'sum' is wave_sum.
+    kinds = [name for name in dir(package) if name not in {*package.__all__, "sum"} and not name.startswith("_")]
     page = "# The Python package, name by name\n\n[wavycon in Python](../src/library/python/README.md) has examples.\n"
     for title, names in (("Functions and classes", package.__all__), ("Surfaces", kinds)):
         page += f"\n## {title}\n"
@@ -200,14 +202,13 @@ def fortran_entry(text, name, level):
     if kind == "type":
         shown = "".join(line for line in components.splitlines(True) if "private" not in line)
         bound = [end or start or first for start, first, end in
-                 re.findall(r"^ *procedure(?:\((\w+)\))?(?:, (?!private)\w+)* :: (\w+)(?: => (\w+))?", procedures, re.MULTILINE)]
+                 re.findall(r"^ *procedure(?:\((\w+)\))?(?:, (?!private)\w+)* :: (\w+)(?: => (\w+))?", procedures,
+                            re.MULTILINE)]
     else:
         for line in body.splitlines(True):
-            if re.match(r"\s*(?:!|(?:type|class|integer|real|logical|character|complex|procedure)\b.*(?:intent|::))", line):
+            if re.match(rf"\s*(?:!|(?:{KINDS}|procedure)\b.*(?:intent|::))", line):
                 shown += line
-            elif line.strip() and not re.match(r"\s*(?:use|implicit|import)\b", line):
-                break
-            elif shown and not line.strip():
+            elif (shown or line.strip()) and not re.match(r"\s*(?:use|implicit|import)\b", line):
                 break
     page = f"\n{level} {name}\n\n{fortran_comment(comment)}\n" + fortran_code(head + shown)
     return page + "".join(fortran_entry(text, one, "####") for one in bound)
@@ -222,7 +223,8 @@ def faults_of(folder):
         for tag, target in re.findall(r'<(\w+)\b[^>]*?\b(?:href|src)="([^"]*)"', text):
             target = urllib.parse.unquote(html.unescape(target))
             if re.match(r"[a-z]+:|//", target):
-                faults += [f"{file}: loads {target}"] if tag in ("script", "img", "link") and "data:" not in target else []
+                if tag in ("script", "img", "link") and not target.startswith("data:"):
+                    faults.append(f"{file}: loads {target}")
                 continue
             place, _, anchor = target.partition("#")
             there = (file.parent/place.partition("?")[0]).resolve() if place else file
@@ -268,8 +270,8 @@ def main():
     write(source/"reference/fortran.md", fortran_page())
     with open(source/"index.md", "a", encoding="utf-8") as file:
         file.write(contents())
-    subprocess.run([sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-d", options.output/"trees", source, made],
-                   check=True, env=dict(os.environ, PYTHONPATH=str(options.package)))
+    subprocess.run([sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-d", options.output/"trees", source,
+                    made], check=True, env=dict(os.environ, PYTHONPATH=str(options.package)))
     faults = faults_of(made)
     if options.browser:
         faults += faults_of_formulas(made, options.browser)
