@@ -36,7 +36,7 @@ CHAPTERS = {
     "Evidence": ["tests/evidence.md"],
     "Development": ["CONTRIBUTING.md", "src/README.md", "src/base/README.md", "src/base/system/README.md",
                     "src/core/README.md", "src/program/README.md", "tests/README.md", "tests/support/README.md",
-                    "packaging/README.md", "CHANGELOG.md"],
+                    "packaging/README.md", "CHANGELOG.md", ".github/CODE_OF_CONDUCT.md", ".github/SECURITY.md"],
 }
 
 
@@ -44,8 +44,9 @@ def pages():
     """The pages of the tree, without those of builds and results."""
     tops = [path for path in ROOT.iterdir() if not re.match(r"build|\.|outputs", path.name)]
     found = [page for top in tops for page in ([top] if top.suffix == ".md" else top.rglob("*.md"))]
-    return sorted(page.relative_to(ROOT) for page in [*found, *(ROOT/"outputs").glob("README.md"),
-                                                      *(ROOT/"outputs/gallery").glob("*.md")])
+    others = [*(ROOT/"outputs").glob("README.md"), *(ROOT/"outputs/gallery").glob("*.md"),
+              *(ROOT/".github").glob("[A-Z]*.md")]
+    return sorted(page.relative_to(ROOT) for page in found + others)
 
 
 def stage(source):

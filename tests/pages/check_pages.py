@@ -53,7 +53,8 @@ def pages():
     """Every page of the tree, builds and results of runs aside, which other tests write and remove meanwhile."""
     tops = [path for path in sorted(ROOT.iterdir()) if not re.match(r"build|\.|outputs", path.name)]
     found = [path for top in tops for path in ([top] if top.suffix == ".md" else sorted(top.rglob("*.md")))]
-    return found + [ROOT/"outputs/README.md", *sorted((ROOT/"outputs/gallery").glob("*.md"))]
+    return found + [ROOT/"outputs/README.md", *sorted((ROOT/"outputs/gallery").glob("*.md")),
+                    *sorted((ROOT/".github").rglob("*.md"))]
 
 
 def without_fences(text):
