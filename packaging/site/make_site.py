@@ -93,25 +93,15 @@ def keys_page(program, keys):
         head, body = re.search(rf"^&{group} +(.*)\n((?:   .*\n)+)", words, re.MULTILINE).groups()
         page += f"\n## &{group}\n\n{plain(head[0].upper() + head[1:])}.\n\n| Key | Values | Meaning |\n|---|---|---|\n"
         entries = re.split(r"^   (\w+) ", body, flags=re.MULTILINE)[1:]
-        found = {name: " ".join(entry.split()) for name, entry in zip(entries[::2], entries[1::2])}
-        if found.keys() != known.keys():
+        if entries[::2] != list(known):
             raise SystemExit(f"--help and the library have different keys of &{group}")
-        for name, entry in found.items():
-            meaning = known[name]["meaning"]
-            # --help breaks lines at hyphens, too.
-            start = len(entry.replace(" ", "")) - len(meaning.replace(" ", ""))
-            values = first_signs(entry, start)
-            page += f"| `{name}` | {plain(values)} | {plain(meaning)} |\n"
+        for name, entry in zip(entries[::2], entries[1::2]):
+            # The meaning begins on a line of its own; --help breaks lines at hyphens, too.
+            lines, meaning = entry.splitlines(), known[name]["meaning"]
+            start = next(line for line in range(len(lines))
+                         if "".join(lines[line:]).replace(" ", "") == meaning.replace(" ", ""))
+            page += f"| `{name}` | {plain(' '.join(' '.join(lines[:start]).split()))} | {plain(meaning)} |\n"
     return page
-
-
-def first_signs(text, number):
-    """The part of a text with its first signs that are no blanks."""
-    for place, sign in enumerate(text):
-        number -= sign != " "
-        if number == 0:
-            return text[:place + 1]
-    return text
 
 
 def columns_page():
