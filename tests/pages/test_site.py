@@ -3,6 +3,7 @@
 
 usage: test_site.py --program WAVYCON --package FOLDER --environment FOLDER [TEST]
 """
+import os
 import pathlib
 import re
 import subprocess
@@ -50,14 +51,10 @@ class Parts(ProgramTest):
 
 
 class Site(ProgramTest):
-    package = environment = ""
+    package = python = ""
 
     def test_site(self):
-        needs = [line for line in (SITE/"requirements.txt").read_text().splitlines() if line and line[0] != "#"]
-        python = python_with(self.environment, needs, ["sphinx", "myst_parser", "furo", "numpy"])
-        if not python:
-            skip(f"what draws the site cannot be installed; see {self.environment}.log")
-        done = subprocess.run([python, SITE/"make_site.py", "--program", self.program, "--package", self.package,
+        done = subprocess.run([self.python, SITE/"make_site.py", "--program", self.program, "--package", self.package,
                                "--output", self.folder], capture_output=True, text=True, check=False)
         self.assertEqual((0, ""), (done.returncode, done.stderr))
         html = self.folder/"html"
@@ -68,5 +65,10 @@ class Site(ProgramTest):
 
 if __name__ == "__main__":
     options = take_options("package", "environment")
-    Site.package, Site.environment = options.package, str(pathlib.Path(options.environment).resolve())
+    if "Site" in sys.argv:
+        needs = [line for line in (SITE/"requirements.txt").read_text().splitlines() if line[0] != "#"]
+        Site.package = options.package
+        Site.python = python_with(os.path.abspath(options.environment), needs, ["sphinx", "myst_parser", "furo", "numpy"])
+        if not Site.python:
+            skip(f"what draws the site cannot be installed; see {options.environment}.log")
     main()
