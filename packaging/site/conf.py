@@ -31,22 +31,21 @@ def keep_display(app, doctree):
 
 
 def plain_docstring(app, what, name, obj, options, lines):
-    """Docstrings are plain text: no mark-up, a key with its meaning in a line of its own."""
+    """Docstrings are plain text, without mark-up. Paragraphs of lines `name: meaning` become lists."""
     text = []
-    if lines[0].startswith("Alias for field number"):
-        lines.clear()
-    for line in lines:
-        key = re.match(r"(\w+)((?: \[[^]]*\])?: .*)", line)
-        line = re.sub(r"([*`|\\])|_(?!\w)", r"\\\g<0>", line)
-        if key and what == "function" and name.rpartition(".")[2] not in app.config.plain_functions:
-            line = re.sub(r"^(\w+)", r"* ``\1``", line)
-        text.append(line)
-    lines[:] = text
+    for paragraph in re.split(r"\n\s*\n", "\n".join(lines)):
+        rows = [re.sub(r"([*`|\\])|_(?!\w)", r"\\\g<0>", row) for row in paragraph.splitlines()]
+        is_list = all(re.match(r"\w+(?: \[[^]]*\])?: |\s", row) for row in rows)
+        for row in rows:
+            words = row.strip()
+            if is_list:
+                words = "  " + words if row != words else re.sub(r"^\w+", r"* ``\g<0>``", words)
+            text.append(words)
+        text.append("")
+    lines[:] = [] if lines[0].startswith("Alias for field number") else text
 
 
 def setup(app):
-    import wavycon
-    app.add_config_value("plain_functions", wavycon.__all__, "env")
     app.connect("doctree-read", keep_display)
     app.connect("autodoc-process-docstring", plain_docstring)
     return {"parallel_read_safe": True}

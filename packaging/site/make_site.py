@@ -122,9 +122,10 @@ def columns_page():
 def python_page(package):
     """The names of the package by its docstrings."""
     # The function of kind 'sum' is wave_sum.
-    kinds = [name for name in dir(package) if name not in {*package.__all__, "sum"} and not name.startswith("_")]
+    kinds = ["wave_sum" if kind == "sum" else kind for kind in package.keys()["surface"]["kind"]["choices"]]
+    others = [name for name in package.__all__ if name not in kinds]
     page = "# The Python package, name by name\n\n[wavycon in Python](../src/library/python/README.md) has examples.\n"
-    for title, names in (("Functions and classes", package.__all__), ("Surfaces", kinds)):
+    for title, names in (("Functions and classes", others), ("Surfaces", kinds)):
         page += f"\n## {title}\n"
         for name in names:
             kind = "autoclass" if isinstance(getattr(package, name), type) else "autofunction"
