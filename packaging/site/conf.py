@@ -31,15 +31,19 @@ def keep_display(app, doctree):
 
 
 def plain_docstring(app, what, name, obj, options, lines):
-    """Docstrings are plain text, without mark-up. Paragraphs of lines `name: meaning` become lists."""
+    """Docstrings are plain text with `code`. Paragraphs of lines `name: meaning` become lists, indented ones code."""
     text = []
     for paragraph in re.split(r"\n\s*\n", "\n".join(lines)):
-        rows = [re.sub(r"([*`|\\])|_(?!\w)", r"\\\g<0>", row) for row in paragraph.splitlines()]
-        is_list = all(re.match(r"\w+(?: \[[^]]*\])?: |\s", row) for row in rows)
+        rows = paragraph.splitlines()
+        if all(row.startswith("    ") for row in rows):
+            text += ["::", "", *rows, ""]
+            continue
+        is_list = len(rows) > 1 and all(re.match(r"\w+(?: \[[^]]*\])?: |\s", row) for row in rows)
         for row in rows:
-            words = row.strip()
+            words = re.sub(r"([*|\\])|_(?!\w)", r"\\\g<0>", row.strip())
+            words = re.sub(r"`([^`]*)`", r"``\1``", words)
             if is_list:
-                words = "  " + words if row != words else re.sub(r"^\w+", r"* ``\g<0>``", words)
+                words = "  " + words if row[0] == " " else re.sub(r"^\w+", r"* ``\g<0>``", words)
             text.append(words)
         text.append("")
     lines[:] = [] if lines[0].startswith("Alias for field number") else text
