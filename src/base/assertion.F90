@@ -5,7 +5,7 @@ module wavycon_assertion
 
    public :: assert
 
-   !> Whether `assert` stops the program.
+   !> Whether `assert` stops the program: in Debug builds alone.
 #ifdef WAVYCON_DEBUG
    logical, parameter, public :: assertions_stop = .true.
 #else

@@ -9,8 +9,8 @@ module wavycon_cosine_table
 
 contains
 
-   !> cos(i pi k/N), k = 0..N, i = 0..n. The angle is reduced in integers, so that the symmetries of the cosine hold to
-   !> the last bit and high harmonics are as accurate as low ones.
+   !> cos(i pi k/N), k = 0..N, i = 0..n. The multiple i k of pi/N is reduced to 0..N in integers. So the symmetries of
+   !> the cosine hold to the last bit, and high harmonics are as accurate as low ones.
    pure function cosine_table(intervals, harmonics) result(table)
       integer, intent(in) :: intervals   !! N >= 1
       integer, intent(in) :: harmonics   !! n >= 0
@@ -33,9 +33,10 @@ contains
       end do
    end function cosine_table
 
-   !> The node of 0..N, phi = pi k/N, at which an even field has the same value as at any given node of the line.
+   !> The node of 0..N at which a field that is even and periodic in phi = pi k/N has the same value as at node k.
    elemental integer function folded(k, intervals)
-      integer, intent(in) :: k, intervals
+      integer, intent(in) :: k           !! any node
+      integer, intent(in) :: intervals   !! N >= 1, intervals of half a period
 
       folded = modulo(k, 2*intervals)
       folded = min(folded, 2*intervals - folded)

@@ -7,11 +7,12 @@ module wavycon_decimal_number
 
    public :: read_decimal
 
-   !> Most bytes of a number.
+   !> Most bytes of the text of a number.
    integer, parameter :: longest_number = 100
 
    interface
-      !> The number at the start of a text that a null character ends, and the place behind it.
+      !> The C library's function: the number at the start of a text that a null character ends, and a pointer to the
+      !> first byte behind the number.
       !> N.B. A number that is too large gives an infinity and signals overflow.
       real(c_double) function strtod(text, behind) bind(c, name='strtod')
          import :: c_double, c_ptr
@@ -22,12 +23,12 @@ module wavycon_decimal_number
 
 contains
 
-   !> Reads a sign, digits with at most one point, and an exponent with the letter e or d.
+   !> Reads a decimal number: a sign, digits with at most one point, and an exponent with the letter e or d.
    !>
-   !> N.B. Fortran reads 1+3 as 1e3. Here it is not a number, because it is more likely meant as a sum.
+   !> N.B. Fortran reads 1+3 as 1e3. Here 1+3 is not a number, because the user more likely means a sum.
    !> N.B. A number that is too large signals overflow: callers must switch off traps of overflow.
    subroutine read_decimal(word, value, is_number)
-      character(*), intent(in) :: word
+      character(*), intent(in) :: word    !! text without blanks
       real(dp), intent(out) :: value      !! the nearest double; infinity or 0 if out of range
       logical, intent(out) :: is_number   !! whether the whole word is a number
 

@@ -1,7 +1,7 @@
 !> Errors, which procedures return to their callers. Only the main program ends the run.
 !>
-!> A procedure that can fail has a last argument `type(error_type), allocatable, intent(out) :: error`. If it is
-!> allocated on return the procedure has failed.
+!> A procedure that can fail has an argument `type(error_type), allocatable, intent(out) :: error`. If `error` is
+!> allocated on return, the procedure has failed.
 module wavycon_error
    implicit none (type, external)
    private
@@ -16,7 +16,7 @@ module wavycon_error
 
    !> A failure.
    type :: error_type
-      integer :: status = exit_fine          !! the exit status of the program, one of those above
+      integer :: status = exit_fine          !! the exit status that the program will have, one of those above
       character(:), allocatable :: message   !! for the user
    end type error_type
 

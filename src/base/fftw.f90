@@ -1,4 +1,4 @@
-!> FFTW's own Fortran interface.
+!> The Fortran interface that comes with FFTW.
 module wavycon_fftw
    use, intrinsic :: iso_c_binding
    implicit none (type, external)

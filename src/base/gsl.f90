@@ -1,6 +1,5 @@
-!> Interfaces of the procedures of the GNU Scientific Library in use.
-!>
-!> Names, arguments and return values are the library's own.
+!> Interfaces of those procedures of the GNU Scientific Library that are used. Names, arguments and return values are
+!> the library's own; its manual describes them in full.
 module wavycon_gsl
    use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_long, c_ptr, c_size_t
    implicit none (type, external)
@@ -14,13 +13,13 @@ module wavycon_gsl
    public :: gsl_interp_steffen, gsl_interp_alloc, gsl_interp_init, gsl_interp_eval, gsl_interp_free
    public :: return_gsl_errors
 
-   !> The weight (b-x)^alpha (x-a)^beta of a fixed rule.
+   !> Type of Gauss rule: the Gauss-Jacobi rule, with the weight (b-x)^alpha (x-a)^beta.
    type(c_ptr), protected, bind(c, name='gsl_integration_fixed_jacobi') :: gsl_integration_fixed_jacobi
 
-   !> The generator MT19937 of random numbers (Matsumoto & Nishimura 1998), seeded as its authors did in 2002.
+   !> Type of random number generator: MT19937 (Matsumoto & Nishimura 1998), with its authors' seeding of 2002.
    type(c_ptr), protected, bind(c, name='gsl_rng_mt19937') :: gsl_rng_mt19937
 
-   !> Piecewise cubic polynomials without hills and valleys between the points (Steffen 1990).
+   !> Type of interpolation: piecewise cubic polynomials without extremes between the points (Steffen 1990).
    type(c_ptr), protected, bind(c, name='gsl_interp_steffen') :: gsl_interp_steffen
 
    interface
@@ -32,7 +31,8 @@ module wavycon_gsl
          real(c_double), intent(out) :: values(*)
       end function gsl_sf_legendre_pl_array
 
-      !> Complete elliptic integrals of modulus k: the first kind K, and D = (K - E)/k^2. mode 0: all digits.
+      !> Complete elliptic integrals of modulus k: that of the first kind K, and D = (K - E)/k^2. With mode = 0 they
+      !> have the accuracy of double precision.
       pure real(c_double) function gsl_sf_ellint_Kcomp(k, mode) bind(c, name='gsl_sf_ellint_Kcomp')
          import :: c_double, c_int
          real(c_double), intent(in), value :: k
@@ -44,7 +44,7 @@ module wavycon_gsl
          integer(c_int), intent(in), value :: mode
       end function gsl_sf_ellint_Dcomp
 
-      !> Carlson's integrals R_F(x, y, z) and R_D(x, y, z) of positive numbers, of which x may be 0.
+      !> Carlson's elliptic integrals R_F(x, y, z) and R_D(x, y, z) of positive arguments, of which x may be 0.
       pure real(c_double) function gsl_sf_ellint_RF(x, y, z, mode) bind(c, name='gsl_sf_ellint_RF')
          import :: c_double, c_int
          real(c_double), intent(in), value :: x, y, z
@@ -66,31 +66,32 @@ module wavycon_gsl
          real(c_double), value :: a, b, alpha, beta
       end function gsl_integration_fixed_alloc
 
+      !> Frees a Gauss rule.
       subroutine gsl_integration_fixed_free(w) bind(c, name='gsl_integration_fixed_free')
          import :: c_ptr
          type(c_ptr), value :: w
       end subroutine gsl_integration_fixed_free
 
-      !> The nodes, a double[n] that belongs to the rule.
+      !> The nodes of a Gauss rule, a double[n] that belongs to the rule.
       type(c_ptr) function gsl_integration_fixed_nodes(w) bind(c, name='gsl_integration_fixed_nodes')
          import :: c_ptr
          type(c_ptr), value :: w
       end function gsl_integration_fixed_nodes
 
-      !> The weights, a double[n] that belongs to the rule.
+      !> The weights of a Gauss rule, a double[n] that belongs to the rule.
       type(c_ptr) function gsl_integration_fixed_weights(w) bind(c, name='gsl_integration_fixed_weights')
          import :: c_ptr
          type(c_ptr), value :: w
       end function gsl_integration_fixed_weights
 
-      !> An interpolation between `size` points; a null pointer if there is not enough memory.
+      !> Allocates an interpolation between `size` points; a null pointer if there is not enough memory.
       type(c_ptr) function gsl_interp_alloc(t, size) bind(c, name='gsl_interp_alloc')
          import :: c_ptr, c_size_t
          type(c_ptr), value :: t
          integer(c_size_t), value :: size
       end function gsl_interp_alloc
 
-      !> Makes it that of the points xa, ya; xa must rise. Returns 0 on success.
+      !> Computes the interpolation of the points xa, ya; xa must rise. Returns 0 on success.
       integer(c_int) function gsl_interp_init(interp, xa, ya, size) bind(c, name='gsl_interp_init')
          import :: c_double, c_int, c_ptr, c_size_t
          type(c_ptr), value :: interp
@@ -98,7 +99,7 @@ module wavycon_gsl
          integer(c_size_t), value :: size
       end function gsl_interp_init
 
-      !> Its value at x, xa(1) <= x <= xa(size); acc may be a null pointer.
+      !> The value of the interpolation at x, xa(1) <= x <= xa(size); acc may be a null pointer.
       real(c_double) function gsl_interp_eval(interp, xa, ya, x, acc) bind(c, name='gsl_interp_eval')
          import :: c_double, c_ptr
          type(c_ptr), value :: interp, acc
@@ -106,12 +107,13 @@ module wavycon_gsl
          real(c_double), value :: x
       end function gsl_interp_eval
 
+      !> Frees an interpolation.
       subroutine gsl_interp_free(interp) bind(c, name='gsl_interp_free')
          import :: c_ptr
          type(c_ptr), value :: interp
       end subroutine gsl_interp_free
 
-      !> A generator of random numbers; a null pointer if there is not enough memory.
+      !> Allocates a generator of random numbers; a null pointer if there is not enough memory.
       type(c_ptr) function gsl_rng_alloc(t) bind(c, name='gsl_rng_alloc')
          import :: c_ptr
          type(c_ptr), value :: t
@@ -124,12 +126,13 @@ module wavycon_gsl
          integer(c_long), value :: seed
       end subroutine gsl_rng_set
 
-      !> The next number, 0 <= u < 1, of MT19937 a multiple of 2^-32.
+      !> The next random number u, uniform in 0 <= u < 1. MT19937 gives multiples of 2^-32.
       real(c_double) function gsl_rng_uniform(r) bind(c, name='gsl_rng_uniform')
          import :: c_double, c_ptr
          type(c_ptr), value :: r
       end function gsl_rng_uniform
 
+      !> Frees a generator of random numbers.
       subroutine gsl_rng_free(r) bind(c, name='gsl_rng_free')
          import :: c_ptr
          type(c_ptr), value :: r
@@ -151,13 +154,13 @@ module wavycon_gsl
 
 contains
 
-   !> Makes the library return statuses and null pointers on errors; its default handler ends the program.
-   !> To be called before any procedure that can fail; further calls change nothing.
+   !> Makes the library return statuses and null pointers on errors, instead of ending the program, which is its
+   !> default. Call this procedure before any procedure of the library that can fail. Further calls change nothing.
    subroutine return_gsl_errors()
       logical, save :: is_off = .false.
       type(c_funptr) :: previous_handler
 
-      ! Threads may be here at the same time: the handler is a global variable of GSL.
+      ! Several threads may call this procedure at the same time, and the handler is a global variable of GSL.
       !$omp critical (wavycon_gsl_handler)
       if (.not. is_off) previous_handler = gsl_set_error_handler_off()
       is_off = .true.

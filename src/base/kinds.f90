@@ -1,4 +1,4 @@
-!> The real kinds of the program.
+!> The kinds of real numbers of the program.
 module wavycon_kinds
    use, intrinsic :: iso_fortran_env, only: real32, real64
    implicit none (type, external)
@@ -6,6 +6,6 @@ module wavycon_kinds
 
    !> IEEE double precision: the kind of every number of the mechanics.
    integer, parameter, public :: dp = real64
-   !> IEEE single precision, for corrections to fields that are computed in double precision.
+   !> IEEE single precision. Only corrections to fields have it; the fields themselves have double precision.
    integer, parameter, public :: sp = real32
 end module wavycon_kinds

@@ -1,4 +1,5 @@
-!> Interfaces of the BLAS and LAPACK procedures in use.
+!> Interfaces of those procedures of BLAS and LAPACK that are used. Names and arguments are the libraries' own; their
+!> documentation describes them.
 module wavycon_lapack
    use wavycon_kinds, only: dp, sp
    implicit none (type, external)

@@ -1,4 +1,4 @@
-!> Text for messages and decks: lower case, numbers, lists, quotes, and escapes for bytes that do not print.
+!> Text for messages and decks: lower case, numbers in words, lists, quotes, and escapes for bytes that do not print.
 module wavycon_plain_text
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -33,6 +33,7 @@ contains
       end do
    end function lower_case
 
+   !> For default integers.
    pure function default_integer_text(number) result(text)
       integer, intent(in) :: number
       character(:), allocatable :: text
@@ -40,6 +41,7 @@ contains
       text = long_integer_text(int(number, int64))
    end function default_integer_text
 
+   !> For 64-bit integers.
    pure function long_integer_text(number) result(text)
       integer(int64), intent(in) :: number
       character(:), allocatable :: text
@@ -50,7 +52,7 @@ contains
       text = trim(buffer)
    end function long_integer_text
 
-   !> A number to six significant digits: 0.01, 4.44288, 1e-7, -2.5e6.
+   !> A number in six significant digits without final zeros: 0.01, 4.44288, 1e-7, -2.5e6.
    pure function short_number(number) result(text)
       real(dp), intent(in) :: number
       character(:), allocatable :: text
@@ -58,38 +60,40 @@ contains
       text = rounded(number, 6)
    end function short_number
 
-   !> A number in 6, 15, 16 or 17 significant digits: the fewest that are read back as the same number. 'NaN' for none.
+   !> A number in 6, 15, 16 or 17 significant digits, the fewest that give the same number when read again. A NaN is
+   !> 'NaN'.
    pure function exact_number(number) result(text)
       real(dp), intent(in) :: number
       character(:), allocatable :: text
 
-      integer, parameter :: digits(*) = [6, 15, 16, 17]   !! 17 are enough for any double precision number
+      integer, parameter :: lengths(*) = [6, 15, 16, 17]   ! 17 digits are enough for any double precision number
       real(dp) :: again
       integer :: i
 
-      do i = 1, size(digits)
-         text = rounded(number, digits(i))
-         if (text == 'NaN') return   ! Comparisons with it raise an exception, which Debug builds trap.
+      do i = 1, size(lengths)
+         text = rounded(number, lengths(i))
+         if (text == 'NaN') return   ! comparisons with a NaN raise an exception, which Debug builds trap
          read (text, '(f32.0)') again
          if (.not. (again < number .or. again > number)) return
       end do
    end function exact_number
 
-   !> A number rounded to some significant digits, without the zeros that end it.
-   pure function rounded(number, digits) result(text)
+   !> A number rounded to a number of significant digits, without final zeros: as an integer, a decimal fraction or, if
+   !> very small or large, with an exponent.
+   pure function rounded(number, significant) result(text)
       real(dp), intent(in) :: number
-      integer, intent(in) :: digits   !! 6 to 17
+      integer, intent(in) :: significant   !! number of digits, 6 to 17
       character(:), allocatable :: text
 
-      integer, parameter :: least_plain = -4, most_plain = 5   !! powers of ten that need no exponent
+      integer, parameter :: least_plain = -4, most_plain = 5   ! powers of ten that need no exponent
       character(32) :: buffer, layout
       integer :: letter, power
 
-      if (exponent(number) <= 16) then   ! not of NaN, whose comparison would trap
+      if (exponent(number) <= 16) then   ! false for a NaN, whose comparison would trap
          if (sign(1.0_dp, number) > 0.0_dp .and. .not. number > aint(number)) text = integer_text(int(number))
       end if
       if (allocated(text)) return
-      write (layout, '(a, i0, a)') '(es32.', digits - 1, 'e3)'
+      write (layout, '(a, i0, a)') '(es32.', significant - 1, 'e3)'
       write (buffer, layout) number
       text = trim(adjustl(buffer))
       letter = index(text, 'E')
@@ -99,21 +103,21 @@ contains
          text = without_final_zeros(text(:letter - 1))//'e'//integer_text(power)
          return
       end if
-      write (layout, '(a, i0, a)') '(f32.', digits - 1 - power, ')'
+      write (layout, '(a, i0, a)') '(f32.', significant - 1 - power, ')'
       write (buffer, layout) number
       text = without_final_zeros(trim(adjustl(buffer)))
    end function rounded
 
    !> A decimal fraction without the zeros that end it, and without the point if no digit follows it.
-   pure function without_final_zeros(fraction) result(text)
-      character(*), intent(in) :: fraction   !! with a point
+   pure function without_final_zeros(decimal) result(text)
+      character(*), intent(in) :: decimal   !! decimal fraction with a point
       character(:), allocatable :: text
 
-      text = fraction(:verify(fraction, '0', back=.true.))
+      text = decimal(:verify(decimal, '0', back=.true.))
       if (text(len(text):) == '.') text = text(:len(text) - 1)
    end function without_final_zeros
 
-   !> "'name'"
+   !> A name in quotes: 'name'. Blanks at its end are left out and follow behind the quotes.
    elemental function in_quotes(name) result(words)
       character(*), intent(in) :: name
       character(len(name) + 2) :: words
@@ -124,7 +128,7 @@ contains
    !> "a, b, c" or, with a last separator such as ' and ', "a, b and c".
    pure function listed(names, last) result(words)
       character(*), intent(in) :: names(:)              !! at least one; blanks at their ends are left out
-      character(*), intent(in), optional :: last
+      character(*), intent(in), optional :: last        !! the last separator; absent: ', '
       character(:), allocatable :: separator, words
 
       integer :: i
@@ -137,9 +141,9 @@ contains
       end do
    end function listed
 
-   !> Two clauses.
+   !> Two clauses of a sentence, 'first; second'.
    pure function clauses(first, second) result(words)
-      character(*), intent(in) :: first    !! may be empty
+      character(*), intent(in) :: first    !! if empty, the result is `second`
       character(*), intent(in) :: second
       character(:), allocatable :: words
 
@@ -147,16 +151,16 @@ contains
       if (first /= '') words = first//'; '//second
    end function clauses
 
-   !> A part in per cent, such as '2.5 %'.
+   !> A fraction in per cent, such as '2.5 %', rounded to 0.1 %.
    pure function percent(part) result(share)
-      real(dp), intent(in) :: part   !! 0 .. 1
+      real(dp), intent(in) :: part   !! the fraction, 0 to 1
       character(:), allocatable :: share
 
       share = short_number(0.1_dp*nint(1000*part))//' %'
       if (part > 0.0_dp .and. nint(1000*part) == 0) share = 'below 0.1 %'
    end function percent
 
-   !> The text as a Fortran character constant.
+   !> The text as a Fortran character constant: in quotes, with quotes inside doubled.
    pure function quoted(text) result(constant)
       character(*), intent(in) :: text
       character(:), allocatable :: constant
@@ -165,14 +169,15 @@ contains
 
       constant = "'"
       do i = 1, len(text)
-         constant = constant//repeat(text(i:i), merge(2, 1, text(i:i) == "'"))
+         constant = constant//text(i:i)
+         if (text(i:i) == "'") constant = constant//"'"
       end do
       constant = constant//"'"
    end function quoted
 
    !> The value of a Fortran character constant, in quotes of either kind.
    pure function unquoted(constant) result(text)
-      character(*), intent(in) :: constant  !! well formed: the same quote at both ends, doubled inside
+      character(*), intent(in) :: constant  !! with the same quote at both ends, which is doubled inside
       character(:), allocatable :: text
 
       character(:), allocatable :: buffer
@@ -184,28 +189,29 @@ contains
       do while (i < len(constant))
          length = length + 1
          buffer(length:length) = constant(i:i)
-         i = i + merge(2, 1, constant(i:i) == constant(1:1))
+         if (constant(i:i) == constant(1:1)) i = i + 1
+         i = i + 1
       end do
       text = buffer(:length)
    end function unquoted
 
-   !> Number of bytes of the printable character, ASCII or UTF-8, that starts at a place; 0 if none starts there.
-   pure integer function printable_length(text, place) result(length)
+   !> Number of bytes of the printable character, ASCII or UTF-8, that starts at a position; 0 if none starts there.
+   pure integer function printable_length(text, position) result(length)
       character(*), intent(in) :: text
-      integer, intent(in) :: place   !! 1 to len(text)
+      integer, intent(in) :: position   !! 1 to len(text)
 
-      !> The least code of a character of 1, 2, 3 and 4 bytes: UTF-8 has no smaller one in as many bytes.
+      !> The least code of a character of 1, 2, 3 and 4 bytes. Smaller codes in as many bytes are not valid UTF-8.
       integer, parameter :: least(*) = [0, 128, 2048, 65536]
-      !> The first bytes of such characters, and what is taken off them.
+      !> The range of the first byte of such characters, and the part of the first byte that marks the length.
       integer, parameter :: lowest(*) = [32, 194, 224, 240], highest(*) = [126, 223, 239, 244], &
                             mark(*) = [0, 192, 224, 240]
       integer :: code, i
 
-      code = iachar(text(place:place))
+      code = iachar(text(position:position))
       length = findloc(code >= lowest .and. code <= highest, .true., dim=1)
       if (length <= 1) return
       code = code - mark(length)
-      do i = place + 1, place + length - 1
+      do i = position + 1, position + length - 1
          if (i <= len(text)) then
             if (is_continuation(text(i:i))) then
                code = 64*code + iachar(text(i:i)) - 128
@@ -216,8 +222,9 @@ contains
          return
       end do
       if (code < least(length)) length = 0
-      ! Control characters, invisible blanks and marks of the direction of writing come along with text that is copied
-      ! from elsewhere: a message must show why a word is not the one that it looks like. Other codes are no characters.
+      ! Control characters, invisible blanks and marks of the direction of writing may come with copied text. They count
+      ! as not printable, so that a message shows that a word is not the one that it looks like. The other codes here
+      ! are not characters.
       select case (code)
       case (128:160, int(z'AD'), int(z'61C'), int(z'180E'), int(z'2000'):int(z'200F'), int(z'2028'):int(z'202F'), &
             int(z'2060'):int(z'206F'), int(z'D800'):int(z'DFFF'), int(z'FEFF'), int(z'FFF9'):int(z'FFFB'), &
@@ -227,14 +234,14 @@ contains
       if (modulo(code, 65536) >= 65534) length = 0
    end function printable_length
 
-   !> Whether a byte is the second or a later one of a UTF-8 character.
+   !> Whether a byte is the second or a later byte of a UTF-8 character.
    elemental logical function is_continuation(byte)
       character(1), intent(in) :: byte
 
       is_continuation = iachar(byte) >= 128 .and. iachar(byte) < 192
    end function is_continuation
 
-   !> Whether a text is ASCII or UTF-8 whose characters all print.
+   !> Whether a text is ASCII or UTF-8, and all its characters print.
    pure logical function is_printable(text)
       character(*), intent(in) :: text
 
@@ -247,14 +254,14 @@ contains
       character(:), allocatable :: clean
 
       character(:), allocatable :: buffer, piece
-      integer :: code, length, place, used
+      integer :: code, length, position, used
 
       allocate (character(4*len(text)) :: buffer)
       used = 0
-      place = 1
-      do while (place <= len(text))
-         length = max(1, printable_length(text, place))
-         piece = text(place:place + length - 1)
+      position = 1
+      do while (position <= len(text))
+         length = max(1, printable_length(text, position))
+         piece = text(position:position + length - 1)
          code = iachar(piece(1:1))
          if (code == 9) then
             piece = ' '
@@ -263,12 +270,12 @@ contains
          end if
          buffer(used + 1:used + len(piece)) = piece
          used = used + len(piece)
-         place = place + length
+         position = position + length
       end do
       clean = buffer(:used)
    end function escaped
 
-   !> A word for a message: escaped, and cut after 40 bytes.
+   !> A text for a message: escaped, and cut after 40 bytes.
    pure function excerpt(text) result(short)
       character(*), intent(in) :: text
       character(:), allocatable :: short
@@ -286,17 +293,17 @@ contains
       if (last < len(text)) short = short//'...'
    end function excerpt
 
-   !> The system's message in an iomsg, without gfortran's "Cannot open file 'name': ".
+   !> The message of the operating system, without the words that gfortran puts before it: "Cannot open file 'name': ".
    pure function system_words(message) result(words)
-      character(*), intent(in) :: message
+      character(*), intent(in) :: message   !! the iomsg of a Fortran statement
       character(:), allocatable :: words
 
       character(*), parameter :: before = "': "
-      integer :: place
+      integer :: position
 
-      place = index(message, before, back=.true.)
+      position = index(message, before, back=.true.)
       words = trim(message)
-      if (place > 0) words = trim(message(place + len(before):))
+      if (position > 0) words = trim(message(position + len(before):))
    end function system_words
 
    !> Number of characters of a UTF-8 text.

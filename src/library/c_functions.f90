@@ -1,5 +1,5 @@
 !> The C interface to scenes, solutions and tables, and to fields and stresses in arrays of the caller. wavycon.h
-!> documents each procedure.
+!> documents each procedure and its arguments; a pointer that is NULL in C is here an absent argument.
 module wavycon_c_functions
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_procpointer, c_funptr, c_int, c_ptr, &
       c_size_t
@@ -80,7 +80,7 @@ contains
       type(c_call) :: this
 
       if (this%begins(error, scene, 'scene', [present(quantity)])) then
-         key = text_at(quantity)   ! in a variable: other threads come in meanwhile
+         key = text_at(quantity)   ! copied before the solver runs, as other threads call the library meanwhile
          this%made => new_handle('solution', this%contents)
          call this%contents%scene%solve(key, value, this%made%solution, this%trouble)
       end if
@@ -126,11 +126,12 @@ contains
       get = this%code()
    end function get
 
-   !> A number of a solution: a column of the summary, or of the grid that it was solved on (own_) or of the map (map_).
+   !> A number of a solution: that of a column of the summary, or points and offset of the grid on which it was solved
+   !> (names with own_) or of the map (names with map_).
    subroutine get_of_solution(contents, name, number, error)
-      type(handle_type), intent(inout) :: contents
+      type(handle_type), intent(inout) :: contents   !! contents of the handle of the solution
       character(*), intent(in) :: name
-      real(c_double), intent(inout) :: number
+      real(c_double), intent(inout) :: number        !! unchanged in case of an error
       type(error_type), allocatable, intent(out) :: error
 
       integer :: points(2)
@@ -158,25 +159,25 @@ contains
       character(kind=c_char), intent(inout), optional :: buffer(*)
       integer(c_size_t), value :: bytes
 
-      character(:), allocatable :: its_name, words
+      character(:), allocatable :: text_name, words
       integer(c_int) :: ignored
       type(c_call) :: this
 
       if (this%begins(error, object, are_there=[present(name)])) then
-         its_name = text_at(name)
+         text_name = text_at(name)
          select case (this%contents%kind)
          case ('scene')
-            call this%contents%scene%text(its_name, words, this%trouble)
+            call this%contents%scene%text(text_name, words, this%trouble)
          case ('solution')
-            call this%contents%owner%scene%text(its_name, words, this%trouble, this%contents%solution)
+            call this%contents%owner%scene%text(text_name, words, this%trouble, this%contents%solution)
          case ('table')
-            call this%contents%table%text(its_name, words)
+            call this%contents%table%text(text_name, words)
          case default
-            if (its_name == 'version' .and. .not. c_associated(object)) words = version
-            if (its_name == 'keys' .and. .not. c_associated(object)) words = key_json()
+            if (text_name == 'version' .and. .not. c_associated(object)) words = version
+            if (text_name == 'keys' .and. .not. c_associated(object)) words = key_json()
          end select
          if (.not. (allocated(words) .or. allocated(this%trouble))) &
-            call fatal_error(this%trouble, exit_bad_input, not_a_handle//"scene, or there is no text '"//its_name//"'")
+            call fatal_error(this%trouble, exit_bad_input, not_a_handle//"scene, or there is no text '"//text_name//"'")
       end if
       needed = 0
       if (.not. allocated(this%trouble)) needed = put_text(words, buffer, bytes)

@@ -1,8 +1,9 @@
-!> What all functions of the C interface need: handles, errors, texts, the lock. wavycon.h documents each function.
+!> Handles, errors, texts and the lock, which all functions of the C interface need. wavycon.h documents each function.
 !>
-!> A function is `begins` of a c_call, its work if the arguments are right, and `code` or `new_object`. All handles
-!> point to one type, whose mark and kind are checked before use: a null handle, or one of another kind, is an error of
-!> the caller and not a crash. A pointer that is NULL in C is an absent optional argument.
+!> A function consists of three steps: `begins` of a c_call; its work, if the arguments are right; `code` or
+!> `new_object`. All handles point to objects of one type, whose mark and kind are checked before use. So a null handle,
+!> or one of another kind, gives the caller an error and does not crash. A pointer that is NULL in C is an absent
+!> optional argument.
 module wavycon_c_handles
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, &
       c_null_ptr, c_ptr, c_size_t
@@ -17,13 +18,14 @@ module wavycon_c_handles
 
    public :: c_call, c_progress, handle_type, new_handle, not_a_handle, progress_callback, put_text, text_at
 
-   !> Marks the objects of this library in memory.
+   !> The number by which an object of this library is recognised in memory.
    integer, parameter :: our_mark = 1935764579
 
-   !> How the message for a handle that is NULL or of another kind begins.
+   !> The start of the message for a handle that is NULL or of another kind.
    character(*), parameter :: not_a_handle = 'the handle is NULL or not one of the kind '
 
    abstract interface
+      !> wavycon_progress of wavycon.h.
       integer(c_int) function progress_callback(data, iterations, residual) bind(c)
          import :: c_double, c_int, c_ptr
          type(c_ptr), value :: data
@@ -32,15 +34,16 @@ module wavycon_c_handles
       end function progress_callback
    end interface
 
-   !> A callback of C that solvers ask whether to stop.
+   !> A C function that solvers call to ask whether they shall stop.
    type, extends(solver_progress) :: c_progress
       procedure(progress_callback), pointer, nopass :: callback => null()
-      type(c_ptr) :: data = c_null_ptr
+      type(c_ptr) :: data = c_null_ptr   !! its first argument
    contains
       procedure :: shall_stop
    end type c_progress
 
-   !> What a handle points to: one of error, scene, solution and table, as its kind says.
+   !> The object to which a handle points. `kind` says which one of the components error, scene, solution and table is
+   !> in use.
    type :: handle_type
       integer :: mark = our_mark
       character(8) :: kind = ''                       !! 'error', 'scene', 'solution' or 'table'
@@ -48,16 +51,16 @@ module wavycon_c_handles
       type(deck_session) :: scene
       type(solved_load) :: solution
       type(memory_table) :: table
-      type(c_progress) :: progress                    !! of a scene
-      integer :: users = 1                            !! the caller; of a scene also its solutions, for which it lives
-      type(handle_type), pointer :: owner => null()   !! of a solution: its scene
+      type(c_progress) :: progress                    !! the C function that the scene's solver calls
+      integer :: users = 1                            !! number of users: the caller, and the solutions of a scene
+      type(handle_type), pointer :: owner => null()   !! the scene of a solution
    end type handle_type
 
    !> A call from C.
    type :: c_call
-      type(handle_type), pointer :: contents => null()   !! of the handle of the object
-      type(handle_type), pointer :: made => null()       !! contents of the object that the call makes, if it does
-      type(error_type), allocatable :: trouble           !! not allocated: success
+      type(handle_type), pointer :: contents => null()   !! the object whose handle the caller gives
+      type(handle_type), pointer :: made => null()       !! the object that the call makes; null if it makes none
+      type(error_type), allocatable :: trouble           !! the error of the call; not allocated: success
       type(c_ptr), private :: error = c_null_ptr         !! handle of the caller's error object
    contains
       procedure :: begins
@@ -65,31 +68,32 @@ module wavycon_c_handles
       procedure :: new_object
    end type c_call
 
-   !> The contents of a handle that is none.
+   !> The object for a handle that is null or not one of this library: its kind is empty.
    type(handle_type), target :: nothing
 
    interface
-      !> Waits until no other thread is in a call.
+      !> Waits until no other thread is in the library, and keeps others out: c_lock.c.
       subroutine lock() bind(c, name='wavycon_lock')
       end subroutine lock
 
+      !> Lets other threads in.
       subroutine unlock() bind(c, name='wavycon_unlock')
       end subroutine unlock
    end interface
 
-   !> Most bytes of a text from C, the same as of a deck: longer ones are cut.
+   !> Most bytes of a text from C, as many as a deck may have. Longer texts are cut.
    integer, parameter :: most_bytes = 67108864
 
 contains
 
-   !> Begins a call, and tells whether its arguments are right. Errors: exit_bad_input if the handle is none, or that of
-   !> another kind, or if another pointer is null.
+   !> Begins a call: waits for the lock and checks the arguments. The result is whether they are right. Errors:
+   !> exit_bad_input if `object` is no handle or one of another kind, or if another pointer is null.
    logical function begins(self, error, object, kind, are_there)
       class(c_call), intent(inout) :: self
-      type(c_ptr), intent(in) :: error                 !! may be null: then the code alone tells
-      type(c_ptr), intent(in), optional :: object
-      character(*), intent(in), optional :: kind       !! of the object; absent: any, or none
-      logical, intent(in), optional :: are_there(:)    !! for each other pointer whether it is not null
+      type(c_ptr), intent(in) :: error                 !! handle of the caller's error object; null: there is none
+      type(c_ptr), intent(in), optional :: object      !! handle of the object that the call works on
+      character(*), intent(in), optional :: kind       !! kind that the object must have; absent: any, also no object
+      logical, intent(in), optional :: are_there(:)    !! whether each other pointer that is needed is not null
 
       call lock()
       self%error = error
@@ -103,8 +107,8 @@ contains
       begins = .not. allocated(self%trouble)
    end function begins
 
-   !> Ends a call: stores its outcome in the caller's error object and returns its code, 0 for success. The error of a
-   !> call that failed to make a handle is kept by the calls that then get NULL.
+   !> Ends a call: stores its outcome in the caller's error object, and returns its code, 0 for success. If a call
+   !> failed to make an object, later calls that get NULL in its place do not replace the error of the first call.
    integer(c_int) function code(self)
       class(c_call), intent(in) :: self
 
@@ -125,9 +129,9 @@ contains
       call unlock()
    end function code
 
-   !> Ends a call that makes an object: its handle or, in case of an error, null.
+   !> Ends a call that makes an object. The result is the handle of the object or, in case of an error, null.
    type(c_ptr) function new_object(self) result(handle)
-      class(c_call), intent(inout) :: self   !! the object is deallocated in case of an error
+      class(c_call), intent(inout) :: self   !! in case of an error the object is deallocated
 
       integer(c_int) :: ignored
 
@@ -140,9 +144,10 @@ contains
       ignored = self%code()
    end function new_object
 
-   !> A new object of a kind. Its owner, if it has one, lives as long as it.
+   !> Makes a new object of a kind.
    function new_handle(kind, owner) result(made)
       character(*), intent(in) :: kind
+      !> The scene of a solution, which must not be deallocated before the solution: it gets one more user.
       type(handle_type), pointer, intent(in), optional :: owner
       type(handle_type), pointer :: made
 
@@ -154,7 +159,7 @@ contains
       owner%users = owner%users + 1
    end function new_handle
 
-   !> The contents of a handle; those of `nothing`, without a kind, if it is null or none of ours.
+   !> The object of a handle; `nothing`, which has no kind, if the handle is null or not one of this library.
    function object_at(handle) result(contents)
       type(c_ptr), intent(in) :: handle
       type(handle_type), pointer :: contents
@@ -181,7 +186,8 @@ contains
       if (length > 0) text = transfer(bytes(:length), text)
    end function text_at
 
-   !> Copies a text to a buffer of C, cut to its size, with a null character at its end. Returns the bytes of the whole.
+   !> Copies a text to a buffer of C, cut to the size of the buffer, with a null character at its end. Returns the
+   !> number of bytes that the whole text needs, with the null character.
    integer(c_size_t) function put_text(text, buffer, bytes) result(needed)
       character(*), intent(in) :: text
       character(kind=c_char), intent(inout), optional :: buffer(*)   !! absent: nothing is copied
@@ -198,6 +204,7 @@ contains
       buffer(length + 1) = c_null_char
    end function put_text
 
+   !> Whether the C function says that the solver shall stop.
    logical function shall_stop(self, iterations, residual)
       class(c_progress), intent(in) :: self
       integer, intent(in) :: iterations
@@ -249,9 +256,9 @@ contains
       call unlock()
    end subroutine delete_handle
 
-   !> Takes off a user, and deallocates an object that has lost its last one: then its owner has one less.
+   !> Takes one user from an object. An object without users is deallocated, and its owner then has one user less.
    recursive subroutine release(contents)
-      type(handle_type), pointer, intent(inout) :: contents   !! null afterwards
+      type(handle_type), pointer, intent(inout) :: contents   !! the object; null afterwards
 
       type(handle_type), pointer :: owner
 

@@ -1,16 +1,18 @@
-/* The lock that lets one thread at a time into the library: gfortran 12 keeps the lengths of texts that functions
-   return in static memory. The solvers have no such functions, so other threads come in while a load is solved, but not
-   with the same scene. A Fortran program that calls the module has no lock. */
+/* The lock that lets one thread at a time into the library. It is needed because gfortran 12 keeps the lengths of texts
+   that functions return in static memory. The solvers have no such functions, so that other threads may enter while a
+   load is solved, but not with the same scene. A Fortran program that uses the module `wavycon` has no lock. */
 #include <pthread.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t load_solved = PTHREAD_COND_INITIALIZER;
+/* Whether this thread has the lock. */
 static _Thread_local int has_lock = 0;
-/* Solves that this thread is in: a callback may call the library, which solves another load. */
+/* Number of loads that this thread is solving: a callback may call the library, which then solves another load. */
 static _Thread_local int solves = 0;
 
-/* A process that forks waits until no other thread is in the library, so that all is whole in the child, whose lock is
-   free. Python deletes objects of other threads in the child before its own hooks run. */
+/* A process that forks first waits until no other thread is in the library, so that the child has no half-changed data;
+   the child's lock is free. The lock is made anew in the child at once: Python deletes objects of other threads there
+   before its own hooks run. */
 static void before_fork(void)
 {
     pthread_mutex_lock(&lock);
@@ -32,6 +34,7 @@ static void note_forks(void)
     pthread_atfork(before_fork, in_parent, in_child);
 }
 
+/* Waits until no other thread has the lock, and takes it. */
 void wavycon_lock(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
@@ -40,13 +43,15 @@ void wavycon_lock(void)
     has_lock = 1;
 }
 
+/* Releases the lock. */
 void wavycon_unlock(void)
 {
     has_lock = 0;
     pthread_mutex_unlock(&lock);
 }
 
-/* Waits until no other thread solves with the scene to which `is_solving` belongs, then lets other threads in. */
+/* Called before a load is solved. Waits until no other thread solves with the scene to which `is_solving` belongs, then
+   releases the lock, so that other threads may enter the library. */
 void wavycon_begin_solve(int *is_solving)
 {
     if (!has_lock)
@@ -58,7 +63,7 @@ void wavycon_begin_solve(int *is_solving)
     wavycon_unlock();
 }
 
-/* Waits until no other thread is in the library. */
+/* Called after a load was solved: takes the lock again, and lets other threads solve with the scene. */
 void wavycon_end_solve(int *is_solving)
 {
     if (solves == 0)

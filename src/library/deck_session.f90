@@ -1,4 +1,4 @@
-!> A deck whose loads are solved one at a time, with its tables in memory. The steps are those of the program.
+!> A session: a deck whose loads are solved one at a time, with tables in memory. The steps are those of the program.
 module wavycon_deck_session
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_contact_fields, only: contact_fields
@@ -32,7 +32,7 @@ module wavycon_deck_session
 
    public :: check_ready, deck_session, pick_number, solved_load
 
-   !> In C a thread that solves a load lets others into the library meanwhile, but not into this session: c_lock.c.
+   !> In C programs other threads may call the library while one solves a load, but not with the same session: c_lock.c.
    interface
       subroutine begin_solve(is_solving) bind(c, name='wavycon_begin_solve')
          import :: c_int
@@ -47,13 +47,13 @@ module wavycon_deck_session
 
    !> A deck with its solver started.
    type :: deck_session
-      !> Scene and solver; its one load is the solution of which a table is asked for.
+      !> Scene and solver. `loads` has one element, for the solution of which a table is made.
       type(results_type) :: results
-      type(unit_scale) :: scale
-      real(dp), allocatable, private :: mean_pressure(:)  !! of the deck's loads [pressure], if it gives them so
-      type(solution_record), allocatable, private :: records(:)   !! of the deck's loads; status < 0: not solved yet
-      type(run_log), private :: log                       !! quiet: it keeps the notes on the surface and on tables
-      integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load
+      type(unit_scale) :: scale                           !! the program's units in the deck's units
+      real(dp), allocatable, private :: mean_pressure(:)  !! the deck's loads [pressure], if it gives them by pressure
+      type(solution_record), allocatable, private :: records(:)   !! records of the deck's loads; status < 0: not solved
+      type(run_log), private :: log                       !! writes nothing, but keeps notes on surface and tables
+      integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load; else 0
    contains
       procedure :: open => open_session
       procedure :: open_file
@@ -65,13 +65,13 @@ module wavycon_deck_session
       procedure, private :: solve_one
    end type deck_session
 
-   !> A load that a session has solved. What is asked for again is kept.
+   !> A load that a session has solved, with data that further calls may need again.
    type :: solved_load
       type(contact_solution), allocatable :: solution
       real(dp) :: mean_pressure = 0.0_dp              !! [pressure]
-      integer :: loads_by = by_pressure               !! how it was given: a name of wavycon_scene
-      real(dp) :: target = 0.0_dp                     !! what was given, as of scene_type
-      type(memory_table) :: summary                   !! of one row
+      integer :: loads_by = by_pressure               !! how the load was given: by_pressure or another of the scene
+      real(dp) :: target = 0.0_dp                     !! the value that was given, as in scene_type
+      type(memory_table) :: summary                   !! the summary, with one row
       class(contact_fields), allocatable :: fields    !! made at their first use
       class(stress_fields), allocatable :: stresses   !! made at their first use
    end type solved_load
@@ -82,12 +82,12 @@ contains
    !> height map.
    subroutine open_session(self, text, path, keep_fields, error, heights, settings)
       class(deck_session), intent(out) :: self
-      character(*), intent(in) :: text      !! of the deck
-      character(*), intent(in) :: path      !! of the deck for messages; files that it names are looked for beside it
-      logical, intent(in) :: keep_fields    !! whether fields, edges or stresses will be asked for
+      character(*), intent(in) :: text      !! text of the deck
+      character(*), intent(in) :: path      !! its path for messages; files that it names are looked for beside it
+      logical, intent(in) :: keep_fields    !! whether fields, edges or stresses will be needed
       type(error_type), allocatable, intent(out) :: error
-      !> In place of those of the file of kind = 'file': upwards to the other body, NaN where they are missing, x first,
-      !> one column or row for a profile.
+      !> Heights in place of those of the file of kind = 'file', shape (points along x, points along y); upwards to the
+      !> other body, NaN where a height is missing. A profile has one column or one row.
       real(dp), intent(in), optional :: heights(:, :)
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
@@ -113,17 +113,19 @@ contains
    !> Reads a deck from its file, with keys set in place of its own. Errors: those of the program.
    subroutine open_file(self, path, settings, keep_fields, error)
       class(deck_session), intent(out) :: self
-      character(*), intent(in) :: path
-      character(*), intent(in) :: settings   !! as values of the option --set, a line for each; empty: none
-      logical, intent(in) :: keep_fields     !! as of open
+      character(*), intent(in) :: path       !! path of the deck
+      character(*), intent(in) :: settings   !! lines 'group.key=value', as behind the option --set; empty: none
+      logical, intent(in) :: keep_fields     !! whether fields, edges or stresses will be needed
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: trouble
       type(deck_text_type) :: text
       type(setting_type), allocatable :: setting(:)
-      integer :: first, i, last
+      integer :: first, i, last, lines
 
-      allocate (setting(merge(0, 1 + count([(settings(i:i) == newline, i=1, len(settings))]), settings == '')))
+      lines = 0
+      if (settings /= '') lines = 1 + count([(settings(i:i) == newline, i=1, len(settings))])
+      allocate (setting(lines))
       first = 1
       do i = 1, size(setting)
          last = first + index(settings(first:)//newline, newline) - 2
@@ -136,12 +138,12 @@ contains
       if (.not. allocated(error)) call self%open(text%content, path, keep_fields, error, settings=setting)
    end subroutine open_file
 
-   !> Solves one load. A load that cannot be solved as requested is no error, but the status of the solution. Errors:
-   !> exit_bad_input for a quantity that is none or a value that it cannot have.
+   !> Solves one load. A load that cannot be solved as requested is not an error; the status of the solution says so.
+   !> Errors: exit_bad_input for a quantity that does not exist, or a value that the quantity cannot have.
    subroutine solve(self, quantity, value, answer, error)
       class(deck_session), intent(inout) :: self
       character(*), intent(in) :: quantity   !! a key of &load, such as pbar_over_pstar, mean_pressure, mean_gap, yield
-      real(dp), intent(in) :: value          !! in the unit of that key
+      real(dp), intent(in) :: value          !! value of the quantity, in the unit of that key
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
@@ -159,7 +161,7 @@ contains
          call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity, keys(1), keys))
          return
       end if
-      ! As of a deck that has the group.
+      ! The checks skip a group that the deck does not have: mark the group as given.
       values%place = 1
       call keys(1)%take_value(k, number=value)
       call keys(1)%check_relations()
@@ -177,7 +179,7 @@ contains
    !> Solves a load of the deck. Errors: exit_bad_input for a load that the deck does not have.
    subroutine solve_load(self, load, answer, error)
       class(deck_session), intent(inout) :: self
-      integer, intent(in) :: load            !! from 1
+      integer, intent(in) :: load            !! number of the load in the deck's order, from 1
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
@@ -194,13 +196,14 @@ contains
       if (.not. allocated(error)) self%records(load) = answer%solution%solution_record
    end subroutine solve_load
 
-   !> Errors: exit_bad_input if the session cannot find loads by yield.
+   !> Solves one load of a list, and makes its summary. Errors: exit_bad_input if the load is given by yield and the
+   !> session has no yield stress or no fields.
    subroutine solve_one(self, loads_by, load, target, mean_pressure, answer, error)
       class(deck_session), intent(inout) :: self
-      integer, intent(in) :: loads_by                             !! a name of wavycon_scene
-      integer, intent(in) :: load
-      real(dp), intent(in) :: target(:)                           !! as of scene_type
-      real(dp), intent(in), allocatable :: mean_pressure(:)       !! [pressure]; allocated if loads are given so
+      integer, intent(in) :: loads_by                             !! by_pressure or another name of wavycon_scene
+      integer, intent(in) :: load                                 !! number of the load in the list
+      real(dp), intent(in) :: target(:)                           !! the list, as in scene_type
+      real(dp), intent(in), allocatable :: mean_pressure(:)       !! the list [pressure], if given by pressure
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
@@ -226,18 +229,19 @@ contains
       answer%summary = summary
    end subroutine solve_one
 
-   !> Makes a table of a solved load, by its name: that of its key in &output or, behind 'stress_', in &stress; also
-   !> 'summary', 'spot_sizes', 'theory_lines', and those of &interface. Errors: exit_bad_input for a table that does not
-   !> exist, or that needs what the session does not have; exit_file_trouble without memory.
+   !> Makes a table of a solved load. Errors: exit_bad_input for a table that does not exist, or that needs what the
+   !> session does not have; exit_file_trouble if there is not enough memory.
    subroutine make_table(self, name, solved, table, error)
       class(deck_session), intent(inout) :: self
+      !> Name of the table: its key in &output; its key in &stress with 'stress_' before it; 'summary', 'spot_sizes',
+      !> 'theory_lines', and the tables of &interface.
       character(*), intent(in) :: name
-      type(solved_load), intent(inout) :: solved   !! by this session; unchanged afterwards
+      type(solved_load), intent(inout) :: solved   !! a load that this session has solved; unchanged on return
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
       integer :: loads_by
-      real(dp), allocatable :: targets(:)   ! of the deck
+      real(dp), allocatable :: targets(:)   ! the loads of the deck
       type(table_type), allocatable :: writer
 
       call find_writer(self, name, solved, writer, error)
@@ -268,7 +272,7 @@ contains
       end associate
    end subroutine make_table
 
-   !> The table of a name. Errors: exit_bad_input as of make_table.
+   !> Finds the table of a name. Errors: exit_bad_input, as in make_table.
    subroutine find_writer(self, name, solved, writer, error)
       class(deck_session), intent(in) :: self
       character(*), intent(in) :: name
@@ -290,7 +294,7 @@ contains
          return
       end if
       writer = tables(i)
-      ! The keys of &output need not ask for tables here.
+      ! Here a table needs no key of &output that requests it.
       if (writer%of_adhesion) writer%asked_by(2) = ''
       if (writer%group == 'stress' .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
@@ -306,14 +310,14 @@ contains
       if (trouble /= '') call fatal_error(error, exit_bad_input, "the table '"//name//"' cannot be made: "//trouble)
    end subroutine find_writer
 
-   !> A number by its name: a column of the summary table, of a solved load, or what is known before. Errors:
-   !> exit_bad_input for a name that is none.
+   !> A number by its name, of a solved load or of the session. Errors: exit_bad_input for a name that does not exist.
    subroutine number(self, name, value, error, solved)
       class(deck_session), intent(in) :: self
+      !> Of a load: a column of the summary. Of the session: a name of the list below.
       character(*), intent(in) :: name
       real(dp), intent(out) :: value   !! in units of the deck
       type(error_type), allocatable, intent(out) :: error
-      type(solved_load), intent(in), optional :: solved
+      type(solved_load), intent(in), optional :: solved   !! the load; absent: the number is one of the session
 
       value = 0.0_dp
       call check_ready(self, error, solved)
@@ -333,11 +337,11 @@ contains
       end if
    end subroutine number
 
-   !> The number of a name. Errors: exit_bad_input if there is none.
+   !> Picks the number of a name from a list. Errors: exit_bad_input if the list does not have the name.
    subroutine pick_number(names, numbers, name, number, error)
-      character(*), intent(in) :: names(:), name
-      real(dp), intent(in) :: numbers(:)
-      real(dp), intent(inout) :: number
+      character(*), intent(in) :: names(:), name   !! names of the list; the name to find
+      real(dp), intent(in) :: numbers(:)           !! numbers of the list
+      real(dp), intent(inout) :: number            !! unchanged in case of an error
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
@@ -347,15 +351,15 @@ contains
       if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
    end subroutine pick_number
 
-   !> A text by its name: a column of words of the summary table, of a solved load, or what is known before; 'notes',
-   !> what the log notes of the solved load, or of the surface, the deck's loads and the tables so far. Errors:
-   !> exit_bad_input for a name that is none.
+   !> A text by its name, of a solved load or of the session. Errors: exit_bad_input for a name that does not exist.
    subroutine text(self, name, words, error, solved)
       class(deck_session), intent(in) :: self
+      !> Of a load: a column of words of the summary, or 'notes', what the log would note of the load. Of the session: a
+      !> name of the list below, or 'notes' on the surface, and on the deck's loads and the tables so far.
       character(*), intent(in) :: name
       character(:), allocatable, intent(out) :: words
       type(error_type), allocatable, intent(out) :: error
-      type(solved_load), intent(in), optional :: solved
+      type(solved_load), intent(in), optional :: solved   !! the load; absent: the text is one of the session
 
       integer :: i
       type(run_log) :: log
@@ -398,11 +402,11 @@ contains
       if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
    end subroutine text
 
-   !> Errors: exit_bad_input if a session has not been opened or no load has been solved.
+   !> Checks that a session is open and, if a load is needed, that it was solved. Errors: exit_bad_input.
    subroutine check_ready(self, error, solved)
       class(deck_session), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
-      type(solved_load), intent(in), optional :: solved   !! if the call needs one
+      type(solved_load), intent(in), optional :: solved   !! the load, if the call needs one
 
       if (.not. allocated(self%results%solver)) then
          call fatal_error(error, exit_bad_input, 'the session is not open')

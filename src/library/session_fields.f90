@@ -1,8 +1,9 @@
-!> Pressures, gaps and stresses of the loads of a session, in the deck's units, in arrays of the caller, and guaranteed
-!> bounds from such arrays. Loads without a solution have NaN.
+!> Pressures, gaps and stresses of solved loads of a session, in the deck's units, in arrays of the caller; and
+!> guaranteed bounds from such arrays. Loads without a solution have NaN.
 !>
-!> Errors of all procedures: exit_bad_input before a load is solved, for a session that does not keep fields, and for
-!> points and places out of range or not finite; exit_file_trouble without memory.
+!> All procedures have these errors: exit_bad_input if no load was solved, if the session does not keep fields, and for
+!> numbers of points and coordinates that are out of range or not finite; exit_file_trouble if there is not enough
+!> memory.
 module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
@@ -27,21 +28,22 @@ module wavycon_session_fields
    !> Most points of a grid or plane.
    integer, parameter :: most_points = 8192**2
 
-   !> Numbers of double precision that a point takes: fields or stresses and the work space of transforms.
+   !> How many double precision numbers are in memory for each point: fields or stresses, and the work space of
+   !> transforms.
    integer(int64), parameter :: numbers_of_fields = 8, numbers_of_stresses = 28, numbers_of_bounds = 16
 
 contains
 
-   !> Fields at n points. Pressure is exactly 0 outside contact and the gap exactly 0 in contact, but for the solvers
-   !> 'beale' and 'series', whose series is shown as it is.
+   !> Fields at n points. The pressure is exactly 0 outside contact, and the gap is exactly 0 in contact. Only the
+   !> truncated series of the solvers 'beale' and 'series' differ: they are returned as they are.
    subroutine fields_at(session, solved, n, x, y, error, pressure, gap, displacement)
       type(deck_session), intent(in) :: session
-      type(solved_load), intent(inout) :: solved
-      integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)                             !! [length]
+      type(solved_load), intent(inout) :: solved                     !! a load that the session has solved
+      integer, intent(in) :: n                                       !! number of points, >= 1
+      real(dp), intent(in) :: x(n), y(n)                             !! coordinates of the points [length]
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(out), optional :: pressure(n)                 !! [pressure]
-      real(dp), intent(out), optional :: gap(n), displacement(n)     !! [length]; the displacement is u - ubar
+      real(dp), intent(out), optional :: gap(n), displacement(n)     !! [length]; displacement less its mean
 
       real(dp) :: angles(2), values(3)
       integer :: i
@@ -62,12 +64,13 @@ contains
       end do
    end subroutine fields_at
 
-   !> The same at x = L_x (k + offset(1))/N_x, k = 0 .. N_x - 1, the same in y, L the sides of the surface.
+   !> Fields as in fields_at, at the points of a grid: x = L_x (k + offset(1))/N_x, k = 0 .. N_x - 1, and y likewise,
+   !> with the sides L_x, L_y of the surface.
    subroutine fields_on_grid(session, solved, points, offset, error, pressure, gap, displacement)
       type(deck_session), intent(in) :: session
-      type(solved_load), intent(inout) :: solved
+      type(solved_load), intent(inout) :: solved          !! a load that the session has solved
       integer, intent(in) :: points(2)                    !! N_x, N_y >= 1; N_y = 1 for a profile
-      real(dp), intent(in), optional :: offset(2)         !! of the first point, in steps; absent: 0
+      real(dp), intent(in), optional :: offset(2)         !! position of the first point, in steps; absent: 0
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(out), optional, dimension(points(1), points(2)) :: pressure, gap, displacement
 
@@ -90,8 +93,8 @@ contains
       if (present(displacement)) displacement = session%scale%amplitude*u
    end subroutine fields_on_grid
 
-   !> The grid that the load was solved on, as arguments of fields_on_grid, which shows the solution's own numbers
-   !> there. Zeros if there is none.
+   !> The grid on which the load was solved, as arguments of fields_on_grid: there the fields are the numbers that the
+   !> solver has computed. Zeros if the solver has no grid.
    subroutine own_points(session, solved, points, offset, error)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
@@ -107,7 +110,7 @@ contains
       offset = solved%fields%own_offset
    end subroutine own_points
 
-   !> The grid of the table of the map, as arguments of fields_on_grid.
+   !> The grid of the table `map`, as arguments of fields_on_grid.
    subroutine map_grid(session, solved, points, offset, error)
       type(deck_session), intent(inout) :: session
       type(solved_load), intent(inout) :: solved
@@ -123,21 +126,23 @@ contains
       call session%results%loads(1)%move_to(solved%solution)
    end subroutine map_grid
 
-   !> Guaranteed bounds of the contact of the surface under a mean pressure, from any pressure and gap at points of the
-   !> whole surface: (E18) to (E26) of the page of src/core/half_space. They hold whatever is given; a solution makes
-   !> them close. Negative pressures count as 0, as do negative gaps without a hardness, and the pressure is scaled to
-   !> the mean. Errors: also exit_bad_input for a flat surface, free edges and a grid that lacks waves of the surface.
+   !> Guaranteed bounds of the contact of the surface under a mean pressure, from any pressure and gap at the points of
+   !> a grid over the whole surface: (E18) to (E26) of the page of src/core/half_space. The bounds hold for any given
+   !> arrays; they are close if the arrays are those of a solution. Negative pressures count as 0, negative gaps too if
+   !> there is no hardness, and the pressure is scaled to the mean pressure. Further errors: exit_bad_input for a flat
+   !> surface, for free edges, and for a grid that does not have all waves of the surface.
    subroutine bounds_from_fields(session, mean_pressure, points, pressure, gap, error, bounds)
       type(deck_session), intent(in) :: session
       real(dp), intent(in) :: mean_pressure     !! > 0, below the hardness [pressure]
-      !> As of fields_on_grid. The first point is at x = y = 0, of a mirrored map half a step from its borders.
+      !> Numbers of points along x and y, as in fields_on_grid. The first point is at x = y = 0, on a mirrored map half
+      !> a step from its borders.
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: pressure(points(1), points(2))   !! [pressure]
-      !> [length]. With a hardness it may be negative where the pressure is the hardness: the overlap.
+      !> [length]. With a hardness the gap may be negative where the pressure is the hardness: the bodies overlap there.
       real(dp), intent(in) :: gap(points(1), points(2))
       type(error_type), allocatable, intent(out) :: error
-      !> Lower and upper bound of the complementary energy [pressure*length^3, of a profile length^2], of the approach
-      !> and of the mean gap [length]. NaN: no bound.
+      !> Lower and upper bound of the complementary energy [pressure*length^3, of a profile pressure*length^2], then of
+      !> the approach and of the mean gap [length]. NaN: no bound.
       real(dp), intent(out) :: bounds(6)
 
       character(:), allocatable :: trouble
@@ -166,7 +171,8 @@ contains
          else
             call grid%start(surface, points, surface%mirrored, is_fine_enough)
             least = surface%shape%last([1, 2])
-            least = merge(least + 1, max(2*least, 1), surface%mirrored)
+            least = max(2*least, 1)
+            if (surface%mirrored) least = surface%shape%last([1, 2]) + 1
             if (.not. is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
                                                 integer_text(least(1))//' x '//integer_text(least(2))//' points'
          end if
@@ -175,30 +181,32 @@ contains
             return
          end if
          pbar_over_pstar = mean_pressure/scale%p_star
-         ! Only their ratios matter without a hardness: so their squares are numbers.
-         unit = merge(scale%p_star, maxval(pressure), surface%has_hardness())
+         ! Without a hardness only the ratios of pressures matter: dividing by the largest keeps their squares in range.
+         unit = maxval(pressure)
+         if (surface%has_hardness()) unit = scale%p_star
          call grid%bound(surface, pressure/unit, gap/scale%amplitude, pbar_over_pstar, answer)
          bounds = scale%amplitude*[scale%p_star*scale%nominal_area*answer%energy, answer%approach, answer%mean_gap]
       end associate
    end subroutine bounds_from_fields
 
-   !> The stresses at n points in a body, z into it, tension positive. Many points at one depth are found faster by
-   !> stresses_on_plane.
+   !> The stresses at n points in a body. Tension is positive, and z points into the body. For many points at one depth
+   !> stresses_on_plane is faster.
    subroutine stresses_at(session, solved, n, x, y, depth, nu, lateral, stress, error, stress_error)
       type(deck_session), intent(in) :: session
-      type(solved_load), intent(inout) :: solved
-      integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)       !! [length]
-      real(dp), intent(in) :: depth(n)         !! >= 0 [length]
+      type(solved_load), intent(inout) :: solved   !! a load that the session has solved
+      integer, intent(in) :: n                 !! number of points, >= 1
+      real(dp), intent(in) :: x(n), y(n)       !! coordinates of the points [length]
+      real(dp), intent(in) :: depth(n)         !! depths of the points, >= 0 [length]
       real(dp), intent(in) :: nu               !! Poisson's ratio of the body, -1 < nu <= 1/2
-      character(*), intent(in) :: lateral      !! a value of the key of &stress
-      real(dp), intent(out) :: stress(6, n)    !! xx, yy, zz, xy, xz, yz [pressure]
+      character(*), intent(in) :: lateral      !! value of the key `lateral` of &stress
+      real(dp), intent(out) :: stress(6, n)    !! components xx, yy, zz, xy, xz, yz [pressure]
       type(error_type), allocatable, intent(out) :: error
-      !> Estimate of the largest error of a component, NaN if the solver has none [pressure].
+      !> Estimate of the largest error of a component [pressure]; NaN if the solver does not estimate errors.
       real(dp), intent(out), optional :: stress_error(n)
 
       type(elastic_body) :: body
-      real(dp) :: angles(2), parts(6, 2), part_error
+      real(dp) :: angles(2), point_error
+      real(dp) :: terms(6, 2)   ! stress of the waves over p*: terms(:, 1) + nu*terms(:, 2)
       integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
@@ -207,26 +215,26 @@ contains
       do i = 1, n
          if (allocated(solved%stresses)) then
             angles = session%scale%angles([x(i), y(i)])
-            call solved%stresses%at(angles(1), angles(2), session%scale%depth_angle(depth(i)), parts, part_error)
-            stress(:, i) = session%scale%p_star*body%stress(parts, solved%stresses%pbar_over_pstar)
-            part_error = session%scale%p_star*part_error
+            call solved%stresses%at(angles(1), angles(2), session%scale%depth_angle(depth(i)), terms, point_error)
+            stress(:, i) = session%scale%p_star*body%stress(terms, solved%stresses%pbar_over_pstar)
+            point_error = session%scale%p_star*point_error
          else
             stress(:, i) = body%stress(no_waves, solved%mean_pressure)
-            part_error = 0.0_dp
+            point_error = 0.0_dp
          end if
-         if (present(stress_error)) stress_error(i) = part_error
+         if (present(stress_error)) stress_error(i) = point_error
       end do
    end subroutine stresses_at
 
-   !> The same at the points of fields_on_grid at one depth.
+   !> The stresses as in stresses_at, at the points of a grid at one depth.
    subroutine stresses_on_plane(session, solved, points, offset, depth, nu, lateral, stress, error, stress_error)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
-      integer, intent(in) :: points(2)            !! as of fields_on_grid
-      real(dp), intent(in), optional :: offset(2)
-      real(dp), intent(in) :: depth               !! >= 0 [length]
-      real(dp), intent(in) :: nu                  !! as of stresses_at
-      character(*), intent(in) :: lateral
+      integer, intent(in) :: points(2)            !! as in fields_on_grid
+      real(dp), intent(in), optional :: offset(2) !! as in fields_on_grid
+      real(dp), intent(in) :: depth               !! depth of the plane, >= 0 [length]
+      real(dp), intent(in) :: nu                  !! as in stresses_at
+      character(*), intent(in) :: lateral         !! as in stresses_at
       real(dp), intent(out) :: stress(6, points(1), points(2))
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(out), optional :: stress_error(points(1), points(2))
@@ -251,7 +259,7 @@ contains
       end if
    end subroutine stresses_on_plane
 
-   !> Makes the fields, once.
+   !> Makes the fields of a solved load at their first use.
    subroutine prepare_fields(session, solved, error)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
@@ -266,16 +274,17 @@ contains
       end if
    end subroutine prepare_fields
 
-   !> Makes the stresses, once; a flat surface has none. And the body, with the messages of decks.
+   !> Makes the stresses of a solved load at their first use, and the body. On a flat surface `solved%stresses` stays
+   !> not allocated: its stresses are those of the mean pressure. Bad values get the same messages as in decks.
    subroutine prepare_stresses(session, solved, nu, lateral, body, error)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved
-      real(dp), intent(in) :: nu
-      character(*), intent(in) :: lateral
+      real(dp), intent(in) :: nu             !! as in stresses_at
+      character(*), intent(in) :: lateral    !! as in stresses_at
       type(elastic_body), intent(out) :: body
       type(error_type), allocatable, intent(out) :: error
 
-      !> Series, their waves and copies of them, in numbers a point of the grid.
+      !> How many numbers are in memory for each point of the solver's grid: series, their waves, and copies of them.
       integer(int64), parameter :: numbers = 8
       type(key_list) :: keys
       type(stress_group), target :: values
@@ -295,11 +304,11 @@ contains
       if (has_memory_for(numbers*product(int(solved%fields%own_points, int64)))) then
          call solved%solution%stresses(session%results%solver%surface, solved%stresses)
       else
-         call fatal_error(error, exit_file_trouble, 'there is not the memory for the stresses')
+         call fatal_error(error, exit_file_trouble, 'there is not enough memory for the stresses')
       end if
    end subroutine prepare_stresses
 
-   !> Errors: exit_bad_input for a number of points below 1, or above that of a plane.
+   !> Checks a number of points. Errors: exit_bad_input if it is below 1 or above `most_points`.
    subroutine check_number(points, error)
       integer, intent(in) :: points
       type(error_type), allocatable, intent(out) :: error
@@ -308,6 +317,7 @@ contains
          call fatal_error(error, exit_bad_input, 'points must be from 1 to 8192*8192')
    end subroutine check_number
 
+   !> Checks coordinates and depths of points. Errors: exit_bad_input if one is not finite, or a depth negative.
    subroutine check_places(session, x, y, depth, error)
       type(deck_session), intent(in) :: session
       real(dp), intent(in) :: x(:), y(:), depth(:)   !! [length]
@@ -324,27 +334,28 @@ contains
       end associate
    end subroutine check_places
 
+   !> Checks a grid at a depth, and whether there is enough memory for it. Errors: exit_bad_input, exit_file_trouble.
    subroutine check_points(session, points, offset, depth, numbers, first, error)
       type(deck_session), intent(in) :: session
       integer, intent(in) :: points(2)
       real(dp), intent(in), optional :: offset(2)
-      real(dp), intent(in) :: depth
-      integer(int64), intent(in) :: numbers    !! of double precision that a point needs
-      real(dp), intent(out) :: first(2)        !! the offset, 0 if absent and along y of a profile
+      real(dp), intent(in) :: depth            !! [length]
+      integer(int64), intent(in) :: numbers    !! how many double precision numbers each point takes
+      real(dp), intent(out) :: first(2)        !! the offset in effect: 0 if absent, and 0 along y of a profile
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: got
+      character(:), allocatable :: size_words   ! such as '64 x 64'
 
       first = 0.0_dp
       if (present(offset)) first = offset
-      got = integer_text(points(1))//' x '//integer_text(points(2))
+      size_words = integer_text(points(1))//' x '//integer_text(points(2))
       if (any(points < 1) .or. product(int(points, int64)) > most_points) then
          call fatal_error(error, exit_bad_input, 'a grid needs 1 or more points a side and at most '// &
-                          integer_text(most_points)//' in all, got '//got)
+                          integer_text(most_points)//' in all, got '//size_words)
       else if (session%results%solver%surface%dimension == 1 .and. points(2) /= 1) then
-         call fatal_error(error, exit_bad_input, 'a grid on a profile needs 1 point along y, got '//got)
+         call fatal_error(error, exit_bad_input, 'a grid on a profile needs 1 point along y, got '//size_words)
       else if (.not. has_memory_for(numbers*product(int(points, int64)))) then
-         call fatal_error(error, exit_file_trouble, 'there is not the memory for '//got//' points')
+         call fatal_error(error, exit_file_trouble, 'there is not enough memory for '//size_words//' points')
       else
          call check_places(session, first(1:1), first(2:2), [depth], error)
       end if

@@ -1,8 +1,8 @@
 !> The public interface of the library: the core's surfaces, solvers and solutions, decks, and the closed forms. All
 !> other modules are internal and may change in any release. README.md in this directory has examples.
 !>
-!> The core is in p*, Delta and angles of the cell; `scale_of` gives what its numbers are multiplied with. A
-!> `deck_session` takes and gives the deck's units.
+!> Numbers of the core are in units of p* and Delta and in angles of the cell; `scale_of` gives the factors that convert
+!> them. A `deck_session` takes and gives numbers in the deck's units.
 module wavycon
    use wavycon_auto_contact, only: auto_contact
    use wavycon_series_contact, only: series_contact, qp_options

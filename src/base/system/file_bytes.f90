@@ -1,4 +1,4 @@
-!> A file read whole.
+!> Reads whole files.
 module wavycon_file_bytes
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
@@ -14,10 +14,10 @@ module wavycon_file_bytes
 
 contains
 
-   !> Reads a file; all its errors have the status `exit_file_trouble`.
+   !> Reads all bytes of a file. Errors: exit_file_trouble.
    subroutine read_file(path, most_bytes, content, error)
       character(*), intent(in) :: path
-      integer, intent(in) :: most_bytes   !! a larger file is not read
+      integer, intent(in) :: most_bytes   !! limit: a larger file is an error
       character(:), allocatable, intent(out) :: content
       type(error_type), allocatable, intent(out) :: error
 
@@ -56,12 +56,12 @@ contains
       if (allocated(trouble)) call fatal_error(error, exit_file_trouble, escaped(path)//': '//trouble)
    end subroutine open_file
 
-   !> All the bytes of a file. A pipe is read byte by byte: its size is not known.
+   !> Reads all bytes of an open file. A pipe, whose size is not known, is read byte by byte.
    subroutine read_bytes(unit, most, content, status, message)
-      integer, intent(in) :: unit, most
+      integer, intent(in) :: unit, most                   !! unit of the file; most bytes
       character(:), allocatable, intent(out) :: content   !! allocated if status is 0
-      integer, intent(out) :: status
-      character(*), intent(inout) :: message
+      integer, intent(out) :: status                      !! 0 if there was no error
+      character(*), intent(inout) :: message              !! set if status is not 0
 
       character(1) :: byte
       integer(int64) :: bytes
@@ -71,7 +71,7 @@ contains
       inquire (unit=unit, size=bytes)
       if (bytes > 0 .and. bytes <= most) then
          allocate (character(int(bytes)) :: content, stat=status)
-         message = 'there is not the memory for it'
+         message = 'there is not enough memory for it'
          if (status == 0) read (unit, iostat=status, iomsg=message) content
          return
       end if

@@ -1,5 +1,5 @@
-/* The processes of --jobs. Each is a copy of this one that runs a deck; what it prints goes to files without names, so
-   that nothing is left if all are interrupted. */
+/* The processes of the option --jobs. Each is a copy of this process and runs a deck. Its output goes to files without
+   names, so that no file is left if all processes are interrupted. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <signal.h>
@@ -11,20 +11,22 @@
 #include <sys/prctl.h>
 #endif
 
-/* Of written_file.c. */
+/* Defined in written_file.c. */
 void wavycon_print(const char *text);
 
-/* More than most_waiting of run_program.f90: a job has a place until it is shown. */
+/* Elements of the array of jobs, more than most_waiting of run_program.f90: a job has an element until it is shown. And
+   the number of output streams of a process. */
 enum { places = 128, streams = 2 };
 
 static struct job {
-    int number;    /* of the job */
+    int number;    /* number of the job */
     pid_t process; /* 0: not started, or ended */
     int status;    /* exit status, or 128 and the number of the signal that ended it */
-    FILE *files[streams]; /* standard output, standard error */
+    FILE *files[streams]; /* files that get standard output and standard error */
 } jobs[places];
 
-/* Starts the process of a job. Returns 1 in it, 0 in this one, -1 if there is none. Buffers must be empty. */
+/* Starts the process of a job. Returns 1 in the new process, 0 in this one, -1 if no process could be made. The buffers
+   of standard output and standard error must be empty, as the new process gets a copy of them. */
 int wavycon_begin_job(int number)
 {
     struct job *job = &jobs[number % places];
@@ -37,7 +39,8 @@ int wavycon_begin_job(int number)
     if (job->process != 0)
         return job->process > 0 ? 0 : -1;
 #ifdef __linux__
-    /* The job ends with the process that started it, by whatever signal that ends, and even if it ignores SIGTERM. */
+    /* The job shall end when the process that started it ends, whatever signal ended that process, and also if that
+       process ignores SIGTERM. */
     signal(SIGTERM, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
 #endif
@@ -47,7 +50,7 @@ int wavycon_begin_job(int number)
     return 1;
 }
 
-/* Waits for any process to end. Returns the number of its job, 0 if it is none. */
+/* Waits until any process ends. Returns the number of its job; 0 if the process is none of a job. */
 int wavycon_await_job(void)
 {
     int how;
@@ -64,7 +67,7 @@ int wavycon_await_job(void)
     return 0;
 }
 
-/* Prints what the process of a job that has ended has printed. Returns its status. */
+/* Prints the output of a job that has ended. Returns the status of the job. */
 int wavycon_show_job(int number)
 {
     struct job *job = &jobs[number % places];

@@ -1,6 +1,6 @@
-/* Memory that a program keeps when arrays are deallocated, the first part of it in large pages: the system clears each
-   page that it gives, and what it takes back it gives anew for the next array. A map of 1024 x 1024 points takes 0.88
-   of the processor time; without the large pages nothing is gained. */
+/* A program keeps its memory when arrays are deallocated, the first part of it in large pages. Otherwise the system
+   takes the memory back, and must clear each page when it gives the page again for the next array. With this a map of
+   1024 x 1024 points takes 0.88 times the processor time; without the large pages nothing is gained. */
 #define _DEFAULT_SOURCE
 #include <limits.h>
 #include <stdint.h>
@@ -10,11 +10,12 @@
 #include <malloc.h>
 #endif
 
-/* Keeps memory from now on. Other systems than Linux with glibc take and give back memory as they do otherwise. */
+/* Makes the process keep memory from now on. Only on Linux with glibc; on other systems nothing changes. */
 void wavycon_keep_memory(void)
 {
 #if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
-    /* Bytes: what grids of 1024 x 1024 points take. What is not used costs nothing. */
+    /* Sizes in bytes of the memory in large pages, as much as grids of 1024 x 1024 points take, and of a page. Pages
+       that are not used cost nothing. */
     const size_t large_pages = 100000000, page = 2097152;
     if (mallopt(M_MMAP_MAX, 0) != 1 || mallopt(M_TRIM_THRESHOLD, INT_MAX) != 1)
         return;

@@ -1,5 +1,5 @@
-/* What the program has besides if it is linked statically: it says how the threads of OpenMP and OpenBLAS are to behave
-   before these read their environment, which is done before the program's first statement. */
+/* Only in the statically linked program: sets environment variables that tell OpenMP and OpenBLAS how their threads
+   shall behave. The libraries read them before the program's first statement, hence the constructor. */
 #define _XOPEN_SOURCE 700
 #include <stdlib.h>
 

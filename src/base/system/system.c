@@ -13,8 +13,8 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-/* What a path names: 0 nothing, 1 a directory, 2 a file, 3 a pipe or a device, 4 unknown, on an error. And the size of
-   the file in bytes, -1 if there is none. */
+/* What a path names: 0 nothing, 1 a directory, 2 a file, 3 a pipe or a device, 4 unknown because of an error. *size is
+   the size of the file in bytes, -1 if there is no file. */
 int wavycon_path_kind(const char *path, int64_t *size)
 {
     struct stat info;
@@ -39,15 +39,17 @@ int wavycon_make_directory(const char *path)
 /* The file to be removed if the program is interrupted; empty if there is none. */
 static char unfinished[4096];
 
-/* What a user is told if the program is interrupted: what is kept; empty: nothing. */
+/* Words that tell a user, if the program is interrupted, which results are kept; empty: no words. */
 static char kept[4096];
 
+/* Writes words to standard error. A handler of signals may call this function. */
 static void tell(const char *words)
 {
     if (write(STDERR_FILENO, words, strlen(words)) < 0)
         return;
 }
 
+/* The handler of signals: removes the unfinished file, tells what is kept, and ends the process by the signal. */
 static void remove_unfinished(int number)
 {
     if (unfinished[0] != '\0')
@@ -61,7 +63,8 @@ static void remove_unfinished(int number)
     raise(number);
 }
 
-/* Sets a text that the handler of signals reads, with signals blocked; none if it is too long. */
+/* Sets one of the two texts that the handler of signals reads, while signals are blocked. A text that is too long
+   becomes empty. */
 static void note(char *text, size_t size, const char *words)
 {
     sigset_t all, before;
@@ -73,13 +76,14 @@ static void note(char *text, size_t size, const char *words)
     sigprocmask(SIG_SETMASK, &before, NULL);
 }
 
+/* Sets the words that tell a user what is kept. */
 void wavycon_note_kept(const char *words)
 {
     note(kept, sizeof kept, words);
 }
 
-/* Removes a file if the program is interrupted before it is renamed or removed; only the file of the last call. Signals
-   that are ignored (nohup) stay ignored. */
+/* From now on a signal that interrupts the program removes this file, until the file is renamed or removed. Only the
+   file of the last call is removed. Signals that the process ignores (nohup) stay ignored. */
 void wavycon_remove_when_interrupted(const char *path)
 {
     static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
@@ -93,6 +97,7 @@ void wavycon_remove_when_interrupted(const char *path)
     }
 }
 
+/* Renames a file. Returns 0 on success, else errno. */
 int wavycon_rename(const char *from, const char *to)
 {
     if (rename(from, to) != 0)
@@ -102,6 +107,7 @@ int wavycon_rename(const char *from, const char *to)
     return 0;
 }
 
+/* Removes a file, if it exists. */
 void wavycon_remove(const char *path)
 {
     if (unlink(path) == 0 && strcmp(path, unfinished) == 0)
@@ -115,8 +121,9 @@ int64_t wavycon_stack_limit(void)
     return getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur > INT64_MAX ? INT64_MAX : (int64_t)limit.rlim_cur;
 }
 
-/* The width of the terminal that standard output is; 0 if it is none, or not the one of a user who looks at it: that of
-   another process (mpirun makes one and may write to a file), or a program in the background. */
+/* The width in characters of the terminal to which standard output goes. 0 if standard output is no terminal, or one
+   that no user looks at: a terminal of another process, such as one that mpirun makes, or a program in the background.
+   */
 int wavycon_terminal_columns(void)
 {
     struct winsize size;
@@ -125,7 +132,7 @@ int wavycon_terminal_columns(void)
     return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/* The message for an errno or a reason of written_file.c, cut to fit. */
+/* The message of an errno or of a negative reason of written_file.c, cut to the length of `text`. */
 void wavycon_error_text(int number, char *text, size_t length)
 {
     static const char *const reasons[] = {
@@ -134,8 +141,8 @@ void wavycon_error_text(int number, char *text, size_t length)
     snprintf(text, length, "%s", number < 0 ? reasons[-number - 1] : strerror(number));
 }
 
-/* The number behind a name such as "MemAvailable:" at the start of a line of a file; with an empty name the number at
-   its start. -1 if it is not there. */
+/* The number behind a name, such as "MemAvailable:", that starts a line of a file. With an empty name it is the number
+   at the start of the file. -1 if the file does not have the number. */
 static long long number_in_file(const char *directory, const char *file, const char *name)
 {
     char line[256], path[3*PATH_MAX];
@@ -151,8 +158,9 @@ static long long number_in_file(const char *directory, const char *file, const c
     return number;
 }
 
-/* Bytes of memory that a control group of Linux, given by its directory, leaves to its processes: limit less use, where
-   files that can be dropped from memory count as free. -1 if it has no limit. */
+/* Memory in bytes that a control group of Linux leaves to its processes: its limit less the memory in use, where files
+   that the system can drop from memory count as free. -1 if the group has no limit. `directory` is that of the group.
+   */
 long long wavycon_memory_of_group(const char *directory)
 {
     long long limit = number_in_file(directory, "memory.max", "");
@@ -164,7 +172,8 @@ long long wavycon_memory_of_group(const char *directory)
     return left > 0 ? left : 0;
 }
 
-/* The least that the control groups of this process, its own and all above, leave to it. -1 if none has a limit. */
+/* The least memory in bytes that the control groups of this process, its own and all above, leave to the process. -1 if
+   none has a limit. */
 static long long memory_of_groups(void)
 {
     static const char top[] = "/sys/fs/cgroup", mark[] = "0::";
@@ -179,8 +188,8 @@ static long long memory_of_groups(void)
         return -1;
     line[strcspn(line, "\n")] = '\0';
     snprintf(directory, sizeof directory, "%s%s", top, line + strlen(mark));
-    /* Up to the top, which has no path. In a container the path may be one of the host that is not there, but the top
-       is that of the container. */
+    /* Go up to the top directory, whose path is empty. In a container the path of the process's own group may be that
+       of the host, which does not exist there; but the top directory is then the container's group. */
     while (strlen(directory) >= strlen(top)) {
         long long left = wavycon_memory_of_group(directory);
         if (left >= 0 && (least < 0 || left < least))
@@ -190,9 +199,9 @@ static long long memory_of_groups(void)
     return least;
 }
 
-/* Bytes that the process may still allocate and use without swapping: what is free of the machine's memory or can be
-   freed, and at most what limits leave: those of a container or a batch job (control groups) and that on the address
-   space (ulimit -v). -1 where the system does not say. */
+/* Memory in bytes that the process may still allocate and use without swapping; -1 if the system does not say. It is
+   the memory of the machine that is free or can be freed, but at most the rest of the limits of a container or a batch
+   job (control groups) and of the limit on the address space (ulimit -v). */
 int64_t wavycon_available_memory(void)
 {
     struct rlimit limit;
@@ -207,7 +216,7 @@ int64_t wavycon_available_memory(void)
         available = group;
     if (available < 0 || getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return available;
-    /* The pages of the process's address space; -1 where the system does not say. */
+    /* Number of pages of the process's address space; -1 if the system does not say. */
     long long pages = number_in_file("/proc/self", "statm", "");
     if (pages < 0)
         return -1;
@@ -222,12 +231,12 @@ void openblas_set_num_threads(int number);
 int blas_thread_shutdown_(void);
 #endif
 
-/* Of kept_memory.c. */
+/* Defined in kept_memory.c. */
 void wavycon_keep_memory(void);
 
-/* Makes a write beyond the limit on file sizes fail, as on a full disk; by default the signal ends the program. Keeps
-   memory. Makes BLAS and LAPACK use one thread, if they are OpenBLAS, and ends the threads that OpenBLAS started when
-   it was loaded: without work they try to get some for a tenth of a second, each on its processor. */
+/* Prepares the process. A write beyond the limit on file sizes then fails as on a full disk, while by default a signal
+   ends the program. Deallocated memory is kept. OpenBLAS uses one thread, and the threads that it started when it was
+   loaded end: without work each would occupy a processor for a tenth of a second while it waits. */
 void wavycon_prepare_process(void)
 {
     signal(SIGXFSZ, SIG_IGN);

@@ -1,6 +1,7 @@
 /* Files that the program writes, and standard output. A file is written under a temporary name and renamed when it is
-   complete: it appears whole or not at all. What must not be replaced is refused: a file that was read, a directory, a
-   disk. A pipe or another device is written into, and so is the target of a symbolic link. */
+   complete, so that it appears whole or not at all. Files that must not be replaced are refused: files that were read,
+   directories, disks. If the path names a pipe or another device, the bytes go to that; if it is a symbolic link, the
+   file to which the link leads is replaced. */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE   /* flock */
 #define _DARWIN_C_SOURCE
@@ -17,36 +18,39 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-/* Of system.c. */
+/* Defined in system.c. */
 void wavycon_remove_when_interrupted(const char *path);
 int wavycon_rename(const char *from, const char *to);
 void wavycon_remove(const char *path);
 
-/* Reasons for which the system has no number; wavycon_error_text of system.c has their words. */
+/* Reasons to refuse a file for which the system has no errno; wavycon_error_text of system.c has their messages. */
 enum { is_input = -1, is_disk = -2, leads_nowhere = -3, is_other = -4 };
 
 struct written_file {
-    FILE *stream;                   /* NULL: it could not be opened */
-    int trouble;                    /* the first error */
-    char name[PATH_MAX];            /* without symbolic links */
-    char part[PATH_MAX + NAME_MAX]; /* the temporary name; empty if the file has its name */
+    FILE *stream;                   /* NULL if the file could not be opened */
+    int trouble;                    /* the first error, an errno or one of the reasons above; 0 without one */
+    char name[PATH_MAX];            /* the path without symbolic links */
+    char part[PATH_MAX + NAME_MAX]; /* the temporary path; empty if the file has its name */
 };
 
 /* The files that were read. */
 static struct input {
     struct stat info;
-    char *path; /* absolute */
+    char *path; /* the absolute path */
 } *inputs;
 static size_t input_count;
 
+/* The first errno of writing to standard output; 0 without one. */
 static int print_trouble;
 
+/* Whether two records of stat are those of the same file. */
 static int is_same(const struct stat *one, const struct stat *other)
 {
     return one->st_dev == other->st_dev && one->st_ino == other->st_ino;
 }
 
-/* Whether a file was read. One that was removed since may have left its number to another file. */
+/* Whether a file was read. The path is compared too: if a file that was read has been removed since, another file may
+   have got its number. */
 static int was_read(const struct stat *info)
 {
     struct stat now;
@@ -56,7 +60,7 @@ static int was_read(const struct stat *info)
     return 0;
 }
 
-/* Notes a file that is read: it will not be replaced. */
+/* Notes that a file was read: it will not be replaced. */
 void wavycon_note_input(const char *path)
 {
     struct input input, *grown;
@@ -68,12 +72,12 @@ void wavycon_note_input(const char *path)
     inputs[input_count++] = input;
 }
 
-/* What goes here is written with all else that goes to standard output, which may be a plain file: that is not replaced
-   with all that is in it. */
+/* The path that stands for standard output. What is written there follows the other output of the program, also if
+   standard output goes to a file, which must not be replaced. */
 static const char standard_output[] = "/dev/stdout";
 
-/* Why a file cannot be written, as far as what has its name says: 0, an errno or one of the reasons above. Unless
-   `mark` is empty, only an empty file and one that begins with it may be replaced. */
+/* The reason why a file cannot be written, as far as the file of its name shows: 0, an errno or one of the reasons
+   above. Unless `mark` is empty, a file may be replaced only if it is empty or begins with `mark`. */
 int wavycon_refusal(const char *path, const char *mark)
 {
     char start[64] = "";
@@ -94,8 +98,8 @@ int wavycon_refusal(const char *path, const char *mark)
     return strncmp(start, mark, strlen(mark)) == 0 ? 0 : is_other;
 }
 
-/* What ends the names of parts of this machine before the number of the process. It is cut, as names may become too
-   long. */
+/* The machine's name between points, ".host.", which stands in temporary names before the number of the process. Long
+   names are cut. */
 static const char *host(void)
 {
     static char name[20];
@@ -105,8 +109,9 @@ static const char *host(void)
     return name;
 }
 
-/* Removes from a directory the parts of processes of this machine that were killed. A part is locked as long as its
-   process lives. Parts of other machines stay: a file system may not tell of their locks. */
+/* Removes from a directory the temporary files of processes of this machine that were killed: those that are not
+   locked, because a file is locked as long as its process lives. Temporary files of other machines stay, as a file
+   system may not show their locks. */
 void wavycon_remove_leftovers(const char *directory)
 {
     static char last[PATH_MAX], pattern[64];
@@ -127,8 +132,8 @@ void wavycon_remove_leftovers(const char *directory)
     closedir(list);
 }
 
-/* Opens the part of a file, locked. One that another process takes for left behind, before it is locked, is made
-   again. */
+/* Opens the temporary file of a file, and locks it. Before it is locked another process may remove it as left behind:
+   then it is made again. */
 static FILE *open_part(struct written_file *file, const char *path)
 {
     struct stat info;
@@ -149,7 +154,7 @@ static FILE *open_part(struct written_file *file, const char *path)
     return number < 0 ? NULL : fdopen(number, "w");
 }
 
-/* Opens a file to be written. What is in the way of it is told by the next call with the file. */
+/* Opens a file for writing. If that fails, the next call with the file returns the error. */
 struct written_file *wavycon_open_written(const char *path)
 {
     struct stat info;
@@ -172,14 +177,15 @@ int wavycon_put_bytes(struct written_file *file, const void *bytes, size_t numbe
     return file == NULL ? ENOMEM : file->trouble;
 }
 
-/* Writes what is in the buffer and gives a complete file its name; one that is not complete, or had an error, is
-   removed. Then closes it, unless it stays open for more bytes. Returns the first error, 0 without one. */
+/* Writes the buffer of a file, and gives a complete file its name; a file that is not complete, or had an error, is
+   removed. Then the file is closed, unless it stays open for more bytes. Returns the first error, 0 without one. */
 int wavycon_end_written(struct written_file *file, int is_complete, int stays_open)
 {
     int trouble = wavycon_put_bytes(file, "", 0);
     if (file != NULL && file->stream != NULL) {
         int is_closed = !stays_open && file->stream != stdout;
-        /* Keeps the file locked until it is renamed. A file system of a network tells of a full disk at the end. */
+        /* The copy of the descriptor keeps the file locked until it is renamed. The file is closed before, because a
+           network's file system reports a full disk only then. */
         int lock = dup(fileno(file->stream));
         if ((is_closed ? fclose(file->stream) : fflush(file->stream)) != 0 && trouble == 0)
             trouble = errno;
@@ -196,14 +202,15 @@ int wavycon_end_written(struct written_file *file, int is_complete, int stays_op
     return trouble;
 }
 
-/* Writes to standard output, at once: the buffers of Fortran do not tell of a full disk. */
+/* Writes to standard output and flushes its buffer. Fortran's output would not report a full disk. */
 void wavycon_print(const char *text)
 {
     if ((fputs(text, stdout) < 0 || fflush(stdout) != 0) && print_trouble == 0)
         print_trouble = errno;
 }
 
-/* The first error in writing to standard output; 0 without one, and if it is closed: nobody wants it. */
+/* The first errno of writing to standard output; 0 without one, and if standard output is closed, as nobody wants it.
+   */
 int wavycon_print_trouble(void)
 {
     return print_trouble == EBADF ? 0 : print_trouble;

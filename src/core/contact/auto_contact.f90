@@ -1,6 +1,7 @@
-!> Chooses among the solvers: the closed form where there is one; otherwise collocation fitted to the edge of contact,
-!> if the surface has a lattice, with grids for loads at which it is not accurate enough; otherwise grids. Only the grid
-!> is used if its points are given or a hardness bounds the pressure.
+!> The solver 'auto', which chooses among the other solvers. It takes the closed form if the surface has one. Otherwise
+!> it takes collocation fitted to the edge of contact if the crests of the surface form a lattice; loads at which
+!> collocation is not accurate enough are solved on grids. All other surfaces are solved on grids alone, and so is any
+!> surface if the points of the grid are given or a hardness bounds the pressure.
 module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
@@ -19,14 +20,18 @@ module wavycon_auto_contact
 
    public :: auto_contact
 
-   !> Why its solvers were taken: the closed form, collocation with grids where it is not accurate enough, or grids.
+   !> Reasons for the choice. The surface has a closed form; or collocation (`has_expansions`) is used, with grids where
+   !> collocation is not accurate enough; or grids alone are used, for one of four reasons: the surface has neither, it
+   !> has a hardness, the points of the grid are given, or these points are the height map's own ones.
    integer, parameter, public :: has_closed_form = 1, has_expansions = 2, has_neither = 3, has_a_hardness = 4, &
       points_are_given = 5, points_are_of_the_map = 6, last_choice = 6
 
-   !> The solver on grids, with another one before it.
+   !> The solver on grids, preceded by another solver where the surface allows one.
    type, extends(grid_contact) :: auto_contact
-      integer, private :: choice = 0                          !! one of the names above
-      class(contact_solver), allocatable, private :: first    !! tries every load; not allocated: grids alone
+      integer, private :: choice = 0          !! one of the reasons above
+      !> The closed form or collocation, which tries every load before the grids do. Not allocated if grids are used
+      !> alone.
+      class(contact_solver), allocatable, private :: preferred
    contains
       procedure :: start
       procedure :: solve_partial_contact
@@ -37,7 +42,7 @@ module wavycon_auto_contact
 
 contains
 
-   !> Selects and starts the solvers. Collocation and grids have the same accuracy.
+   !> Selects and starts the solvers. Collocation and grids get the same accuracy, that of `options`.
    subroutine start(self, surface, options, keep_fields)
       class(auto_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
@@ -51,28 +56,30 @@ contains
       call self%grid_contact%start(surface, options, keep_fields)
       call find_frame(surface, frame)
       if (any(options%points > 0)) then
-         self%choice = merge(points_are_of_the_map, points_are_given, all(options%points == surface%points))
+         self%choice = points_are_given
+         if (all(options%points == surface%points)) self%choice = points_are_of_the_map
       else if (closed_form_exists(surface)) then
          self%choice = has_closed_form
          allocate (closed_form)
          call closed_form%start(surface)
          closed_form%accuracy = options%accuracy
-         call move_alloc(closed_form, self%first)
+         call move_alloc(closed_form, self%preferred)
       else if (surface%has_hardness()) then
          self%choice = has_a_hardness
       else if (allocated(frame%lattice)) then
          self%choice = has_expansions
          allocate (fitted)
          call fitted%start(surface, options%accuracy, keep_fields)
-         call move_alloc(fitted, self%first)
+         call move_alloc(fitted, self%preferred)
       else
          self%choice = has_neither
       end if
    end subroutine start
 
-   !> Without a good solution of the first solver the load is solved on grids, and the better of the two solutions is
-   !> returned. The digits of the first solution may differ between machines, so that one decision is taken for all
-   !> slabs of the grid.
+   !> Solves a load by the preferred solver and, if its solution is not good, on grids too. The solution on grids is
+   !> returned if it converged, was interrupted or has the smaller error estimate, otherwise the first one. All
+   !> processes compute the first solution, and its last digits may differ between machines; so they take both
+   !> decisions together.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -82,11 +89,11 @@ contains
       type(grid_slab) :: slab
       type(solver_traits) :: of_grids
 
-      if (.not. allocated(self%first)) then
+      if (.not. allocated(self%preferred)) then
          call self%grid_contact%solve_partial_contact(pbar_over_pstar, solution)
          return
       end if
-      call self%first%solve(pbar_over_pstar, solution)
+      call self%preferred%solve(pbar_over_pstar, solution)
       of_grids = self%grid_contact%traits()
       call slab%start(of_grids%finest_grid)
       if (.not. slab%any(.not. solution%is_good())) return
@@ -96,7 +103,8 @@ contains
          call on_grids%move_to(solution)
    end subroutine solve_partial_contact
 
-   !> The traits of the first solver, with the finest grid of both.
+   !> The traits of the preferred solver, or of grids without one. `finest_grid` is that of the solver on grids wherever
+   !> a load may be solved on grids.
    type(solver_traits) function traits(self)
       class(auto_contact), intent(in) :: self
 
@@ -104,7 +112,7 @@ contains
 
       of_grids = self%grid_contact%traits()
       traits = of_grids
-      if (allocated(self%first)) traits = self%first%traits()
+      if (allocated(self%preferred)) traits = self%preferred%traits()
       if (self%choice == has_expansions .or. of_grids%needs_whole_grids) traits%finest_grid = of_grids%finest_grid
       traits%needs_whole_grids = of_grids%needs_whole_grids
       traits%solver = by_choice
@@ -112,21 +120,22 @@ contains
       traits%choice = self%choice
    end function traits
 
+   !> Forgets the last collocation. Grids keep nothing of a load outside a search.
    subroutine forget_last_load(self)
       class(auto_contact), intent(inout) :: self
 
-      if (allocated(self%first)) call self%first%forget_last_load()
+      if (allocated(self%preferred)) call self%preferred%forget_last_load()
    end subroutine forget_last_load
 
-   !> The collocation of the next load starts from that of this load. Checkpoints have only loads solved on grids, so
-   !> that the collocation is computed again.
+   !> Repeats the collocation of a load that was read from a checkpoint, because the collocation of the next load starts
+   !> from it. Checkpoints hold solutions on grids only.
    subroutine skip_load(self, pbar_over_pstar)
       class(auto_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
 
       type(contact_solution) :: unused
 
-      if (allocated(self%first)) call self%first%solve(pbar_over_pstar, unused)
+      if (allocated(self%preferred)) call self%preferred%solve(pbar_over_pstar, unused)
    end subroutine skip_load
 
 end module wavycon_auto_contact

@@ -1,5 +1,6 @@
-!> Hertz's contact of a ball with free edges (src/core/contact/hertz_ball.f90): numbers, fields and edge in closed form.
-!> The stresses are those of grids on a rectangle of the contact's own size.
+!> Hertz's contact of a ball with free edges (src/core/contact/hertz_ball.f90). The measures, the fields at the surface
+!> and the edge of contact are closed forms. The stresses are computed on grids, on a rectangle in proportion to the
+!> contact.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_ball_source
@@ -29,8 +30,10 @@ module wavycon_ball_source
    public :: ball_source, solve_ball
 
    type, extends(field_source) :: ball_source
-      type(hertz_ball) :: contact       !! [length], pressures in E*; with a tension the approach is the one with it
-      real(dp) :: accuracy = 0.0_dp     !! of the grids for the stresses
+      !> The contact, lengths in [length] and pressures in E*. With adhesion its approach includes the effect of the
+      !> tension.
+      type(hertz_ball) :: contact
+      real(dp) :: accuracy = 0.0_dp     !! accuracy of the grids for the stresses, as in grid_options
    contains
       procedure :: fields
       procedure :: contact_contours
@@ -45,11 +48,12 @@ module wavycon_ball_source
       procedure :: at
    end type ball_fields
 
-   !> Stresses of a ball on another rectangle about the same point.
+   !> Stresses below a ball, computed on a smaller rectangle with the crest at the same angles. Angles X, Y, Z [rad] are
+   !> 2 pi times a length over a side of the cell.
    type, extends(stress_fields) :: ball_stress
-      class(stress_fields), allocatable :: own
-      real(dp) :: scale(3) = 1.0_dp     !! angles X, Y, Z of that rectangle over those of the surface
-      real(dp) :: unit = 1.0_dp         !! its p* over that of the surface
+      class(stress_fields), allocatable :: own   !! the stresses on the smaller rectangle, in its units
+      real(dp) :: angle_ratio(3) = 1.0_dp        !! angles X, Y, Z on the smaller rectangle over those on the surface
+      real(dp) :: unit = 1.0_dp                  !! p* of the smaller rectangle over that of the surface
    contains
       procedure :: at => stress_at
       procedure :: start_places
@@ -57,16 +61,17 @@ module wavycon_ball_source
 
 contains
 
-   !> Hertz's contact, if its ellipse lies within the rectangle and its peak pressure is below the hardness.
+   !> Solves a load by Hertz's equations. They hold if the ellipse of contact lies within the rectangle and the peak
+   !> pressure is below the hardness; otherwise `solved` is false and the solution is not changed.
    subroutine solve_ball(surface, pbar_over_pstar, accuracy, solution, solved)
       type(surface_type), intent(in) :: surface      !! a ball without roughness
-      real(dp), intent(in) :: pbar_over_pstar        !! > 0
-      real(dp), intent(in) :: accuracy               !! of the grids for the stresses, as of grid_options
+      real(dp), intent(in) :: pbar_over_pstar        !! P > 0
+      real(dp), intent(in) :: accuracy               !! accuracy of the grids for the stresses, as in grid_options
       type(contact_solution), intent(inout) :: solution
-      logical, intent(out) :: solved
+      logical, intent(out) :: solved                 !! whether Hertz's equations hold
 
       type(ball_source), allocatable :: source
-      real(dp) :: displaced
+      real(dp) :: over_delta   ! the approach [Delta]
 
       allocate (source)
       source%accuracy = accuracy
@@ -74,29 +79,31 @@ contains
          contact = hertz_contact(ball_radii(surface), 1.0_dp, force=pbar_over_pstar*unit*surface%nominal_area())
          solved = all(2*contact%half_axis < surface%sides()) .and. contact%peak_pressure < surface%hardness*unit
          if (.not. solved) return
-         displaced = contact%approach/surface%amplitude
+         over_delta = contact%approach/surface%amplitude
          solution%pbar_over_pstar = pbar_over_pstar
          solution%status = closed_form
          solution%solver = by_closed_form
-         solution%value(mean_gap) = 1.0_dp - displaced + mean_displacement(surface, contact)
-         solution%value(approach) = displaced
+         solution%value(mean_gap) = 1.0_dp - over_delta + mean_displacement(surface, contact)
+         solution%value(approach) = over_delta
          solution%value(contact_area) = contact%contact_area()/surface%nominal_area()
          solution%value(peak_pressure) = contact%peak_pressure/unit
-         ! The integral of force d(approach), where the force goes with the power 3/2.
-         solution%value(elastic_energy) = 0.4_dp*pbar_over_pstar*displaced
+         ! The energy is the integral of the force over the approach. The force is proportional to approach^(3/2).
+         solution%value(elastic_energy) = 0.4_dp*pbar_over_pstar*over_delta
          solution%error(elastic_energy) = 0.0_dp
       end associate
       call move_alloc(source, solution%source)
    end subroutine solve_ball
 
-   !> Mean displacement of the rectangle [Delta]. By reciprocity it is the mean over the pressure of the displacement
-   !> that a uniform pressure on the rectangle causes.
+   !> The displacement's mean over the rectangle [Delta]. By reciprocity the integral of the displacement over the
+   !> rectangle equals the integral of the pressure times the displacement under a unit pressure on the whole
+   !> rectangle. `integral_to_corner` gives the latter displacement. The rule integrates over the ellipse of contact.
    real(dp) function mean_displacement(surface, contact) result(mean)
       type(surface_type), intent(in) :: surface
       type(hertz_ball), intent(in) :: contact
 
-      !> Points of the rule along the radius and along a quarter of the angle. Compared with 200 x 800, on a square, the
-      !> error is below 2e-14 up to an axis of 0.99 of the side, and 6e-11 for one as long as the side.
+      !> Points of the rule along the radius and along a quarter of the angle. Against 200 x 800 points, on a square,
+      !> the error is below 2e-14 if the axis of the contact is at most 0.99 of the side, and 6e-11 if axis and side are
+      !> equal.
       integer, parameter :: radii = 32, angles = 128
       type(disc_rule) :: rule
       real(dp) :: x, y
@@ -114,6 +121,7 @@ contains
       mean = mean*contact%peak_pressure*product(contact%half_axis)/(pi*surface%nominal_area()*surface%amplitude)
    end function mean_displacement
 
+   !> Makes the fields (`at`) of the ball. They need the surface, whose cell is that of the mirrored map.
    subroutine fields(self, surface, answer)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -122,45 +130,47 @@ contains
       allocate (answer, source=ball_fields(parts=surface%parts(), surface=surface, contact=self%contact))
    end subroutine fields
 
-   !> The displacement outside is (C31). A round punch under a force F has the pressure F/(2 pi a^2)
-   !> (1 - r^2/a^2)^(-1/2) and displaces F/(pi E* a) asin(a/r) outside.
+   !> Hertz's pressure in contact, and the displacement (C31) outside. With adhesion the tension F is that of a flat
+   !> round punch of the contact's radius a: F/(2 pi a^2) (1 - r^2/a^2)^(-1/2) is subtracted from the pressure, and
+   !> F/(pi E* a) asin(a/r) from the displacement outside.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(ball_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
       integer(c_int), parameter :: all_digits = 0
-      real(dp) :: b, c, inside, lambda, place(2), squares(2), u, undeformed
+      real(dp) :: b, c, inside, lambda, position(2), squares(2), u, undeformed   ! position: from the crest [length]
 
       associate (surface => self%surface, contact => self%contact)
-         ! Places beyond the map are replaced by their mirror images, as its heights are. The undeformed gap is not
-         ! taken from the surface's shape, 1 - h/Delta: next to the crest h would lose its digits.
-         place = (0.5_dp*pi - abs(pi - modulo([x, y], 2*pi)))*surface%length/(2*pi)
+         ! A point beyond the map is replaced by its mirror image on the map, because the heights are mirrored too. The
+         ! undeformed gap is not taken from the surface's shape, 1 - h/Delta: next to the crest h would lose its digits.
+         position = (0.5_dp*pi - abs(pi - modulo([x, y], 2*pi)))*surface%length/(2*pi)
          squares = contact%half_axis**2
-         undeformed = 0.5_dp*sum(place**2/ball_radii(surface))
-         inside = 1.0_dp - sum(place**2/squares)
+         undeformed = 0.5_dp*sum(position**2/ball_radii(surface))
+         inside = 1.0_dp - sum(position**2/squares)
          pressure = 0.0_dp
          if (inside > 0.0_dp) pressure = (contact%peak_pressure*sqrt(inside) - contact%tension &
             /(2*pi*product(contact%half_axis)*sqrt(inside)))/surface%full_contact_pressure(1.0_dp)
          gap = 0.0_dp
          if (inside < 0.0_dp) then
             ! The positive root of lambda^2 + b lambda + c = 0.
-            b = sum(squares) - sum(place**2)
+            b = sum(squares) - sum(position**2)
             c = product(squares)*inside
             lambda = 0.5_dp*(sqrt(b**2 - 4*c) + abs(b))
             if (b > 0.0_dp) lambda = -c/lambda
             u = contact%peak_pressure*product(contact%half_axis)*( &
                 gsl_sf_ellint_RF(squares(1) + lambda, squares(2) + lambda, lambda, all_digits) &
-                - place(1)**2/3*gsl_sf_ellint_RD(squares(2) + lambda, lambda, squares(1) + lambda, all_digits) &
-                - place(2)**2/3*gsl_sf_ellint_RD(squares(1) + lambda, lambda, squares(2) + lambda, all_digits)) &
-                - contact%tension*asin(min(contact%half_axis(1)/norm2(place), 1.0_dp))/(pi*contact%half_axis(1))
+                - position(1)**2/3*gsl_sf_ellint_RD(squares(2) + lambda, lambda, squares(1) + lambda, all_digits) &
+                - position(2)**2/3*gsl_sf_ellint_RD(squares(1) + lambda, lambda, squares(2) + lambda, all_digits)) &
+                - contact%tension*asin(min(contact%half_axis(1)/norm2(position), 1.0_dp))/(pi*contact%half_axis(1))
             gap = max(undeformed + u - contact%approach, 0.0_dp)/surface%amplitude
          end if
          displacement = gap + (contact%approach - undeformed)/surface%amplitude
       end associate
    end subroutine at
 
-   !> The ellipse and its mirror images.
+   !> The edge of contact: the ellipse and its mirror images in the four quarters of the mirrored cell. They count as
+   !> one spot.
    subroutine contact_contours(self, surface, curves, loads)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -182,7 +192,8 @@ contains
       loads = [1.0_dp]
    end subroutine contact_contours
 
-   !> Of the ball on a rectangle of its own, four half axes wide.
+   !> The stresses below the ball, computed on grids on a rectangle whose sides are four half axes. So the step of the
+   !> grid is the same part of the contact at every load.
    subroutine stresses(self, surface, answer)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -199,7 +210,7 @@ contains
       call solver%start(own, grid_options(accuracy=self%accuracy), keep_fields=.true.)
       call solver%solve(self%record%pbar_over_pstar*surface%nominal_area()/(own%nominal_area()*stress%unit), solution)
       call solution%stresses(own, stress%own)
-      stress%scale = [surface%length, surface%length(1)]/[own%length, own%length(1)]
+      stress%angle_ratio = [surface%length, surface%length(1)]/[own%length, own%length(1)]
       stress%exist = stress%own%exist
       stress%pbar_over_pstar = stress%own%pbar_over_pstar*stress%unit
       stress%side_ratio = surface%length(2)/surface%length(1)
@@ -207,6 +218,7 @@ contains
       call move_alloc(stress, answer)
    end subroutine stresses
 
+   !> The stresses at a point, from those at the corresponding point below the smaller rectangle.
    subroutine stress_at(self, x, y, depth, parts, error)
       class(ball_stress), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -214,14 +226,15 @@ contains
       real(dp), intent(out) :: parts(6, 2)
       real(dp), intent(out), optional :: error
 
-      real(dp) :: place(3)
+      real(dp) :: angles(3)   ! X, Y, Z on the smaller rectangle; the crest has X = Y = pi/2 on both
 
-      place = self%scale*[x - 0.5_dp*pi, y - 0.5_dp*pi, depth] + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
-      call self%own%at(place(1), place(2), place(3), parts, error)
+      angles = self%angle_ratio*[x - 0.5_dp*pi, y - 0.5_dp*pi, depth] + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
+      call self%own%at(angles(1), angles(2), angles(3), parts, error)
       parts = parts*self%unit
       if (present(error)) error = error*self%unit
    end subroutine stress_at
 
+   !> Start points of the search for the largest stress, converted from those on the smaller rectangle.
    subroutine start_places(self, body, places)
       class(ball_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -232,14 +245,14 @@ contains
       call self%own%start_places(body, places)
       do i = 1, size(places)
          associate (here => places(i)%place)
-            here = (here - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])/self%scale + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
+            here = (here - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])/self%angle_ratio + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
          end associate
          places(i)%stress = places(i)%stress*self%unit
       end do
-      places%width = places%width/maxval(self%scale)
+      places%width = places%width/maxval(self%angle_ratio)
    end subroutine start_places
 
-   !> Of the powers of the force: 2/3 of approach and area.
+   !> Derivatives with respect to the load. Approach and area are both proportional to the force to the power 2/3.
    subroutine derivatives(self, surface, answer)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface

@@ -1,4 +1,5 @@
-!> Closed forms: Westergaard's solution of the 1-D wave, and Hertz's of a ball with free edges (`ball_source`).
+!> The solver for surfaces with a closed form: the 1-D wave by Westergaard's solution, and a ball with free edges by
+!> Hertz's (`ball_source`).
 module wavycon_closed_form_contact
    use wavycon_ball_source, only: solve_ball
    use wavycon_constants, only: pi
@@ -27,7 +28,7 @@ module wavycon_closed_form_contact
    public :: closed_form_contact, closed_form_exists, closed_form_source, closed_form_stress
 
    type, extends(contact_solver) :: closed_form_contact
-      real(dp) :: accuracy = default_accuracy   !! of the grids that the stresses below a ball are from
+      real(dp) :: accuracy = default_accuracy   !! accuracy of the grids that give the stresses below a ball
    contains
       procedure :: start
       procedure :: solve_partial_contact
@@ -35,7 +36,9 @@ module wavycon_closed_form_contact
    end type closed_form_contact
 
    type, extends(field_source) :: closed_form_source
-      real(dp) :: tension = 0.0_dp            !! T >= 0 of adhesion: the contact is as large as that of P + T without it
+      !> T >= 0 [p*], the mean tension of adhesion. The contact is as large as that under the load P + T without
+      !> adhesion.
+      real(dp) :: tension = 0.0_dp
    contains
       procedure :: fields
       procedure :: contact_contours
@@ -44,8 +47,8 @@ module wavycon_closed_form_contact
    end type closed_form_source
 
    type, extends(contact_fields) :: closed_form_fields
-      real(dp) :: pbar_over_pstar = 0.0_dp    !! P1, P without adhesion
-      real(dp) :: tension = 0.0_dp            !! as of closed_form_source
+      real(dp) :: pbar_over_pstar = 0.0_dp    !! P + T, the load whose contact without adhesion is as large
+      real(dp) :: tension = 0.0_dp            !! T, as in closed_form_source
    contains
       procedure :: at
    end type closed_form_fields
@@ -66,15 +69,16 @@ contains
          (surface%dimension == 1 .and. is_paper_wave(surface) .and. .not. surface%has_hardness())
    end function closed_form_exists
 
-   !> Starts the solver.
+   !> Starts the solver. Afterwards `is_started` tells whether the surface has a closed form.
    subroutine start(self, surface)
       class(closed_form_contact), intent(out) :: self
-      type(surface_type), intent(in) :: surface   !! of which a closed form exists; only a ball may have a hardness
+      type(surface_type), intent(in) :: surface   !! any surface; only a ball may have a hardness
 
       self%surface = surface
       self%is_started = closed_form_exists(surface)
    end subroutine start
 
+   !> The traits; no load depends on the load before.
    type(solver_traits) function traits(self)
       class(closed_form_contact), intent(in) :: self
 
@@ -82,8 +86,8 @@ contains
       traits = solver_traits(solver=by_closed_form)
    end function traits
 
-   !> Westergaard's solution: eqs. (4), (7), and (20) of the paper; or Hertz's. The status is not_found where a ball
-   !> touches up to the border or reaches its hardness.
+   !> Solves a load by Westergaard's equations, eqs. (4), (7) and (20) of the paper, or by Hertz's for a ball. The
+   !> status is not_found if the contact of a ball reaches the border, or its peak pressure the hardness.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(closed_form_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -112,6 +116,7 @@ contains
       end associate
    end subroutine solve_partial_contact
 
+   !> Makes the fields (`at`) of Westergaard's solution.
    subroutine fields(self, surface, answer)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -122,7 +127,8 @@ contains
                                                   tension=self%tension))
    end subroutine fields
 
-   !> Eqs. (4) and (5) of the paper, whose psi is half of X; less a punch under the tension: (I22) of src/beyond.
+   !> Pressure (4) and displacement (5) of the paper, whose angle psi is X/2. With adhesion the fields of a flat punch
+   !> under the tension are subtracted: (I22) of src/beyond.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(closed_form_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -144,6 +150,7 @@ contains
       displacement = displacement + opening + self%tension*log(self%pbar_over_pstar)
    end subroutine at
 
+   !> The edge of contact: both ends of the only strip, X = -pi A and pi A, which carries the whole load.
    subroutine contact_contours(self, surface, curves, loads)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -155,6 +162,7 @@ contains
       loads = [1.0_dp]
    end subroutine contact_contours
 
+   !> Makes the stresses (`stress_at`) below Westergaard's pressure.
    subroutine stresses(self, surface, answer)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -164,7 +172,7 @@ contains
       allocate (answer, source=closed_form_stress(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1))
    end subroutine stresses
 
-   !> The stresses under Westergaard's pressure.
+   !> The stresses below Westergaard's pressure.
    subroutine stress_at(self, x, y, depth, parts, error)
       class(closed_form_stress), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -172,7 +180,7 @@ contains
       real(dp), intent(out) :: parts(6, 2)
       real(dp), intent(out), optional :: error
 
-      !> Error of the stresses over the peak pressure.
+      !> Error of the stresses relative to the peak pressure.
       real(dp), parameter :: rounding = 1e-14_dp
 
       associate (unused => y); end associate
@@ -180,13 +188,14 @@ contains
       if (present(error)) error = rounding*westergaard_peak_pressure_over_pstar(self%pbar_over_pstar)
    end subroutine stress_at
 
-   !> Places across the contact, at depths from the surface to that of the longest wave.
+   !> Places at which searches for the largest stress start: some across half of the contact and a little beyond it, at
+   !> depths from the surface down to 1.2 half widths.
    subroutine start_places(self, body, places)
       class(closed_form_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
       type(start_place), allocatable, intent(out) :: places(:)
 
-      !> Places over the half width of the contact.
+      !> Distances from the middle of the contact, and depths, over the half width of the contact.
       real(dp), parameter :: across(*) = [0.0_dp, 0.3_dp, 0.6_dp, 0.9_dp, 1.0_dp, 1.1_dp], &
                              below(*) = [0.0_dp, 0.1_dp, 0.2_dp, 0.4_dp, 0.8_dp, 1.2_dp]
       real(dp) :: half_width
@@ -198,7 +207,7 @@ contains
       call self%set_stresses(body, places)
    end subroutine start_places
 
-   !> Of (20) and of A = 2 psi/pi, P = sin^2 psi (7). Both ends of a strip are alike.
+   !> Derivatives with respect to the load: of the mean gap (20), and of the area A = 2 psi/pi with P = sin^2 psi (7).
    subroutine derivatives(self, surface, answer)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface

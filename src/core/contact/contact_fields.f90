@@ -1,8 +1,8 @@
 !> The pressure, the displacement and the gap of one solution, at points and on grids of the cell.
 !>
-!> Positions are the angles X, Y of the surface's cell. Where the gap is open the pressure is exactly 0, and in contact
-!> the gap is, unless an extension says otherwise. Gap, displacement u and undeformed gap h agree everywhere:
-!> gap = h + u - approach.
+!> Positions are the angles X, Y of the surface's cell. Where the gap is open the pressure is exactly 0, and where there
+!> is contact the gap is exactly 0, unless an extension of the type says otherwise. Gap, displacement u and undeformed
+!> gap h satisfy gap = h + u - approach everywhere.
 module wavycon_contact_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi
@@ -15,14 +15,15 @@ module wavycon_contact_fields
    public :: contact_fields
 
    type, abstract :: contact_fields
-      !> The grid that the solution was computed on, where its numbers are exact, as points and offset of on_grid; zeros
-      !> if there is none.
+      !> The grid that the solution was computed on, as `points` and `offset` of on_grid: there `on_grid` returns the
+      !> solution's numbers without interpolation. Zeros if there is no such grid.
       integer :: own_points(2) = 0
       real(dp) :: own_offset(2) = 0.0_dp
-      !> The own columns of that grid, of the part of the cell that was solved.
+      !> The same grid, restricted to the part of the cell that was solved, with the columns that this process has.
       type(grid_slab) :: own_slab = grid_slab()
-      type(equivalent_points) :: symmetry = equivalent_points()   !! of the fields, for on_grid
-      integer :: parts(2) = 1               !! of the surface: how often the points of on_grid fit into the cell
+      !> Symmetries of the fields: on_grid evaluates one point of each set of equivalent ones.
+      type(equivalent_points) :: symmetry = equivalent_points()
+      integer :: parts(2) = 1               !! parts() of the surface: how often the points of on_grid fit into the cell
    contains
       procedure(fields_at_point), deferred :: at
       procedure :: on_grid
@@ -32,7 +33,7 @@ module wavycon_contact_fields
    end type contact_fields
 
    abstract interface
-      !> At one point.
+      !> `at`: the fields at one point.
       subroutine fields_at_point(self, x, y, pressure, displacement, gap)
          import :: contact_fields, dp
          class(contact_fields), intent(inout) :: self
@@ -45,12 +46,13 @@ module wavycon_contact_fields
 
 contains
 
-   !> At X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y. On a mirrored height map the points are those
-   !> of the map, X = pi (k + offset_x)/N_x. The default evaluates equivalent points once.
+   !> The fields on a grid of the cell, X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y. For a mirrored
+   !> height map the grid covers the map, X = pi (k + offset_x)/N_x. This default calls `at` once for each set of
+   !> points that are equivalent by `symmetry`; the order of the loops makes sure that the first of them comes first.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(contact_fields), intent(inout) :: self
       integer, intent(in) :: points(2)       !! N_x, N_y >= 1; N_y = 1 in 1-D
-      real(dp), intent(in) :: offset(2)      !! of the first point, in steps; 0 along y in 1-D
+      real(dp), intent(in) :: offset(2)      !! distance of the first point from the origin, in steps; 0 along y in 1-D
       !> p/p*, (u - ubar)/Delta and gap/Delta, shape (N_x, N_y).
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
@@ -75,20 +77,20 @@ contains
       end do
    end subroutine on_grid
 
-   !> Called before `at` for many places of the cell. Here nothing is to be prepared.
+   !> Prepares many calls of `at`: an extension may make tables first. The default does nothing.
    subroutine prepare_places(self, places)
       class(contact_fields), intent(inout) :: self
-      integer, intent(in) :: places          !! their number
+      integer, intent(in) :: places          !! number of the calls that follow
 
       associate (unused => self, unused_too => places); end associate
    end subroutine prepare_places
 
-   !> At many points.
+   !> The fields at many points. An extension may use the surface's shape, which the caller knows; the default does not.
    subroutine at_points(self, angle, shape, pressure, displacement, gap)
       class(contact_fields), intent(inout) :: self
       real(dp), intent(in) :: angle(:, :)            !! X, Y, shape (2, n) [rad]
-      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta there, shape (n)
-      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as of `at`, shape (n)
+      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta at the points, shape (n)
+      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as in `at`, shape (n)
 
       integer :: k
 
@@ -98,12 +100,12 @@ contains
       end do
    end subroutine at_points
 
-   !> The fields at the points of one of the columns of own_slab. Default: NaN.
+   !> The fields at the points of one column of own_slab. The default, for solutions without a grid, is NaN.
    subroutine at_own_column(self, column, shape, pressure, displacement, gap)
       class(contact_fields), intent(in) :: self
-      integer, intent(in) :: column                  !! of own_slab, first .. last
-      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta at the points
-      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as of on_grid, shape (M)
+      integer, intent(in) :: column                  !! number of the column, own_slab%first .. own_slab%last
+      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta at the points, shape (M)
+      real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as in on_grid, shape (M)
 
       associate (unused => self, unused_too => column); end associate
       pressure = ieee_value(shape, ieee_quiet_nan)

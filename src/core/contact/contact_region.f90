@@ -1,13 +1,14 @@
-!> The points of a grid in and near the contact, and vectors of their values.
+!> A region of a grid, which has the points in and near the contact, and vectors of values at these points.
 !>
 !> A vector lists the values of a field at the points of the region, column by column. Its length is the number of these
-!> points: what is computed with vectors costs nothing where there is no contact.
+!> points. So operations on vectors cost nothing where there is no contact.
 !>
-!> Vectors are computed chunk by chunk: a chunk has at most `longest_chunk` numbers, so that several sums and changes of
-!> it take them from the cache, and threads share the chunks. Each strip of a slab begins a new chunk: its sums do not
-!> depend on what other slabs have.
+!> Vectors are divided into chunks of at most `longest_chunk` numbers. A chunk fits the processor's cache, so that
+!> several operations on it read the memory once, and threads share the chunks. Each strip of columns (`grid_slab`)
+!> begins a new chunk. So the sum over a strip does not depend on how strips are distributed over processes.
 module wavycon_contact_region
    use, intrinsic :: iso_c_binding, only: c_bool
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab, strip_columns
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
@@ -16,20 +17,22 @@ module wavycon_contact_region
 
    public :: add_neighbours, contact_region
 
-   !> Numbers of a chunk. It bounds the rounding of sums in single precision.
+   !> Largest number of values in a chunk. It limits the rounding error of sums in single precision.
    integer, parameter, public :: longest_chunk = 4096
 
+   !> In the three lists of first elements the last entry is one more than the last element, so that list i ends before
+   !> entry i + 1.
    type :: contact_region
-      integer :: points = 0                    !! of the region
+      integer :: points = 0                    !! number of points in the region
       logical, allocatable :: columns(:)       !! whether a column of the grid has points of the region, shape (N)
-      integer :: threads = 1                   !! for loops over its points
-      integer :: chunks = 0
-      integer, allocatable :: chunk(:)         !! place in vectors where each chunk begins, and one more, (chunks+1)
-      !> Runs of adjacent points of one column and one chunk: the points first to last, and the place of the first of
-      !> them in vectors.
-      integer, allocatable, private :: column(:), first(:), last(:), place(:)
-      integer, allocatable, private :: chunk_run(:)      !! first run of each chunk, and one more, shape (chunks+1)
-      integer, allocatable, private :: strip_chunk(:)    !! first chunk of each strip, and one more, shape (strips+1)
+      integer :: threads = 1                   !! number of threads for loops over the points
+      integer :: chunks = 0                    !! number of chunks
+      integer, allocatable :: chunk(:)         !! index in vectors at which each chunk begins, shape (chunks+1)
+      !> Runs of adjacent points in one column and one chunk: the column, the rows `first` to `last`, and the index of
+      !> the first point in vectors, shape (number of runs or more).
+      integer, allocatable, private :: column(:), first(:), last(:), position(:)
+      integer, allocatable, private :: chunk_run(:)      !! first run of each chunk, shape (chunks+1)
+      integer, allocatable, private :: strip_chunk(:)    !! first chunk of each strip, shape (strips+1)
    contains
       procedure :: start
       procedure :: gather_scaled
@@ -44,10 +47,12 @@ module wavycon_contact_region
 
 contains
 
-   !> Starts a region of the points of a slab.
+   !> Makes the region of the points at which a field is positive. One pass counts points and runs of each column, a
+   !> second one lists the runs; a run ends with its chunk.
    subroutine start(self, inside)
       class(contact_region), intent(out) :: self
-      real(sp), intent(in) :: inside(:, :)   !! > 0 at its points, 0 at others, shape (M, N), N the own columns
+      !> > 0 at the points of the region, 0 at the others; the columns of this process, shape (M, slab%columns()).
+      real(sp), intent(in) :: inside(:, :)
 
       integer :: counts(2, size(inside, 2)), filled, i, j, m, n, r, strips
       logical :: in_run
@@ -65,7 +70,7 @@ contains
       allocate (self%chunk(sum(counts(1, :))/longest_chunk + strips + 1), self%strip_chunk(strips + 1))
       allocate (self%chunk_run, mold=self%chunk)
       associate (most_runs => sum(counts(2, :), self%columns) + size(self%chunk))
-         allocate (self%column(most_runs), self%first(most_runs), self%last(most_runs), self%place(most_runs))
+         allocate (self%column(most_runs), self%first(most_runs), self%last(most_runs), self%position(most_runs))
       end associate
       r = 0
       filled = 0
@@ -94,7 +99,7 @@ contains
                r = r + 1
                self%column(r) = j
                self%first(r) = i
-               self%place(r) = self%points
+               self%position(r) = self%points
                in_run = .true.
             end if
             self%last(r) = i
@@ -105,115 +110,117 @@ contains
       self%strip_chunk(strips + 1) = self%chunks + 1
    end subroutine start
 
-   !> The values of a field in double precision at the points of the region, divided by a scale.
-   subroutine gather_scaled(self, field, scale, vector)
+   !> Copies the values of a field at the points of the region to a vector, divided by a unit.
+   subroutine gather_scaled(self, field, unit, vector)
       class(contact_region), intent(in) :: self
-      real(dp), intent(in) :: field(:, :)     !! shape (M, N)
-      real(dp), intent(in) :: scale           !! > 0
-      real(sp), intent(out) :: vector(:)      !! shape (points)
+      real(dp), intent(in) :: field(:, :)     !! field in double precision, shape (M, slab%columns())
+      real(dp), intent(in) :: unit            !! unit of the vector, > 0
+      real(sp), intent(out) :: vector(:)      !! field/unit, shape (points)
 
       integer :: r
 
       !$omp parallel do num_threads(self%threads)
       do r = 1, self%chunk_run(self%chunks + 1) - 1
-         associate (a => self%first(r), b => self%last(r), k => self%place(r))
-            vector(k:k + b - a) = real(field(a:b, self%column(r))/scale, sp)
+         associate (a => self%first(r), b => self%last(r), k => self%position(r))
+            vector(k:k + b - a) = real(field(a:b, self%column(r))/unit, sp)
          end associate
       end do
    end subroutine gather_scaled
 
-   !> The values of a field at the points of a chunk.
+   !> Copies the values of a field at the points of a chunk to a vector.
    pure subroutine take_chunk(self, c, field, values)
       class(contact_region), intent(in) :: self
-      integer, intent(in) :: c                            !! the chunk
-      real(sp), intent(in) :: field(:, :)                 !! shape (M, N)
+      integer, intent(in) :: c                            !! number of the chunk
+      real(sp), intent(in) :: field(:, :)                 !! shape (M, slab%columns())
       real(sp), intent(inout), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
 
-      integer :: i, j, r, shift
+      integer :: i, j, r, offset   ! offset: index in `values` less that in the column
 
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
          j = self%column(r)
-         shift = self%place(r) - self%chunk(c) + 1 - self%first(r)
+         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
          do i = self%first(r), self%last(r)
-            values(i + shift) = field(i, j)
+            values(i + offset) = field(i, j)
          end do
       end do
    end subroutine take_chunk
 
-   !> Writes values to the points of a chunk.
+   !> Writes a vector of values to the points of a chunk in a field. Other points of the field do not change.
    pure subroutine put_chunk(self, c, values, field)
       class(contact_region), intent(in) :: self
-      integer, intent(in) :: c                         !! the chunk
+      integer, intent(in) :: c                         !! number of the chunk
       real(sp), intent(in), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
-      real(sp), intent(inout) :: field(:, :)           !! shape (M, N)
+      real(sp), intent(inout) :: field(:, :)           !! shape (M, slab%columns())
 
-      integer :: i, j, r, shift
+      integer :: i, j, r, offset   ! offset: index in `values` less that in the column
 
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
          j = self%column(r)
-         shift = self%place(r) - self%chunk(c) + 1 - self%first(r)
+         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
          do i = self%first(r), self%last(r)
-            field(i, j) = values(i + shift)
+            field(i, j) = values(i + offset)
          end do
       end do
    end subroutine put_chunk
 
-   !> Sums over the neighbours of each point of a chunk, with weights: of point (i, j) the sum of weights(k, l)
-   !> field(i + k, j + l).
+   !> Convolves a field with a stencil at the points of a chunk: the result at point (i, j) is the sum of
+   !> weights(k, l) field(i + k, j + l) over k, l = -R .. R.
    pure subroutine convolve_chunk(self, c, weights, field, values)
       class(contact_region), intent(in) :: self
-      integer, intent(in) :: c                            !! the chunk
-      real(sp), intent(in) :: weights(:, :)               !! shape (2R + 1, 2R + 1)
-      real(sp), intent(in), contiguous :: field(:, :)     !! with its neighbours beyond the grid, shape (M + 2R, N + 2R)
-      real(sp), intent(inout), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
+      integer, intent(in) :: c                            !! number of the chunk
+      real(sp), intent(in) :: weights(:, :)               !! stencil of the reach R, shape (2R + 1, 2R + 1)
+      !> The field and R more rows and columns on each side, shape (M + 2R, slab%columns() + 2R).
+      real(sp), intent(in), contiguous :: field(:, :)
+      real(sp), intent(inout), contiguous :: values(:)    !! result, shape (chunk(c+1) - chunk(c)) or more
 
-      integer :: i, k, l, r, shift
+      integer :: i, k, l, r, offset   ! offset: index in `values` less that in the column
 
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         shift = self%place(r) - self%chunk(c) + 1 - self%first(r)
-         values(self%first(r) + shift:self%last(r) + shift) = 0.0_sp
+         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
+         values(self%first(r) + offset:self%last(r) + offset) = 0.0_sp
          do l = 1, size(weights, 2)
             do k = 1, size(weights, 1)
                if (abs(weights(k, l)) <= 0.0_sp) cycle
                do i = self%first(r), self%last(r)
-                  values(i + shift) = values(i + shift) + weights(k, l)*field(i + k - 1, self%column(r) + l - 1)
+                  values(i + offset) = values(i + offset) + weights(k, l)*field(i + k - 1, self%column(r) + l - 1)
                end do
             end do
          end do
       end do
    end subroutine convolve_chunk
 
-   !> The places in vectors where each strip begins, and one more than the last of all, shape (strips + 1).
-   pure function strip_places(self) result(places)
+   !> The indices in vectors at which the strips begin, and last one more than the number of points, shape (strips + 1).
+   pure function strip_places(self) result(starts)
       class(contact_region), intent(in) :: self
-      integer :: places(size(self%strip_chunk))
+      integer :: starts(size(self%strip_chunk))
 
-      places = self%chunk(self%strip_chunk)
+      starts = self%chunk(self%strip_chunk)
    end function strip_places
 
-   !> The sums of each strip from those of the chunks, as `grid_slab%strip_totals` takes them.
-   pure function strip_sums(self, sums) result(parts)
+   !> Adds sums over chunks to sums over strips, which `grid_slab%strip_totals` adds to sums over the grid.
+   pure function strip_sums(self, chunk_sums) result(sums)
       class(contact_region), intent(in) :: self
-      real(dp), intent(in) :: sums(:, :)    !! shape (any, chunks)
-      real(dp) :: parts(size(sums, 1), size(self%strip_chunk) - 1)
+      real(dp), intent(in) :: chunk_sums(:, :)    !! shape (number of different sums, chunks)
+      real(dp) :: sums(size(chunk_sums, 1), size(self%strip_chunk) - 1)
 
       integer :: s
 
-      do s = 1, size(parts, 2)
-         parts(:, s) = sum(sums(:, self%strip_chunk(s):self%strip_chunk(s + 1) - 1), dim=2)
+      do s = 1, size(sums, 2)
+         sums(:, s) = sum(chunk_sums(:, self%strip_chunk(s):self%strip_chunk(s + 1) - 1), dim=2)
       end do
    end function strip_sums
 
-   !> Adds changes times a scale to a pressure at the free points, but keeps it between zero and an upper bound. At the
-   !> other points of the region it becomes one of the two.
-   subroutine correct(self, change, contact, at_bound, scale, bound, pressure)
+   !> Adds changes to the pressure at the free points and keeps it between zero and an upper bound. At the other points
+   !> of the region the pressure becomes zero or the upper bound.
+   subroutine correct(self, change, contact, at_bound, unit, bound, pressure)
       class(contact_region), intent(in) :: self
-      real(sp), intent(in) :: change(:)            !! shape (points)
+      real(sp), intent(in) :: change(:)            !! changes of the pressure over `unit`, shape (points)
       real(sp), intent(in) :: contact(:)           !! 1 at free points, 0 at others, shape (points)
-      logical(c_bool), intent(in) :: at_bound(:)   !! of the other points: whether at the upper bound, shape (points)
-      real(dp), intent(in) :: scale
-      real(dp), intent(in) :: bound                !! of the pressure, > 0
-      real(dp), intent(inout) :: pressure(:, :)    !! shape (M, N)
+      !> Whether the pressure becomes the upper bound at a point that is not free, shape (points).
+      logical(c_bool), intent(in) :: at_bound(:)
+      real(dp), intent(in) :: unit                 !! unit of the changes
+      real(dp), intent(in) :: bound                !! upper bound of the pressure, > 0
+      real(dp), intent(inout) :: pressure(:, :)    !! shape (M, slab%columns())
 
       integer :: i, k, r
 
@@ -221,18 +228,23 @@ contains
       do r = 1, self%chunk_run(self%chunks + 1) - 1
          associate (p => pressure(:, self%column(r)))
             do i = self%first(r), self%last(r)
-               k = self%place(r) + i - self%first(r)
-               p(i) = merge(min(bound, max(0.0_dp, p(i) + scale*change(k))), merge(bound, 0.0_dp, at_bound(k)), &
-                            contact(k) > 0.0_sp)
+               k = self%position(r) + i - self%first(r)
+               if (contact(k) > 0.0_sp) then
+                  p(i) = min(bound, max(0.0_dp, p(i) + unit*change(k)))
+               else
+                  p(i) = 0.0_dp
+                  if (at_bound(k)) p(i) = bound
+               end if
             end do
          end associate
       end do
    end subroutine correct
 
-   !> In columns with points of the region, sets the field to zero at the other points.
+   !> Sets a field to zero outside the region, but only in columns that have points of the region. The other columns do
+   !> not change: transforms leave them out.
    pure subroutine clear_outside(self, field)
       class(contact_region), intent(in) :: self
-      real(sp), intent(inout) :: field(:, :)   !! shape (M, N)
+      real(sp), intent(inout) :: field(:, :)   !! shape (M, slab%columns())
 
       integer :: column, last, r
 
@@ -250,14 +262,15 @@ contains
       if (column > 0) field(last + 1:, column) = 0.0_sp
    end subroutine clear_outside
 
-   !> Adds to a field at each point the sum over its four neighbours, in 1-D its two.
+   !> Adds to the value at each point the values at its four neighbours, in 1-D at its two. Applied to a field that is
+   !> positive in a region and zero elsewhere it widens the region by one step.
    subroutine add_neighbours(slab, even, field)
-      type(grid_slab), intent(in) :: slab
-      logical, intent(in) :: even              !! whether mirror images continue the grid, or periods
-      real(sp), intent(inout) :: field(:, :)   !! own columns, shape (M, slab%columns())
+      type(grid_slab), intent(in) :: slab      !! columns of the grid that this process has
+      logical, intent(in) :: even              !! whether the grid continues by mirror images, otherwise periodically
+      real(sp), intent(inout) :: field(:, :)   !! shape (M, slab%columns())
 
       real(sp), dimension(size(field, 1), 1) :: high, low
-      real(sp) :: beside(size(field, 1)), here(0:size(field, 1) + 1)
+      real(sp) :: beside(size(field, 1)), here(0:size(field, 1) + 1)   ! both columns beside the present one; this one
       integer :: j, m
 
       m = size(field, 1)
@@ -267,8 +280,8 @@ contains
       beside = low(:, 1)
       do j = 1, size(field, 2)
          here(1:m) = field(:, j)
-         here(0) = merge(here(1), here(m), even)
-         here(m + 1) = merge(here(m), here(1), even)
+         here(0) = here(image_of_point(0, m, even))
+         here(m + 1) = here(image_of_point(m + 1, m, even))
          if (j < size(field, 2)) then
             beside = beside + field(:, j + 1)
          else

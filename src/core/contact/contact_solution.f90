@@ -1,7 +1,8 @@
-!> The solution at one load: the record of its numbers, and the source of its fields, edge of contact and stresses.
+!> The solution at one load: a record of numbers, and a source from which fields, edge of contact and stresses are
+!> computed when they are asked for.
 !>
-!> Callers use a solution without regard to its solver. Positions of fields and edges are the angles X, Y of the
-!> surface's cell.
+!> Callers use a solution without regard to the solver that made it. Positions of fields and edges are the angles X, Y
+!> of the surface's cell. Ranks are the processes of the parallel program.
 module wavycon_contact_solution
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
@@ -24,13 +25,13 @@ module wavycon_contact_solution
 
    public :: contact_solution
 
-   !> Error of the stresses under a series that is known exactly, over the peak pressure.
+   !> Error of the stresses below a pressure whose Fourier series is known exactly, relative to the peak pressure.
    real(dp), parameter :: rounding = 1e-14_dp
 
    type, extends(solution_record) :: contact_solution
-      !> The source of a partial contact. Not allocated if the solver was started without keep_fields, if another rank
-      !> has solved the load or has the collected fields, or if there is no solution. Full contact and no load need
-      !> none.
+      !> The source of a partial contact. It is not allocated if the solver was started without keep_fields, if another
+      !> rank has solved the load or has the collected fields, if there is no solution, in full contact and without
+      !> load. The last two need no source.
       class(field_source), allocatable :: source
    contains
       procedure :: move_to
@@ -52,33 +53,34 @@ module wavycon_contact_solution
 
 contains
 
-   !> Moves a solution without a copy of its fields.
+   !> Moves a solution to another variable without copying its fields.
    subroutine move_to(self, to)
-      class(contact_solution), intent(inout) :: self   !! without a source afterwards
+      class(contact_solution), intent(inout) :: self   !! has no source afterwards
       type(contact_solution), intent(inout) :: to
 
       to%solution_record = self%solution_record
       call move_alloc(self%source, to%source)
    end subroutine move_to
 
-   !> Whether the numbers are as accurate as requested.
+   !> Whether the status says that the solution is what was requested (`is_good_status`).
    pure logical function is_good(self)
       class(contact_solution), intent(in) :: self
 
       is_good = is_good_status(self%status)
    end function is_good
 
-   !> Whether there are numbers with their error estimates, if not as accurate as requested; of a solution with fields.
+   !> Whether the record has numbers of a solution, be they as accurate as requested or not. A solution that is not good
+   !> has them if it has a source.
    pure logical function has_numbers(self)
       class(contact_solution), intent(in) :: self
 
       has_numbers = self%is_good() .or. allocated(self%source)
    end function has_numbers
 
-   !> Pressure, displacement and gap. NaN for a partial contact without a source.
+   !> Pressure, displacement and gap. They are NaN for a partial contact without a source.
    subroutine fields(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface             !! that was solved
+      type(surface_type), intent(in) :: surface             !! the surface that was solved
       class(contact_fields), allocatable, intent(out) :: answer
 
       type(series_fields), allocatable :: own
@@ -92,13 +94,13 @@ contains
       end if
    end subroutine fields
 
-   !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. There are no curves for full
-   !> contact, for no load, and without a source.
+   !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. There are no curves in full contact,
+   !> without load, and without a source.
    subroutine contact_contours(self, surface, curves, loads)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface             !! that was solved
+      type(surface_type), intent(in) :: surface             !! the surface that was solved
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      !> The part of the load that each spot carries, by the numbers of the spots; of size 0 if not known.
+      !> The part of the load that each spot carries, in the order of the spots' numbers; size 0 if it is not known.
       real(dp), allocatable, intent(out), optional :: loads(:)
 
       real(dp), allocatable :: loads_of_spots(:)
@@ -111,11 +113,11 @@ contains
       if (present(loads)) call move_alloc(loads_of_spots, loads)
    end subroutine contact_contours
 
-   !> The stresses below the surface: of full contact to rounding, zero without load. They do not exist for a partial
-   !> contact without a source.
+   !> The stresses below the surface. They are exact but for rounding in full contact, and zero without load. They do
+   !> not exist for a partial contact without a source.
    subroutine stresses(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface             !! that was solved
+      type(surface_type), intent(in) :: surface             !! the surface that was solved
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fourier_series) :: pressure
@@ -134,11 +136,11 @@ contains
       end if
    end subroutine stresses
 
-   !> The spots of contact and the pools of gap; for a mirrored height map those of the map. Not allocated for a
-   !> partial contact without a source.
+   !> The spots, which are regions of contact, and the pools, which are regions of open gap; of a mirrored height map
+   !> those of the map. The arrays of `answer` are not allocated for a partial contact without a source.
    subroutine spots(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface      !! that was solved
+      type(surface_type), intent(in) :: surface      !! the surface that was solved
       type(contact_spots), intent(out) :: answer
 
       type(contact_contour), allocatable :: curves(:)
@@ -155,11 +157,11 @@ contains
       end if
    end subroutine spots
 
-   !> p/p* as the Fourier series in X and Y that the solver computed; series%c is not allocated if it computed none.
-   !> Without a source that of full contact, otherwise zeros.
+   !> The Fourier series of p/p* in X and Y, if the solver computes one; otherwise series%c is not allocated. Full
+   !> contact has its own series, and without a source all coefficients are zero.
    subroutine coefficients(self, surface, series)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface      !! that was solved
+      type(surface_type), intent(in) :: surface      !! the surface that was solved
       type(fourier_series), intent(out) :: series
 
       if (allocated(self%source)) then
@@ -171,8 +173,8 @@ contains
       end if
    end subroutine coefficients
 
-   !> The quantities with those that are only computed when they are asked for. Without a source, which has the
-   !> energy, that is unknown.
+   !> The quantities of the record and those that are only computed when they are asked for. Without a source the
+   !> elastic energy is unknown.
    subroutine details(self, answer)
       class(contact_solution), intent(in) :: self
       type(quantities), intent(out) :: answer
@@ -186,11 +188,11 @@ contains
       end if
    end subroutine details
 
-   !> How the solution changes with the load. In full contact the gap stays closed; without load and for a partial
-   !> contact without a source nothing is known.
+   !> Derivatives of mean gap and area with respect to the load. In full contact both slopes are zero, because the gap
+   !> stays closed. Without load, and for a partial contact without a source, all derivatives are unknown.
    subroutine derivatives(self, surface, answer)
       class(contact_solution), intent(in) :: self
-      type(surface_type), intent(in) :: surface      !! that was solved
+      type(surface_type), intent(in) :: surface      !! the surface that was solved
       type(quantities), intent(out) :: answer
 
       if (allocated(self%source)) then
@@ -201,7 +203,7 @@ contains
       end if
    end subroutine derivatives
 
-   !> The points of the grid if its columns are distributed over the ranks, otherwise 0.
+   !> The number of points of the grid if its columns are distributed over the ranks, otherwise 0.
    pure integer(int64) function distributed_points(self)
       class(contact_solution), intent(in) :: self
 
@@ -209,8 +211,8 @@ contains
       if (allocated(self%source)) distributed_points = self%source%distributed_points
    end function distributed_points
 
-   !> Gathers fields whose columns are distributed over the ranks on rank 0; the others then have none. All ranks call
-   !> it.
+   !> Gathers fields that are distributed over the ranks on rank 0; the other ranks have no source afterwards. All ranks
+   !> call this procedure.
    subroutine collect_fields(self)
       class(contact_solution), intent(inout) :: self
 
@@ -221,18 +223,19 @@ contains
       if (.not. is_here) deallocate (self%source)
    end subroutine collect_fields
 
-   !> Whether a solution is written to checkpoints: those on grids may take minutes, those of other solvers take
-   !> seconds. A load that lacked memory or was interrupted is solved again.
+   !> Whether a solution is written to checkpoints. Solutions on grids are, because they may take minutes; those of
+   !> other solvers take seconds and are computed again. A load that lacked memory or was interrupted is solved again
+   !> too.
    pure logical function is_kept(self)
       class(contact_solution), intent(in) :: self
 
       is_kept = self%solver == by_grids .and. .not. any(self%status == [interrupted, no_memory])
    end function is_kept
 
-   !> What a checkpoint keeps, as 8-byte words, so that a resumed run need not compute the solution again: the record
-   !> and, if there is a source of fields, the numbers of that.
+   !> Packs a solution into 8-byte words for a checkpoint, so that a resumed run need not compute the solution again:
+   !> the record, and the numbers of the source if there is one.
    subroutine pack_solution(self, words)
-      class(contact_solution), intent(in) :: self            !! is_kept() is true
+      class(contact_solution), intent(in) :: self            !! a solution with is_kept() = .true.
       integer(int64), allocatable, intent(out) :: words(:)   !! not allocated if there is not enough memory
 
       real(dp), allocatable :: values(:)
@@ -247,13 +250,14 @@ contains
       if (allocated(values)) words = [transfer(self%solution_record, [0_int64]), transfer(values, [0_int64])]
    end subroutine pack_solution
 
-   !> Restores what pack_solution made. A grid that is distributed is restored by the words of all ranks that had
-   !> columns of it: called for one after the other, in any order.
+   !> Restores a solution from the words of pack_solution. The words of a distributed grid come from several ranks, each
+   !> with some of the columns. So the procedure is called for the words of one rank after the other, in any order,
+   !> until `complete` is true.
    subroutine unpack_solution(self, words, whole, complete)
-      class(contact_solution), intent(inout) :: self     !! without a source at first
-      integer(int64), intent(in) :: words(:)             !! that the same version has packed for the same surface
-      logical, intent(in) :: whole                       !! whether all columns of a distributed grid are needed
-      logical, intent(out) :: complete                   !! whether nothing is missing any more
+      class(contact_solution), intent(inout) :: self     !! before the first call it has no source
+      integer(int64), intent(in) :: words(:)             !! packed by the same version of the program, same surface
+      logical, intent(in) :: whole                       !! whether this rank needs all columns of a distributed grid
+      logical, intent(out) :: complete                   !! whether all columns that this rank needs have been found
 
       self%solution_record = transfer(words(:record_words), self%solution_record)
       complete = size(words) == record_words

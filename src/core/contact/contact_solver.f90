@@ -15,36 +15,38 @@ module wavycon_contact_solver
 
    public :: contact_solver, solver_traits
 
-   !> Accuracy of the solvers that have one, unless another is asked for.
+   !> Accuracy of the solvers that have an accuracy, unless another one is requested.
    real(dp), parameter, public :: default_accuracy = 1e-3_dp
 
-   !> Properties of a solver and its solutions that need no load. Grids and levels are zero before the solver is
-   !> started.
+   !> Properties of a solver and its solutions that do not depend on the load. Grids and levels are zero before the
+   !> solver is started.
    type :: solver_traits
-      integer :: solver = no_solver            !! of its solutions without numbers
-      logical :: has_errors = .true.           !! whether the measures of its solutions have error estimates
-      logical :: has_coefficients = .false.    !! whether every solution has `coefficients`, those of a Fourier series
+      integer :: solver = no_solver            !! solver that the record of a failed load names
+      logical :: has_errors = .true.           !! whether the measures of the solutions have error estimates
+      logical :: has_coefficients = .false.    !! whether every solution has `coefficients` of a Fourier series
       logical :: has_details = .false.         !! whether every partial contact has `details`
-      !> Whether a solution depends, if only in its last digits, on the load solved before.
+      !> Whether a solution depends, if only in its last digits, on the load that was solved before.
       logical :: continues_last_load = .false.
-      !> Levels of lower accuracy at which loads are solved faster; a search for a load begins at the coarsest.
+      !> Number of levels of lower accuracy, at which loads are solved faster; a search for a load begins at the
+      !> coarsest.
       integer :: coarser_levels = 0
-      !> Points along x and y, of the part of the cell that is solved, of the finest grid that may be solved, and of the
-      !> one grid that was given; zeros without.
+      !> Points along x and y, on the part of the cell that is solved: of the finest grid that may be solved, and of the
+      !> one grid whose points were given; zeros if there is no such grid.
       integer :: finest_grid(2) = 0, given_grid(2) = 0
       logical :: needs_whole_grids = .false.   !! whether no grid can be distributed over processes
-      integer :: choice = 0                    !! why 'auto' took its solvers, a name of wavycon_auto_contact
+      integer :: choice = 0                    !! reason of the choice of 'auto', a name of wavycon_auto_contact
    end type solver_traits
 
-   !> A solver of one surface. Some solvers start each load from the solution of the last one: solve the loads from the
-   !> highest to the lowest. Of the procedures below the deferred ones must be written; the others have defaults.
+   !> A solver of one surface. Some solvers start each load from the solution of the last one, so that the loads should
+   !> be solved from the highest to the lowest. An extension must write the deferred procedures; the others have
+   !> defaults.
    type, abstract :: contact_solver
       type(surface_type) :: surface
-      logical :: is_started = .false.   !! on a surface that it can solve
-      !> The level at which the next loads are solved: 0, the accuracy requested, to traits%coarser_levels, the
+      logical :: is_started = .false.   !! whether the solver was started on a surface that it can solve
+      !> The level at which the next loads are solved, from 0, the accuracy requested, to traits%coarser_levels, the
       !> coarsest.
       integer :: level = 0
-      class(solver_progress), pointer :: progress => null()   !! called within each load, if associated
+      class(solver_progress), pointer :: progress => null()   !! if associated, its procedures are called within a load
    contains
       procedure :: solve
       procedure(solve_load), deferred :: solve_partial_contact
@@ -56,15 +58,15 @@ module wavycon_contact_solver
 
    abstract interface
       !> `solve_partial_contact`: solves one load between no load and full contact and measures the solution. With a
-      !> hardness P may exceed 1, where the pressure of full contact would exceed H.
+      !> hardness P may exceed 1 if the peak pressure of full contact would exceed H.
       subroutine solve_load(self, pbar_over_pstar, solution)
          import :: contact_solution, contact_solver, dp
          class(contact_solver), intent(inout) :: self
-         real(dp), intent(in) :: pbar_over_pstar     !! 0 < P < 1, or 0 < P < H
-         type(contact_solution), intent(out) :: solution   !! with a status
+         real(dp), intent(in) :: pbar_over_pstar           !! 0 < P < H; P < 1 unless free edges or a hardness
+         type(contact_solution), intent(out) :: solution   !! its status is set
       end subroutine solve_load
 
-      !> `traits`: what is known without a load.
+      !> `traits`: the properties of the solver that do not depend on the load.
       function traits_of_solver(self) result(traits)
          import :: contact_solver, solver_traits
          class(contact_solver), intent(in) :: self
@@ -74,14 +76,14 @@ module wavycon_contact_solver
 
 contains
 
-   !> Solves one load and measures the solution. Some loads need no solver: there is no load for P <= 0; contact is full
-   !> for P >= 1 unless the surface has free edges or the largest pressure, P + full_contact_peak, exceeds the hardness
-   !> H; there is no solution for P >= H and for NaN. The status is not_found if the solver was not started on a surface
-   !> that it can solve, interrupted if self%progress asks it to stop.
+   !> Solves one load and measures the solution. Some loads need no solver. For P <= 0 there is no load. For P >= 1 the
+   !> contact is full, unless the surface has free edges or the largest pressure, P + full_contact_peak, exceeds the
+   !> hardness H. For P >= H and for NaN there is no solution. The status is not_found if the solver was not started on
+   !> a surface that it can solve, and interrupted if self%progress asks the solver to stop.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar             !! P; the status is not_finite if it is no number
-      type(contact_solution), intent(out) :: solution     !! with a status
+      real(dp), intent(in) :: pbar_over_pstar             !! P, any number; the status is not_finite for NaN
+      type(contact_solution), intent(out) :: solution     !! its status is set
 
       logical :: shall_stop
       type(solver_traits) :: traits
@@ -89,7 +91,7 @@ contains
       traits = self%traits()
       solution%pbar_over_pstar = pbar_over_pstar
       associate (surface => self%surface)
-         ! Comparisons with a NaN raise an exception, which Debug builds trap.
+         ! NaN is excluded first: a comparison with NaN raises an exception, at which Debug builds stop.
          if (.not. self%is_started) then
             solution%solution_record = no_solution(pbar_over_pstar, traits%solver, not_found)
          else if (ieee_is_nan(pbar_over_pstar)) then
@@ -118,24 +120,25 @@ contains
       end associate
    end subroutine solve
 
-   !> Forgets the last solution: the next load starts as the first one does.
+   !> Forgets the last solution, so that the next load starts as the first one does. By default there is nothing to
+   !> forget.
    subroutine forget_last_load(self)
       class(contact_solver), intent(inout) :: self
 
       associate (unused => self); end associate
    end subroutine forget_last_load
 
-   !> Begins or ends a search: its loads are near one another, and each may start from the last one. Nothing of them is
-   !> left afterwards.
+   !> Begins or ends a search for a load. Loads within a search differ little, and each may start from the last
+   !> one. The end of a search deletes these starts. By default nothing is done.
    subroutine set_search(self, begins)
       class(contact_solver), intent(inout) :: self
-      logical, intent(in) :: begins
+      logical, intent(in) :: begins                  !! whether a search begins; otherwise it ends
 
       associate (unused => self, unused_too => begins); end associate
    end subroutine set_search
 
-   !> Sets the state that the solver would have after solving a load. Called for loads whose solutions were read from
-   !> the checkpoint of an interrupted run.
+   !> Brings the solver into the state that it would have after solving a load. This is called for loads whose solutions
+   !> were read from the checkpoint of an interrupted run. By default a solver has no such state.
    subroutine skip_load(self, pbar_over_pstar)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar        !! P

@@ -1,8 +1,10 @@
-!> Pressure, gap and contact of a correction at the points of a region: the approach (C3), the points that enter (C8)
-!> and the residual (C9), by the sums (C8c). Numbers (C..) are the equations of README.md in this directory.
+!> State of a correction of the pressure (`pressure_correction`): pressure, gap and contact at the points of a region.
+!> The procedures compute the approach (C3), the points that enter the contact (C8) and the residual (C9), from the
+!> sums (C8c). Numbers (C..) are the equations of README.md in this directory.
 !>
-!> Vectors have the points of the own columns. A pass over them goes chunk by chunk (`contact_region`) and computes all
-!> its sums; one message then adds those of all slabs.
+!> Vectors have the points of the columns that this process has. A pass over vectors goes chunk by chunk
+!> (`contact_region`) and computes several sums over each chunk. If the grid is distributed, one message then adds the
+!> sums of all processes.
 module wavycon_correction_state
    use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_assertion, only: assert, assertions_stop
@@ -18,23 +20,25 @@ module wavycon_correction_state
 
    public :: correction_state
 
-   !> All vectors have the shape (region%points) and are over `scale`; pressures are in p*, gaps in Delta.
+   !> All vectors have the shape (region%points). Their pressures [p*] and gaps [Delta] are divided by `scale`, so that
+   !> the numbers in single precision are of the order of one. Free points have 0 < p < H; they are the set K of (C3).
    type :: correction_state
-      type(grid_slab) :: slab
-      type(contact_region) :: region
-      real(dp) :: scale = 1.0_dp                  !! the residual at the start
-      real(dp) :: residual = huge(1.0_dp)         !! as `solve_on_grid`'s, times G
-      real(dp) :: contact_points = 0.0_dp
-      real(dp) :: entered_points = 0.0_dp         !! since the last direction: they have p = 0 or p = H
-      logical, allocatable :: has_entered(:)      !! whether some of these are in a chunk, shape (region%chunks)
-      real(sp) :: approach = 0.0_sp               !! what is to be subtracted from `gap`
-      real(sp) :: allowance = huge(1.0_sp)        !! the least overlap of points that enter
-      real(sp), allocatable :: start_pressure(:)
-      real(sp), allocatable :: room(:)            !! H - p of the start; not allocated without a hardness
-      real(sp), allocatable :: change(:)          !! of the pressure since the start
-      real(sp), allocatable :: gap(:)
+      type(grid_slab) :: slab                     !! slab of the grid that this process has
+      type(contact_region) :: region              !! points whose pressure may change
+      real(dp) :: scale = 1.0_dp                  !! residual at the start [Delta], the unit of the vectors
+      real(dp) :: residual = huge(1.0_dp)         !! present residual times G [Delta], (C9)
+      real(dp) :: contact_points = 0.0_dp         !! number of free points
+      !> Number of points that became free since the last direction; their pressure is still at its bound, 0 or H.
+      real(dp) :: entered_points = 0.0_dp
+      logical, allocatable :: has_entered(:)      !! whether a chunk has points that became free, shape (region%chunks)
+      real(sp) :: approach = 0.0_sp               !! change of the approach, which is still to be subtracted from `gap`
+      real(sp) :: allowance = huge(1.0_sp)        !! points with a smaller overlap than this do not enter (C8)
+      real(sp), allocatable :: start_pressure(:)  !! pressure p at the start
+      real(sp), allocatable :: below_hardness(:)  !! H - p at the start; not allocated without a hardness
+      real(sp), allocatable :: change(:)          !! change of the pressure since the start
+      real(sp), allocatable :: gap(:)             !! gap before `approach` is subtracted
       real(sp), allocatable :: contact(:)         !! 1 at free points, 0 at those with p = 0 or p = H
-      logical :: contact_is_new = .true.          !! whether it has changed since the preconditioner took it over
+      logical :: contact_is_new = .true.          !! whether `contact` changed since the preconditioner last copied it
    contains
       procedure :: start
       procedure :: put_residual
@@ -49,10 +53,14 @@ module wavycon_correction_state
 
 contains
 
+   !> Starts a correction: makes the region, gathers pressure and gap, and computes approach and residual. No point
+   !> enters the contact, because `allowance` is still infinite.
    subroutine start(self, grid, inside)
       class(correction_state), intent(out) :: self
-      type(grid_state), intent(in) :: grid      !! with pressure, gap and residual > 0; p is 0 or H outside the region
-      real(sp), intent(in) :: inside(:, :)      !! > 0 at the points in and near the contact, shape of the pressure
+      !> Pressure, gap, and residual [Delta] > 0, all computed for the same pressure, which is 0 or H outside the
+      !> region.
+      type(grid_state), intent(in) :: grid
+      real(sp), intent(in) :: inside(:, :)      !! > 0 at the points of the region, shape of the pressure
 
       call assert(grid%residual > 0.0_dp .and. grid%residual < huge(1.0_dp), 'the residual is positive and finite')
       if (assertions_stop) then
@@ -70,18 +78,18 @@ contains
       call self%region%gather_scaled(grid%gap, self%scale, self%gap)
       self%contact = merge(1.0_sp, 0.0_sp, self%start_pressure > 0.0_sp)
       if (grid%hardness < huge(grid%hardness)) then
-         allocate (self%room, mold=self%gap)
+         allocate (self%below_hardness, mold=self%gap)
          ! The difference loses no digits where the pressure is close to H.
-         call self%region%gather_scaled(grid%hardness - grid%pressure, self%scale, self%room)
-         self%contact = merge(self%contact, 0.0_sp, self%room > 0.0_sp)
+         call self%region%gather_scaled(grid%hardness - grid%pressure, self%scale, self%below_hardness)
+         where (self%below_hardness <= 0.0_sp) self%contact = 0.0_sp
       end if
       call self%update_contact(self%mean_gap())
    end subroutine start
 
-   !> Writes the residual r, the gap at free points and zero at others, to the points of the region.
+   !> Writes the residual r of (C3) to the points of the region: the gap at free points, zero at others.
    subroutine put_residual(self, field)
       class(correction_state), intent(in) :: self
-      real(sp), intent(inout) :: field(:, :)   !! shape (M, slab%columns())
+      real(sp), intent(inout) :: field(:, :)   !! does not change outside the region, shape (M, slab%columns())
 
       real(sp) :: r(longest_chunk)
       integer :: c
@@ -95,74 +103,80 @@ contains
       end do
    end subroutine put_residual
 
-   !> Excludes from the free points those that have just entered and that z would move beyond their bound (C4d).
+   !> Excludes blocked points from the free ones (C4d): points that have just entered, whose pressure is still at its
+   !> bound, and that a step along z would move beyond the bound. The approach then changes, because (C3) is a mean over
+   !> the free points. The pressure falls where z exceeds its mean over the free points.
    subroutine exclude_blocked(self, field, blocked)
       class(correction_state), intent(inout) :: self
       real(sp), intent(in), contiguous :: field(:, :)   !! z, shape (M, slab%columns())
-      real(dp), intent(out) :: blocked                  !! how many points are excluded
+      real(dp), intent(out) :: blocked                  !! number of the points that are excluded
 
       real(dp) :: sums(2)
-      real(dp), allocatable :: parts(:, :)
+      real(dp), allocatable :: chunk_sums(:, :)
       real(sp) :: mean
       real(sp), dimension(longest_chunk) :: excluded, gap, z
       integer :: c, n
 
       blocked = 0.0_dp
       if (self%entered_points <= 0.0_dp) return
-      allocate (parts(size(sums), self%region%chunks), source=0.0_dp)
+      allocate (chunk_sums(size(sums), self%region%chunks), source=0.0_dp)
       !$omp parallel do num_threads(self%region%threads) private(n, z)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
             n = b - a + 1
             call self%region%take_chunk(c, field, z)
-            parts(1, c) = sdot(n, self%contact(a:b), 1, z, 1)
+            chunk_sums(1, c) = sdot(n, self%contact(a:b), 1, z, 1)
          end associate
       end do
-      sums = self%totals(parts)
+      sums = self%totals(chunk_sums)
       mean = real(sums(1)/max(self%contact_points, 1.0_dp), sp)
       !$omp parallel do num_threads(self%region%threads) private(excluded, gap, n, z)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1, contact => self%contact)
-            parts(:, c) = 0.0_dp
+            chunk_sums(:, c) = 0.0_dp
             if (.not. self%has_entered(c)) cycle
             n = b - a + 1
             call self%region%take_chunk(c, field, z)
-            excluded(:n) = merge(contact(a:b), 0.0_sp, z(:n) > mean .and. self%change(a:b) <= -self%start_pressure(a:b))
-            if (allocated(self%room)) &
-               excluded(:n) = merge(contact(a:b), excluded(:n), z(:n) < mean .and. self%room(a:b) <= self%change(a:b))
+            excluded(:n) = 0.0_sp
+            where (z(:n) > mean .and. self%change(a:b) <= -self%start_pressure(a:b)) excluded(:n) = contact(a:b)
+            if (allocated(self%below_hardness)) then
+               where (z(:n) < mean .and. self%below_hardness(a:b) <= self%change(a:b)) excluded(:n) = contact(a:b)
+            end if
             contact(a:b) = contact(a:b) - excluded(:n)
             gap(:n) = self%gap(a:b) - self%approach
-            parts(:, c) = [sdot(n, excluded, 1, excluded, 1), -sdot(n, excluded, 1, gap, 1)]
+            chunk_sums(:, c) = [sdot(n, excluded, 1, excluded, 1), -sdot(n, excluded, 1, gap, 1)]
          end associate
       end do
-      sums = self%totals(parts)
+      sums = self%totals(chunk_sums)
       blocked = sums(1)
       self%contact_is_new = self%contact_is_new .or. blocked > 0.0_dp
       self%contact_points = self%contact_points - blocked
       self%approach = self%approach + real(sums(2)/max(self%contact_points, 1.0_dp), sp)
    end subroutine exclude_blocked
 
-   !> Replaces a pressure by its displacement, at the points of the region.
+   !> Replaces a pressure by its displacement S p. Pressures outside the region are taken as zero, and the displacement
+   !> is computed in the columns of the region only.
    subroutine displace(self, half_space, field)
       class(correction_state), intent(in) :: self
-      type(compliance_operator), intent(inout) :: half_space
-      real(sp), intent(inout), contiguous :: field(:, :)   !! pressure, then displacement, shape (M, slab%columns())
+      type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
+      !> On entry the pressure, on return the displacement, shape (M, slab%columns()).
+      real(sp), intent(inout), contiguous :: field(:, :)
 
       call self%region%clear_outside(field)
       call half_space%displacement(field, self%region%columns, self%region%columns)
    end subroutine displace
 
-   !> The mean of the gap over the free points, after a displacement is added to the gap.
+   !> Adds a displacement, if one is given, to the gap, and returns the mean of the gap over the free points.
    real(sp) function mean_gap(self, displacement)
       class(correction_state), intent(inout) :: self
       real(sp), intent(in), optional :: displacement(:, :)   !! shape (M, slab%columns())
 
       real(dp) :: sums(2)
-      real(dp), allocatable :: parts(:, :)
+      real(dp), allocatable :: chunk_sums(:, :)
       real(sp) :: added(longest_chunk)
       integer :: c, n
 
-      allocate (parts(size(sums), self%region%chunks))
+      allocate (chunk_sums(size(sums), self%region%chunks))
       !$omp parallel do num_threads(self%region%threads) private(added, n)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1, contact => self%contact)
@@ -171,29 +185,30 @@ contains
                call self%region%take_chunk(c, displacement, added)
                self%gap(a:b) = self%gap(a:b) + added(:n)
             end if
-            parts(:, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, self%gap(a:b), 1)]
+            chunk_sums(:, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, self%gap(a:b), 1)]
          end associate
       end do
-      sums = self%totals(parts)
+      sums = self%totals(chunk_sums)
       mean_gap = real(sums(2)/max(sums(1), 1.0_dp), sp)
    end function mean_gap
 
-   !> Takes a step, if one is given, that takes no point to a bound. Then adds to the free points those that overlap
-   !> (C8), changes the approach so that the mean gap over the free points is zero (C3), and computes the residual (C9)
-   !> times G: by the sums (C8c).
+   !> Updates the contact after a step, in one pass over the points and with one message. Points that overlap become
+   !> free (C8). The approach becomes that whose mean gap over the free points is zero (C3). The residual (C9) times G
+   !> follows from the sums (C8c). If a step is given, the pass also takes the step; no point may then reach a bound.
    subroutine update_contact(self, mean, step, direction, image)
       class(correction_state), intent(inout) :: self
-      real(sp), intent(in) :: mean                      !! of the gap over the free points, after the step
-      real(sp), intent(in), optional :: step            !! what is subtracted is this times
-      real(sp), intent(in), optional :: direction(:)    !! of the pressure, shape (region%points), and
-      real(sp), intent(in), optional :: image(:, :)     !! its displacement, shape (M, slab%columns())
+      real(sp), intent(in) :: mean                      !! mean gap over the free points after the step, m of (C8c)
+      real(sp), intent(in), optional :: step            !! tau of (C6): step*direction is subtracted from the pressure
+      real(sp), intent(in), optional :: direction(:)    !! d, direction of the pressure, shape (region%points)
+      real(sp), intent(in), optional :: image(:, :)     !! S d, displacement of `direction`, shape (M, slab%columns())
 
       real(dp) :: shift, sums(5)
-      real(dp), allocatable :: parts(:, :)
+      real(dp), allocatable :: chunk_sums(:, :)
+      ! The new set of free points, those that become free, the gap less its mean, and the overlap at other points.
       real(sp), dimension(longest_chunk) :: contact, enter, gap, outside
       integer :: c, n
 
-      allocate (parts(size(sums), self%region%chunks))
+      allocate (chunk_sums(size(sums), self%region%chunks))
       !$omp parallel do num_threads(self%region%threads) private(contact, enter, gap, n, outside)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
@@ -205,35 +220,38 @@ contains
             end if
             gap(:n) = self%gap(a:b) - mean
             outside(:n) = gap(:n)
-            if (allocated(self%room)) outside(:n) = merge(-gap(:n), gap(:n), self%room(a:b) <= self%change(a:b))
+            if (allocated(self%below_hardness)) then
+               ! At the hardness the condition on the gap has the other sign (C21).
+               where (self%below_hardness(a:b) <= self%change(a:b)) outside(:n) = -gap(:n)
+            end if
             enter(:n) = merge(1.0_sp - self%contact(a:b), 0.0_sp, outside(:n) < -self%allowance)
             contact(:n) = self%contact(a:b) + enter(:n)
             outside(:n) = (1.0_sp - contact(:n))*min(outside(:n), 0.0_sp)
             gap(:n) = contact(:n)*gap(:n)
-            parts(:, c) = [sdot(n, contact, 1, contact, 1), sdot(n, contact, 1, gap, 1), sdot(n, gap, 1, gap, 1), &
-                           sdot(n, outside, 1, outside, 1), sdot(n, enter, 1, enter, 1)]
-            if (parts(5, c) > 0.0_dp) self%contact(a:b) = contact(:n)
+            chunk_sums(:, c) = [sdot(n, contact, 1, contact, 1), sdot(n, contact, 1, gap, 1), &
+                                sdot(n, gap, 1, gap, 1), sdot(n, outside, 1, outside, 1), sdot(n, enter, 1, enter, 1)]
+            if (chunk_sums(5, c) > 0.0_dp) self%contact(a:b) = contact(:n)
          end associate
       end do
-      self%has_entered = parts(5, :) > 0.0_dp
-      sums = self%totals(parts)
+      self%has_entered = chunk_sums(5, :) > 0.0_dp
+      sums = self%totals(chunk_sums)
       self%contact_points = sums(1)
       self%entered_points = sums(5)
       self%contact_is_new = self%contact_is_new .or. sums(5) > 0.0_dp
-      ! Without free points the approach stays: the next step finds it from all points.
+      ! Without free points the shift is zero. The next step of `solve_on_grid` computes the approach from all points.
       shift = sums(2)/max(sums(1), 1.0_dp)
       self%approach = real(mean + shift, sp)
       self%residual = self%scale*sqrt(max(sums(3) - sums(1)*shift**2 + sums(4), 0.0_dp) &
                                       /product(real(self%slab%points, dp)))
    end subroutine update_contact
 
-   !> Sums over the grid from those of the chunks.
-   function totals(self, parts)
+   !> Adds sums over chunks to sums over the grid. If the grid is distributed this takes one message.
+   function totals(self, chunk_sums)
       class(correction_state), intent(in) :: self
-      real(dp), intent(in) :: parts(:, :)    !! shape (any, region%chunks)
-      real(dp) :: totals(size(parts, 1))
+      real(dp), intent(in) :: chunk_sums(:, :)    !! shape (number of different sums, region%chunks)
+      real(dp) :: totals(size(chunk_sums, 1))
 
-      totals = self%slab%strip_totals(self%region%strip_sums(parts))
+      totals = self%slab%strip_totals(self%region%strip_sums(chunk_sums))
    end function totals
 
    !> The sum of a vector over the grid.
@@ -241,26 +259,27 @@ contains
       class(correction_state), intent(in) :: self
       real(dp), intent(in) :: vector(:)      !! shape (region%points)
 
-      real(dp) :: parts(1, self%region%chunks), total(1)
+      real(dp) :: chunk_sums(1, self%region%chunks), total(1)
       integer :: c
 
       do c = 1, self%region%chunks
-         parts(1, c) = sum(vector(self%region%chunk(c):self%region%chunk(c + 1) - 1))
+         chunk_sums(1, c) = sum(vector(self%region%chunk(c):self%region%chunk(c + 1) - 1))
       end do
-      total = self%totals(parts)
+      total = self%totals(chunk_sums)
       sum_of = total(1)
    end function sum_of
 
-   !> Adds the change to the pressure of the grid and restores its mean.
+   !> Ends a correction: adds the change to the pressure of the grid, in double precision, and restores the pressure's
+   !> mean, which single precision has changed a little.
    subroutine add_to(self, grid)
       class(correction_state), intent(in) :: self
-      type(grid_state), intent(inout) :: grid   !! that of `start`
+      type(grid_state), intent(inout) :: grid   !! the grid of `start`, with the same pressure
 
       logical(c_bool), allocatable :: at_hardness(:)
       real(dp) :: load
 
       allocate (at_hardness(self%region%points), source=.false._c_bool)
-      if (allocated(self%room)) at_hardness = self%room <= self%change
+      if (allocated(self%below_hardness)) at_hardness = self%below_hardness <= self%change
       load = grid%slab%sum_of(grid%pressure)
       call self%region%correct(self%change, self%contact, at_hardness, self%scale, grid%hardness, grid%pressure)
       call set_load(grid%slab, grid%pressure, load, grid%hardness)

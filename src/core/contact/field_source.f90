@@ -1,5 +1,5 @@
-!> What a solver keeps of a partial contact so that fields, edge of contact and stresses can be made when they are asked
-!> for. Each solver extends `field_source`; callers use `contact_solution`, which has one.
+!> The data that a solver keeps of a partial contact, so that fields, edge of contact and stresses can be computed when
+!> they are asked for. Each solver extends `field_source`; callers use `contact_solution`, which contains one.
 !>
 !> Positions of fields and edges are the angles X, Y of the surface's cell.
 module wavycon_field_source
@@ -17,11 +17,11 @@ module wavycon_field_source
 
    public :: field_source
 
-   !> All that the procedures need besides the surface. Of the procedures the deferred ones must be written; the others
-   !> have defaults.
+   !> A source contains all that its procedures need besides the surface. An extension must write the deferred
+   !> procedures; the others have defaults.
    type, abstract :: field_source
-      type(solution_record) :: record    !! the numbers of the solution: `solve` of contact_solver sets it
-      !> of the grid if its columns are distributed over the ranks, otherwise 0
+      type(solution_record) :: record    !! the numbers of the solution; `solve` of contact_solver sets the record
+      !> Number of points of the grid if its columns are distributed over the ranks (processes), otherwise 0.
       integer(int64) :: distributed_points = 0
    contains
       procedure(fields_of_source), deferred :: fields
@@ -34,44 +34,45 @@ module wavycon_field_source
    end type field_source
 
    abstract interface
-      !> Pressure, displacement and gap.
+      !> `fields`: pressure, displacement and gap.
       subroutine fields_of_source(self, surface, answer)
          import :: contact_fields, field_source, surface_type
          class(field_source), intent(in) :: self
-         type(surface_type), intent(in) :: surface             !! that was solved
+         type(surface_type), intent(in) :: surface             !! the surface that was solved
          class(contact_fields), allocatable, intent(out) :: answer
       end subroutine fields_of_source
 
-      !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D.
+      !> `contact_contours`: the edge of contact, closed curves in 2-D, the two ends of each strip in 1-D.
       subroutine edge_of_source(self, surface, curves, loads)
          import :: dp, contact_contour, field_source, surface_type
          class(field_source), intent(in) :: self
-         type(surface_type), intent(in) :: surface             !! that was solved
+         type(surface_type), intent(in) :: surface             !! the surface that was solved
          type(contact_contour), allocatable, intent(out) :: curves(:)
-         !> What each spot carries of the load, by their numbers; of no size if that is not known.
+         !> The part of the load that each spot carries, in the order of the spots' numbers; size 0 if it is not known.
          real(dp), allocatable, intent(out) :: loads(:)
       end subroutine edge_of_source
 
-      !> The stresses below the surface.
+      !> `stresses`: the stresses below the surface.
       subroutine stresses_of_source(self, surface, answer)
          import :: field_source, stress_fields, surface_type
          class(field_source), intent(in) :: self
-         type(surface_type), intent(in) :: surface             !! that was solved
+         type(surface_type), intent(in) :: surface             !! the surface that was solved
          class(stress_fields), allocatable, intent(out) :: answer
       end subroutine stresses_of_source
 
-      !> How the solution changes with the load.
+      !> `derivatives`: derivatives of mean gap and area with respect to the load. All that is not set is unknown.
       subroutine slopes_of_source(self, surface, answer)
          import :: field_source, quantities, surface_type
          class(field_source), intent(in) :: self
-         type(surface_type), intent(in) :: surface             !! that was solved
-         type(quantities), intent(out) :: answer               !! where unknown NaN
+         type(surface_type), intent(in) :: surface             !! the surface that was solved
+         type(quantities), intent(out) :: answer               !! gap_slope, area_slope and gap_curvature
       end subroutine slopes_of_source
    end interface
 
 contains
 
-   !> p/p* as the Fourier series in X and Y that the solver computed; series%c is not allocated here: there is none.
+   !> The Fourier series of p/p* in X and Y that the solver computed. By default there is none, and series%c is not
+   !> allocated.
    subroutine coefficients(self, series)
       class(field_source), intent(in) :: self
       type(fourier_series), intent(out) :: series
@@ -79,18 +80,19 @@ contains
       associate (unused => self, none => series); end associate
    end subroutine coefficients
 
-   !> Adds the quantities that are only computed when they are asked for. Here there are none.
+   !> Adds quantities that are only computed when they are asked for. By default there are none.
    subroutine details(self, answer)
       class(field_source), intent(in) :: self
-      type(quantities), intent(inout) :: answer   !! with those of the record
+      type(quantities), intent(inout) :: answer   !! on entry the quantities of the record
 
       associate (unused => self, unchanged => answer); end associate
    end subroutine details
 
-   !> Brings what is distributed over the ranks to the first rank. All ranks call it. Here nothing is distributed.
+   !> Gathers data that are distributed over the ranks on the first rank. All ranks call this procedure. By default
+   !> nothing is distributed.
    subroutine collect(self, is_here)
       class(field_source), intent(inout) :: self
-      logical, intent(out) :: is_here                !! whether this rank has all of it afterwards
+      logical, intent(out) :: is_here                !! whether this rank has all the data afterwards
 
       associate (unused => self); end associate
       is_here = .true.

@@ -1,9 +1,10 @@
 !> Finds the load at which the contact area, the mean gap or the approach has a given value.
 !>
-!> Equation (C18) of README.md in this directory: with t the area or 1 - G, the secant method solves logit t(P) =
-!> logit t for logit P, where logit x = ln(x/(1 - x)). The two logits are nearly a straight line against each other.
-!> Gaps are compared as gaps, and logit t = -logit G: 1 - G would lose the digits of a small G. Where neither P nor the
-!> approach has a largest value, with free edges or a hardness, ln takes the place of logit.
+!> The secant method solves equation (C18) of README.md in this directory, logit t(P) = logit t, for the unknown
+!> logit P, where t is the area, 1 - G or the approach, and logit x = ln(x/(1 - x)). Plotted against each other the two
+!> logits are nearly a straight line. Gaps are compared as gaps, with logit t = -logit G, because 1 - G would lose the
+!> digits of a small G. With free edges or a hardness neither P nor the approach has a largest value; there ln takes the
+!> place of logit.
 module wavycon_find_load
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
@@ -17,39 +18,42 @@ module wavycon_find_load
 
    public :: solve_for
 
-   !> What is searched for, and how far the search is. The slope lies between 1/2 (area of a line contact at light load)
-   !> and 5/2 (gap near full contact in 2-D).
+   !> The target of a search, and the present state of the search.
    type :: root_search
       real(dp) :: target = 0.5_dp          !! the contact area fraction, G or the approach [Delta]
-      integer :: quantity = contact_area   !! which of them
-      logical :: is_bounded = .true.       !! whether the target is below 1; only an approach may not be
-      !> Whether it is the least load at which all of a map with free edges touches: the area is 1 at heavier loads too.
+      integer :: quantity = contact_area   !! which of the three the target is: contact_area, mean_gap or approach
+      logical :: is_bounded = .true.       !! whether the quantity is at most 1; only an approach may be larger
+      !> Whether the search is for the least load at which all of a map with free edges touches. The area is 1 at all
+      !> heavier loads too, so that the target alone does not determine the load.
       logical :: closes = .false.
-      !> The least load that certainly closes the gap or exceeds what H carries; huge if there is none.
+      !> Upper limit of the load [p*]: the least load that certainly closes the gap, or the hardness if that is less;
+      !> huge if there is none.
       real(dp) :: most = 1.0_dp
-      real(dp) :: logit_p = 0.0_dp         !! logit P/most, or ln P, of the next solution
-      real(dp) :: slope = 1.0_dp           !! of logit t against logit P
+      real(dp) :: logit_p = 0.0_dp         !! logit(P/most) of the next solution; ln P if `most` is huge
+      real(dp) :: slope = 1.0_dp           !! slope of logit t against logit P
    end type root_search
 
-   !> Between these the slope lies (C18).
+   !> Limits of the slope (C18): 1/2 is that of the area of a line contact at light load, 5/2 that of the gap near full
+   !> contact in 2-D.
    real(dp), parameter :: least_slope = 0.5_dp, largest_slope = 2.5_dp
 
 contains
 
-   !> Solves for the load at which a quantity has a given value (C18): searches at each coarser level of the solver,
-   !> each from the load of the one before, and then at full accuracy. The solution has the status not_accurate if the
-   !> search did not find such a load, and not_found if the value is not reached even at the lightest loads: it is then
-   !> that of P -> 0, and P is 0.
+   !> Solves for the load at which a quantity has a given value (C18). The search goes through the coarser levels of the
+   !> solver and then to full accuracy; each level starts from the load that the level before has found. The solution
+   !> has the status not_accurate if the search did not find such a load. The status is not_found if the target is not
+   !> reached even at the lightest loads; the solution is then that for P -> 0, with P set to 0.
    subroutine solve_for(solver, quantity, target, solution)
-      class(contact_solver), intent(inout) :: solver    !! started
+      class(contact_solver), intent(inout) :: solver    !! a solver that has been started
       integer, intent(in) :: quantity                   !! contact_area, mean_gap or approach
-      !> The area fraction or G, 0 .. 1, or the approach [Delta]: no load at an area or approach of 0 or less and at G of
-      !> 1 or more, P = 1 at an area of 1 and at G = 0.
+      !> Area fraction or G, 0 .. 1, or approach [Delta]. The load is zero for an area or approach of 0 or less and for
+      !> G of 1 or more. Without free edges P = 1 for an area of 1 and for G = 0.
       real(dp), intent(in) :: target
-      type(contact_solution), intent(out) :: solution   !! of the load found
+      type(contact_solution), intent(out) :: solution   !! solution at the load found
 
       type(root_search) :: search
       type(solver_traits) :: traits
+      real(dp) :: known_load   ! P of a target that needs no search
       integer :: level
 
       associate (surface => solver%surface)
@@ -59,18 +63,21 @@ contains
          if (.not. surface%has_free_edges) search%most = min(1.0_dp, surface%hardness)
          if (quantity == approach) search%is_bounded = .not. (surface%has_free_edges .or. surface%has_hardness())
          if (target <= 0.0_dp .or. (target >= 1.0_dp .and. search%is_bounded .and. .not. surface%has_free_edges)) then
-            call solver%solve(max(merge(1.0_dp - target, target, quantity == mean_gap), 0.0_dp), solution)
+            known_load = target
+            if (quantity == mean_gap) known_load = 1.0_dp - target
+            call solver%solve(max(known_load, 0.0_dp), solution)
             return
          end if
       end associate
       traits = solver%traits()
       call solver%set_search(.true.)
       do level = traits%coarser_levels, 0, -1
-         ! At the first level as well.
+         ! The first estimate is logit P = logit t: at the first level, whose initial status is not_found, and after a
+         ! level that did not reach the target.
          if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
          if (search%closes) search%logit_p = min(search%logit_p, 0.0_dp)
          solver%level = level
-         ! The secant of a jump on a coarser level has any slope.
+         ! On a coarser grid the quantity jumps with the load, and the secant of a jump may have any slope.
          search%slope = min(max(search%slope, least_slope), largest_slope)
          call find_root(solver, search, solution)
          if (solution%status == interrupted) exit
@@ -79,24 +86,27 @@ contains
       solver%level = 0
    end subroutine solve_for
 
-   !> The secant method. A step that would leave the bracket of the root is replaced by bisection. Towards light loads
-   !> the area on a grid falls to that of its highest points only: where t no longer follows the load, the lightest load
-   !> shows whether the target can be reached.
+   !> Searches at one level by the secant method. A step that would leave the bracket of the root is replaced by
+   !> bisection. As P -> 0 the area on a grid tends to that of its highest points, not to zero, and the slope to zero.
+   !> Where the slope is that small, a solution at the lightest load shows whether the target can be reached.
    subroutine find_root(solver, search, solution)
       class(contact_solver), intent(inout) :: solver
-      type(root_search), intent(inout) :: search   !! on entry with a first estimate of logit P and slope
-      type(contact_solution), intent(out) :: solution
+      !> On entry logit_p and slope are first estimates; on return they are the start of the next level.
+      type(root_search), intent(inout) :: search
+      type(contact_solution), intent(out) :: solution   !! the last solution of the search
 
-      !> Relative steps of logit P below this are rounding.
+      !> Steps of logit P that are relatively shorter than this are rounding.
       real(dp), parameter :: shortest_step = 1e-13_dp
-      real(dp) :: allowed, error, high, last_miss, last_logit_p, lightest, low, met, miss, next, scale
+      real(dp) :: allowed, error, high, last_miss, last_logit_p, lightest, low, miss, next, reached
+      real(dp) :: least_part   ! the lesser of t and 1 - t, in whose fractions tolerances are given
       integer :: i
       logical :: found
 
       low = -huge(low)
       high = huge(high)
       lightest = logit(lightest_load)
-      scale = merge(min(search%target, 1.0_dp - search%target), search%target, search%is_bounded)
+      least_part = search%target
+      if (search%is_bounded) least_part = min(search%target, 1.0_dp - search%target)
       last_logit_p = search%logit_p
       last_miss = 0.0_dp
       do i = 1, most_solves
@@ -106,16 +116,18 @@ contains
             call solver%solve(exp(search%logit_p), solution)
          end if
          if (solution%status == interrupted) return
-         met = solution%value(search%quantity)
-         error = solution%error(merge(contact_area, mean_gap, search%quantity == contact_area))
-         allowed = max(min(max(fraction_of_error*error, least_fraction*scale), largest_fraction*scale), &
+         reached = solution%value(search%quantity)
+         ! An approach has the error of the mean gap.
+         error = solution%error(mean_gap)
+         if (search%quantity == contact_area) error = solution%error(contact_area)
+         allowed = max(min(max(fraction_of_error*error, least_fraction*least_part), largest_fraction*least_part), &
                        value_roundings*spacing(search%target))
-         if (solver%level > 0) allowed = max(allowed, min(error, coarse_fraction*scale))
-         miss = logit_t(search, met) - logit_t(search, search%target)
-         found = abs(met - search%target) <= allowed .and. &
+         if (solver%level > 0) allowed = max(allowed, min(error, coarse_fraction*least_part))
+         miss = logit_t(search, reached) - logit_t(search, search%target)
+         found = abs(reached - search%target) <= allowed .and. &
             .not. (search%closes .and. search%logit_p - low > largest_fraction)
-         ! A lighter load may close the map too.
-         if (search%closes .and. abs(met - search%target) <= allowed) miss = longest_step
+         ! The map is closed, but a lighter load may close it too: the next step goes down.
+         if (search%closes .and. abs(reached - search%target) <= allowed) miss = longest_step
          if (i > 1 .and. abs(search%logit_p - last_logit_p) > 0.0_dp) &
             search%slope = min(max((miss - last_miss)/(search%logit_p - last_logit_p), flattest), steepest)
          last_logit_p = search%logit_p
@@ -124,7 +136,7 @@ contains
          if (miss < 0.0_dp) low = max(low, search%logit_p)
          next = search%logit_p - min(max(miss/search%slope, -longest_step), longest_step)
          if (found .or. (solver%level > 0 .and. high - low <= coarse_fraction)) then
-            ! The next level begins with the last step.
+            ! The next level begins at the load to which the last secant step leads.
             if (next > low .and. next < high .and. .not. search%closes) search%logit_p = next
             return
          end if
@@ -143,24 +155,27 @@ contains
          if (abs(next - search%logit_p) <= shortest_step*max(1.0_dp, abs(next))) exit
          search%logit_p = next
       end do
-      ! The area on a grid jumps as points enter the contact: the target may lie within a jump. This is good enough if
-      ! the distance is within the error estimate. An unknown error proves nothing. Rounding of P and of the value may
-      ! keep this from a closer one: 1 - t of the 1-D wave has half the digits of 1 - P.
-      if (abs(met - search%target) <= error .and. is_known(error)) return
-      if (abs(met - search%target) <= largest_fraction*scale) return
+      ! The search found no closer load. The area on a grid jumps as points enter the contact, and the target may lie
+      ! within a jump. The solution is good enough if its distance from the target is within a known error estimate. It
+      ! is also good enough within the largest tolerance, because rounding of P limits the digits of t: 1 - t of the
+      ! 1-D wave has half the digits of 1 - P.
+      if (abs(reached - search%target) <= error .and. is_known(error)) return
+      if (abs(reached - search%target) <= largest_fraction*least_part) return
       if (solution%is_good()) solution%status = not_accurate
    end subroutine find_root
 
-   !> logit t of a contact area, a mean gap or an approach, or ln t.
+   !> logit t from a value of the quantity that is searched for; ln t if the quantity is not bounded.
    pure real(dp) function logit_t(search, x)
       type(root_search), intent(in) :: search
-      real(dp), intent(in) :: x   !! as search%quantity says
+      real(dp), intent(in) :: x   !! contact area, mean gap or approach, as search%quantity says
 
       logit_t = log(max(x, tiny(x)))
-      if (search%is_bounded) logit_t = merge(-logit(x), logit(x), search%quantity == mean_gap)
+      if (search%is_bounded) logit_t = logit(x)
+      if (search%quantity == mean_gap) logit_t = -logit_t
    end function logit_t
 
-   !> ln(x/(1 - x)). The values 0 and 1, which a solution on a coarse grid may have, are replaced by almost 0 and 1.
+   !> ln(x/(1 - x)). A solution on a coarse grid may have x = 0 or x = 1; the least positive number then takes the place
+   !> of x or 1 - x.
    pure real(dp) function logit(x)
       real(dp), intent(in) :: x
 

@@ -1,5 +1,5 @@
-!> Contact by expansions fitted to the edge of contact. Their accuracy is limited by rounding, not
-!> by a grid.
+!> The solver 'fitted', for surfaces whose crests form a lattice (`fitted_frame`). The pressure is an expansion fitted
+!> to the edge of contact (src/core/fitted). Its accuracy is limited by rounding, not by the step of a grid.
 module wavycon_fitted_contact
    use wavycon_assertion, only: assert
    use wavycon_contact_solution, only: contact_solution
@@ -21,9 +21,9 @@ module wavycon_fitted_contact
 
    type, extends(contact_solver) :: fitted_contact
       type(fitted_frame), private :: frame
-      real(dp), private :: accuracy = default_accuracy   !! as of `start`
+      real(dp), private :: accuracy = default_accuracy   !! as in `start`
       logical, private :: keep_fields = .true.
-      type(fitted_answer), private :: last         !! of the last load solved, from which the next one starts
+      type(fitted_answer), private :: last         !! solution of the last load, from which the next one starts
    contains
       procedure :: start
       procedure :: solve_partial_contact
@@ -33,10 +33,10 @@ module wavycon_fitted_contact
 
 contains
 
-   !> Starts the solver.
+   !> Starts the solver. Afterwards `is_started` tells whether the surface can be solved.
    subroutine start(self, surface, accuracy, keep_fields)
       class(fitted_contact), intent(out) :: self
-      type(surface_type), intent(in) :: surface   !! if it has no frame all solutions have the status not_found
+      type(surface_type), intent(in) :: surface   !! without a lattice all solutions have the status not_found
       real(dp), intent(in) :: accuracy            !! largest error of gap [Delta], area fraction, peak [p*], > 0
       logical, intent(in) :: keep_fields          !! whether fields or details of the solutions will be needed
 
@@ -50,19 +50,20 @@ contains
          .and. .not. surface%has_hardness()
    end subroutine start
 
-   !> Solves one load by solve_fitted and converts its answer to p* and Delta.
+   !> Solves one load by solve_fitted and converts its answer to the units p* and Delta. The status is not_found if
+   !> solve_fitted has no solution, not_accurate if an error estimate exceeds the accuracy.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(fitted_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
       type(contact_solution), intent(out) :: solution
 
-      real(dp) :: unit(number_of_quantities)   !! of the answer, over that of the solution
+      real(dp) :: unit(number_of_quantities)   !! units of the quantities of `answer` over those of `solution`
       type(fitted_answer) :: answer
       type(fitted_source), allocatable :: source
 
       if (allocated(self%frame%lattice)) then
-         ! solve_fitted takes a relative accuracy. The largest of the three values, the peak pressure, is less than
-         ! that of full contact at P = 1.
+         ! solve_fitted takes an accuracy relative to the values. The largest of the three values is the peak pressure,
+         ! which is less than that of full contact at P = 1; so the absolute errors are at most `accuracy`.
          call solve_fitted(self%frame%lattice, pbar_over_pstar/self%frame%pressure_unit, &
                            self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, self%last, &
                            self%keep_fields)
@@ -93,6 +94,7 @@ contains
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
+   !> The traits. A solution starts from the last one, so that its last digits depend on the load before.
    type(solver_traits) function traits(self)
       class(fitted_contact), intent(in) :: self
 
@@ -100,6 +102,7 @@ contains
       traits = solver_traits(solver=by_expansions, has_details=.true., continues_last_load=.true.)
    end function traits
 
+   !> Forgets the last solution; the next one starts without it.
    subroutine forget_last_load(self)
       class(fitted_contact), intent(inout) :: self
 

@@ -1,4 +1,5 @@
-!> Finds the lattice of crests of a surface, if fitted expansions exist for it, and the coordinates on that lattice.
+!> Finds the lattice that the crests of a surface form, if the solver 'fitted' can solve the surface, and converts
+!> between coordinates on the surface and on the lattice.
 module wavycon_fitted_frame
    use wavycon_constants, only: pi, sqrt2, sqrt3
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
@@ -12,30 +13,31 @@ module wavycon_fitted_frame
 
    public :: fitted_frame, find_frame
 
-   !> The point x, y of the surface, measured from a crest [length], is the point (x + i y) turn/side of the lattice.
+   !> Position of the lattice on the surface. The point x, y of the surface, measured from a crest [length], is the
+   !> point (x + i y) turn/side of the lattice.
    type :: fitted_frame
       real(dp) :: length(2) = 1.0_dp           !! sides of the surface's cell [length]
       real(dp) :: side = 1.0_dp                !! s, shorter side of the lattice's cell [length]
-      complex(dp) :: turn = (1.0_dp, 0.0_dp)   !! rotation, of modulus 1
-      integer :: crests = 1                    !! in the surface's cell: at its corners and, if two, at its centre
-      real(dp) :: pressure_unit = 1.0_dp       !! the lattice's, pi E* Delta/s [p*]
-      type(wave_lattice), allocatable :: lattice   !! of the crests; none if no expansions exist for the surface
+      complex(dp) :: turn = (1.0_dp, 0.0_dp)   !! rotation from the surface to the lattice, of modulus 1
+      integer :: crests = 1                    !! crests in the surface's cell: at the corner and, if two, at the centre
+      real(dp) :: pressure_unit = 1.0_dp       !! unit of pressure on the lattice, pi E* Delta/s [p*]
+      type(wave_lattice), allocatable :: lattice   !! lattice of the crests; not allocated: 'fitted' cannot solve it
    contains
       procedure :: place
       procedure :: symmetry
    end type fitted_frame
 
-   !> Coefficients and lengths that differ by less than this, relatively, are equal.
+   !> Coefficients and lengths whose relative difference is below this are taken as equal.
    real(dp), parameter :: rounding = 1e-13_dp
 
 contains
 
-   !> Finds the frame of a surface; the kernels of its lattice are summed here, once for all loads. Expansions exist for
-   !> the wave (21), also with two wavelengths, for two crossed waves within the limits of wavycon_contact_tuning, and
-   !> for the hexagonal wave.
+   !> Finds the frame of a surface. This sums the kernels of the lattice, once for all loads. A frame exists for the
+   !> wave (21), also with two different wavelengths, for the sum of two waves along x and y, and for the hexagonal
+   !> wave. Side and curvature ratios are limited by wavycon_contact_tuning.
    subroutine find_frame(surface, frame)
       type(surface_type), intent(in) :: surface
-      type(fitted_frame), intent(out) :: frame   !! without a lattice for all other surfaces
+      type(fitted_frame), intent(out) :: frame   !! has no lattice for all other surfaces
 
       real(dp) :: curvature(2)
 
@@ -76,9 +78,9 @@ contains
 
    contains
 
-      !> Whether the shape has these terms, all positive, and no others.
+      !> Whether the cosine series of the shape has the given terms, all with positive coefficients, and no other terms.
       logical function has_only(terms)
-         integer, intent(in) :: terms(:, :)   !! wave numbers in X and Y, shape (2, n)
+         integer, intent(in) :: terms(:, :)   !! wave numbers in X and Y of n terms, shape (2, n)
 
          logical, allocatable :: has_term(:, :)
          integer :: i
@@ -96,15 +98,15 @@ contains
 
    end subroutine find_frame
 
-   !> The coordinates on the lattice [s] of the point X, Y of the surface.
+   !> The coordinates on the lattice, in units of s, of a point of the surface.
    pure complex(dp) function place(self, x, y)
       class(fitted_frame), intent(in) :: self
-      real(dp), intent(in) :: x, y   !! from a crest [rad]
+      real(dp), intent(in) :: x, y   !! angles X, Y of the point, measured from a crest [rad]
 
       place = cmplx(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi), dp)*self%turn/self%side
    end function place
 
-   !> Of the fields on the surface.
+   !> The symmetries of the fields on the surface.
    pure type(equivalent_points) function symmetry(self)
       class(fitted_frame), intent(in) :: self
 

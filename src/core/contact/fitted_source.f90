@@ -1,4 +1,4 @@
-!> The source of fields, edge, stresses and details of a load that was solved by fitted expansions.
+!> The source of fields, contact contours, stresses and details of a load that the solver 'fitted' has solved.
 module wavycon_fitted_source
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
@@ -22,9 +22,9 @@ module wavycon_fitted_source
    public :: fitted_source
 
    type, extends(field_source) :: fitted_source
-      type(fitted_frame) :: frame       !! with a lattice
-      type(fitted_answer) :: answer     !! in the units of src/core/fitted
-      real(dp) :: accuracy = 0.0_dp     !! of fitted_contact: largest error of gap [Delta] and pressure [p*]
+      type(fitted_frame) :: frame       !! frame of the surface, which has a lattice
+      type(fitted_answer) :: answer     !! the solution in the units of src/core/fitted
+      real(dp) :: accuracy = 0.0_dp     !! accuracy of fitted_contact: largest error of gap [Delta] and pressure [p*]
    contains
       procedure :: fields
       procedure :: contact_contours
@@ -35,18 +35,19 @@ module wavycon_fitted_source
 
    type, extends(contact_fields) :: fitted_contact_fields
       type(fitted_frame) :: frame
-      real(dp) :: accuracy = 0.0_dp     !! as of fitted_source
+      real(dp) :: accuracy = 0.0_dp     !! as in fitted_source
       type(fitted_fields), allocatable :: fitted
    contains
       procedure :: at
       procedure :: prepare_places
    end type fitted_contact_fields
 
-   !> Points of each contour.
+   !> Number of points on each contour.
    integer, parameter :: edge_points = 256
 
 contains
 
+   !> Makes the fields (`at`), with the symmetries of the lattice.
    subroutine fields(self, surface, answer)
       class(fitted_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -64,6 +65,7 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
+   !> Makes the stresses, with the symmetries of the lattice.
    subroutine stresses(self, surface, answer)
       class(fitted_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -80,6 +82,7 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
+   !> Pressure, displacement and gap at a point, converted from the units of the lattice.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(fitted_contact_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -87,11 +90,12 @@ contains
 
       call self%fitted%at(self%frame%place(x, y), pressure, displacement, gap)
       pressure = pressure*self%frame%pressure_unit
-      ! Without adhesion there is no tension but for errors next to the edge.
+      ! Without adhesion a negative pressure can only be an error next to the edge.
       if (self%fitted%answer%solution%work <= 0.0_dp) pressure = max(pressure, 0.0_dp)
       gap = max(gap, 0.0_dp)
    end subroutine at
 
+   !> Prepares the fields of src/core/fitted for many points.
    subroutine prepare_places(self, places)
       class(fitted_contact_fields), intent(inout) :: self
       integer, intent(in) :: places
@@ -106,38 +110,52 @@ contains
       type(contact_contour), allocatable, intent(out) :: curves(:)
       real(dp), allocatable, intent(out) :: loads(:)
 
-      complex(dp) :: centre, edge(edge_points), to_surface
-      integer :: i, k, rotated
+      complex(dp) :: centre, edge(edge_points), to_surface, trough
+      integer :: contours, i, k, rotated
+      real(dp) :: inside   ! area that the contours enclose over the area of the cell, negative for pools
 
       to_surface = self%frame%side/self%frame%turn
       edge = self%answer%solution%shape%place([(exp(cmplx(0.0_dp, 2*pi*i/edge_points, dp)), i=0, edge_points - 1)]) &
          *to_surface
-      ! The contact lies on the left of the curve.
-      if (self%answer%pool) edge = edge(edge_points:1:-1)
-      ! The second of two pools is the first one rotated by 180 degrees; the second half of a cell is the first one
-      ! translated.
-      allocate (curves(self%frame%crests*merge(self%frame%lattice%troughs, 1, self%answer%pool)))
-      do k = 1, size(curves)
-         rotated = merge(-1, 1, k > self%frame%crests)
-         centre = rotated*merge(self%frame%lattice%trough, (0.0_dp, 0.0_dp), self%answer%pool)*to_surface
+      contours = self%frame%crests
+      trough = (0.0_dp, 0.0_dp)
+      inside = self%record%value(contact_area)
+      loads = [(1.0_dp/contours, i=1, contours)]
+      if (self%answer%pool) then
+         contours = contours*self%frame%lattice%troughs
+         trough = self%frame%lattice%trough
+         inside = inside - 1.0_dp
+         loads = [1.0_dp]
+         ! The contact lies on the left of a contour: about a pool the points run backwards.
+         edge = edge(edge_points:1:-1)
+      end if
+      ! The second of two pools is the first one rotated by 180 degrees. If the cell has two crests its second half is
+      ! the first one translated by half a cell both ways.
+      allocate (curves(contours))
+      do k = 1, contours
+         rotated = 1
+         if (k > self%frame%crests) rotated = -1
+         centre = rotated*trough*to_surface
          associate (length => surface%length, places => [(mod(i, edge_points) + 1, i=0, edge_points)], &
                     half_cells => modulo(k - 1, self%frame%crests))
             curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*rotated*edge(places)%re/length(1)
             curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
-         ! All are alike: the area is that of the expansion itself, not that of polygons.
-         curves(k)%turns = merge(-1, 1, self%answer%pool)
-         curves(k)%spot = merge(1, k, self%answer%pool)
-         curves(k)%pool = merge(k, 1, self%answer%pool)
-         curves(k)%area = (2*pi)**2/size(curves)* &
-                          (self%record%value(contact_area) - merge(1, 0, self%answer%pool))
+         ! All contours are alike. The area is computed from the expansion; that of the polygon would be less accurate.
+         curves(k)%turns = 1
+         curves(k)%spot = k
+         curves(k)%pool = 1
+         if (self%answer%pool) then
+            curves(k)%turns = -1
+            curves(k)%spot = 1
+            curves(k)%pool = k
+         end if
+         curves(k)%area = (2*pi)**2/contours*inside
          curves(k)%length = self%record%value(perimeter)
       end do
-      associate (count => merge(1, size(curves), self%answer%pool))
-         allocate (loads(count), source=1.0_dp/count)
-      end associate
    end subroutine contact_contours
 
+   !> Adds the gap at the troughs, and gap and pressure at the saddles.
    subroutine details(self, answer)
       class(fitted_source), intent(in) :: self
       type(quantities), intent(inout) :: answer
@@ -151,7 +169,8 @@ contains
       end associate
    end subroutine details
 
-   !> From one more linear system of Newton's method, in units of p*.
+   !> The derivatives of mean gap and area with respect to P, from one more linear system of Newton's method. All are
+   !> unknown if that system has no solution; each is unknown if its error is as large as the value.
    subroutine derivatives(self, surface, answer)
       class(fitted_source), intent(in) :: self
       type(surface_type), intent(in) :: surface

@@ -1,4 +1,4 @@
-!> The stresses under the pressure of an expansion, on the axes and in the units of the surface.
+!> The stresses below a pressure that the solver 'fitted' has computed, in the axes and units of the surface.
 module wavycon_fitted_stress_fields
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
@@ -14,8 +14,8 @@ module wavycon_fitted_stress_fields
    public :: fitted_stress_fields
 
    type, extends(stress_fields) :: fitted_stress_fields
-      type(fitted_frame) :: frame     !! of the surface
-      type(fitted_stress) :: fitted   !! started
+      type(fitted_frame) :: frame     !! frame of the surface
+      type(fitted_stress) :: fitted   !! stresses in the axes and units of the lattice, already started
    contains
       procedure :: at
       procedure :: start_places
@@ -23,6 +23,7 @@ module wavycon_fitted_stress_fields
 
 contains
 
+   !> The stresses at a point, converted from the axes and units of the lattice.
    subroutine at(self, x, y, depth, parts, error)
       class(fitted_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -39,24 +40,24 @@ contains
       if (present(error)) error = self%frame%pressure_unit*error
    end subroutine at
 
-   !> A stress after a rotation about the z axis.
+   !> The components of a stress after a rotation about the z axis.
    pure function rotated(stress, turn)
       real(dp), intent(in) :: stress(6)
-      complex(dp), intent(in) :: turn     !! of modulus 1
+      complex(dp), intent(in) :: turn     !! e^(i angle) of the rotation
       real(dp) :: rotated(6)
 
       complex(dp) :: deviator, shear
       real(dp) :: mean
 
-      ! (xx - yy)/2 + i xy turns by twice the angle, xz + i yz by the angle.
+      ! A rotation turns the complex number (xx - yy)/2 + i xy by twice the angle, and xz + i yz by the angle.
       mean = 0.5_dp*(stress(xx) + stress(yy))
       deviator = cmplx(0.5_dp*(stress(xx) - stress(yy)), stress(xy), dp)*turn**2
       shear = cmplx(stress(xz), stress(yz), dp)*turn
       rotated = [mean + deviator%re, mean - deviator%re, stress(zz), deviator%im, shear%re, shear%im]
    end function rotated
 
-   !> Places below the spot or, above merging, below the crest and about the pool, on the lines of symmetry of the
-   !> lattice.
+   !> Places at which searches for the largest stress start, on the lines of symmetry of the lattice. Before the spots
+   !> merge they are below the spot; afterwards they are below the crest and about the pool.
    subroutine start_places(self, body, places)
       class(fitted_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -69,7 +70,8 @@ contains
       integer :: directions, i, k, n
 
       associate (shape => self%fitted%answer%solution%shape)
-         centre = merge(self%frame%lattice%trough, (0.0_dp, 0.0_dp), self%fitted%answer%pool)
+         centre = (0.0_dp, 0.0_dp)
+         if (self%fitted%answer%pool) centre = self%frame%lattice%trough
          directions = 2*shape%fold
          allocate (edge(directions/2 + 1))
          edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]

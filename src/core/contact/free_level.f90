@@ -1,5 +1,6 @@
-!> One grid of a surface with free edges. Pressures push the half-space down everywhere, u > 0, so that only the points
-!> with h < approach can touch. The contact is solved on the smallest rectangle about these.
+!> Solves the contact of a surface with free edges on one grid of a sequence. Pressures push the half-space down
+!> everywhere, u > 0, so that only points with h < approach can touch. So the problem is solved on the smallest
+!> rectangle about these points: the rest of the grid does not influence the solution.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_free_level
@@ -17,27 +18,31 @@ module wavycon_free_level
 
    public :: solve_free_level, complete_gap
 
-   !> Points on each side of the rectangle whose gaps place the edge of contact.
+   !> Points that the rectangle has beyond those that can touch, on each side: the gaps there determine the place of the
+   !> edge of contact.
    integer, parameter :: beside = 4
    !> Least side of the rectangle, in points.
    integer, parameter :: least_side = 16
 
 contains
 
-   !> Solves (C1) on a grid. The gap outside the rectangle is h - approach, less than the true one: see complete_gap.
+   !> Solves (C1) on a grid. Outside the rectangle the gap is set to h - approach, which is less than the true gap
+   !> because the displacement is left out; `complete_gap` adds the displacement. The rectangle is that of the points
+   !> with h below `reach`, the approach of the coarser grid and a little more. If the approach found exceeds `reach`,
+   !> points outside the rectangle may touch, and the grid is solved again on a larger rectangle.
    subroutine solve_free_level(surface, undeformed_gap, residual, most_iterations, state, transform_pairs, progress)
-      type(surface_type), intent(in) :: surface      !! with free edges
-      real(dp), intent(in) :: undeformed_gap(:, :), residual   !! these as of solve_on_grid
+      type(surface_type), intent(in) :: surface      !! has free edges
+      real(dp), intent(in) :: undeformed_gap(:, :), residual   !! as in solve_on_grid
       integer, intent(in) :: most_iterations
-      !> The approach on entry is that of the coarser grid, or 0.
+      !> On entry as in solve_on_grid; the approach is that of the coarser grid, or 0 if there is none.
       type(grid_state), intent(inout) :: state
-      real(dp), intent(inout) :: transform_pairs     !! in units of one on the whole grid
+      real(dp), intent(inout) :: transform_pairs     !! is increased; in units of one pair on the whole grid
       class(solver_progress), intent(in), optional :: progress
 
       real(dp), allocatable :: pressure(:, :)
       type(compliance_operator) :: half_space
-      integer :: high(2), low(2)
-      real(dp) :: part, reach, violation
+      integer :: high(2), low(2)   ! last and first row and column of the rectangle
+      real(dp) :: part, reach, violation   ! part: points of the rectangle over those of the grid
       type(grid_slab) :: whole
 
       whole = state%slab
@@ -61,7 +66,7 @@ contains
          call move_alloc(pressure, state%pressure)
          transform_pairs = transform_pairs + part*half_space%transform_pairs
          if (state%interrupted) return
-         ! Means over the whole grid, on which they are told.
+         ! solve_on_grid takes means over the rectangle. Tables have means over the whole grid.
          violation = sqrt(part)*state%residual*max(state%size_of_gaps(), rounding)
          state%residual_indentation = part*state%residual_indentation
          if (surface%dimension == 2) &
@@ -70,20 +75,20 @@ contains
          call move_alloc(state%gap, pressure)
          allocate (state%gap, source=undeformed_gap - state%approach)
          state%gap(low(1):high(1), low(2):high(2)) = pressure
-         ! Nothing outside the rectangle touches.
+         ! Either the rectangle is the grid, or no point outside the rectangle touches.
          if (part >= 1.0_dp .or. state%approach <= reach) exit
          reach = (1 + approach_margin)*state%approach
          deallocate (state%gap)
       end do
    end subroutine solve_free_level
 
-   !> The smallest rectangle about some points and those beside them, enlarged to sides whose transforms are fast and on
-   !> which the preconditioner has coarser grids.
+   !> The smallest rectangle about some points and `beside` more on each side, enlarged to a number of points whose
+   !> transforms are fast and which can be halved, so that the preconditioner has coarser grids.
    pure subroutine find_box(inside, low, high)
-      logical, intent(in) :: inside(:, :)
-      integer, intent(out) :: low(2), high(2)
+      logical, intent(in) :: inside(:, :)       !! points that the rectangle must contain, shape (M, N)
+      integer, intent(out) :: low(2), high(2)   !! first and last row and column of the rectangle
 
-      !> Of which a power of two has fast transforms.
+      !> Sides have one of these numbers of points times a power of two.
       integer, parameter :: lengths(*) = [8, 9, 10, 12, 15, 16]
       integer :: d, length, unit
 
@@ -98,10 +103,11 @@ contains
       end do
    end subroutine find_box
 
-   !> The mean gap, overlaps where p = H negative [Delta]: (E15b) of the page of src/core/half_space.
+   !> The mean gap over the map [Delta], in which overlaps where p = H count as negative gaps. The mean displacement is
+   !> that of (E15b) on the page of src/core/half_space, so that displacements outside the rectangle are not needed.
    real(dp) function mean_gap_of(surface, undeformed_gap, approach, pressure) result(mean)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: undeformed_gap(:, :), pressure(:, :)   !! h, p on the whole grid
+      real(dp), intent(in) :: undeformed_gap(:, :), pressure(:, :)   !! h [Delta] and p [p*] on the whole grid
       real(dp), intent(in) :: approach                               !! [Delta]
 
       real(dp) :: side(2), x, y
@@ -124,12 +130,12 @@ contains
       end associate
    end function mean_gap_of
 
-   !> The gap at all open points.
+   !> Computes the gap at all open points of the grid, those outside the rectangle included, by one more transform.
    subroutine complete_gap(surface, undeformed_gap, approach, pressure_or_gap)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: undeformed_gap(:, :)                   !! h/Delta
       real(dp), intent(in) :: approach                               !! [Delta]
-      real(dp), intent(inout), contiguous :: pressure_or_gap(:, :)   !! of grid_edge
+      real(dp), intent(inout), contiguous :: pressure_or_gap(:, :)   !! p, or -gap at open points, as in grid_edge
 
       real(dp), allocatable :: gap(:, :)
       type(compliance_operator) :: half_space

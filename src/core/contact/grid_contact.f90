@@ -1,8 +1,8 @@
-!> Contact on grids, refined to an accuracy or with a given number of points.
+!> The solver 'grid'. Grids are refined until an accuracy is met, or one grid of a given number of points is solved.
 !>
 !> An even surface is solved on a quarter of its cell. The wave (21), and any surface with the same symmetry, is also
-!> periodic on a square of half the area rotated by 45 degrees; a quarter of that square is then enough, unless
-!> the number of points, which refers to the user's cell, is given.
+!> periodic on a smaller square of half the area, rotated by 45 degrees. Then a quarter of the smaller square is solved,
+!> unless the number of points is given, which refers to the cell of the deck.
 module wavycon_grid_contact
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
@@ -27,21 +27,22 @@ module wavycon_grid_contact
    public :: grid_contact, grid_options
 
    type :: grid_options
-      !> Largest error of mean gap [Delta], contact area fraction and peak pressure [p*], > 0; ignored with points.
+      !> Largest error of mean gap [Delta], contact area fraction and peak pressure [p*], > 0. It is ignored if `points`
+      !> are given.
       real(dp) :: accuracy = default_accuracy
-      !> Points of the whole cell along x and y of the one grid to solve, in place of the accuracy: > 0, even numbers
-      !> for an even surface; the second is ignored in 1-D. Zeros: solve to the accuracy.
+      !> Points along x and y of the one grid to solve, on the whole cell, in place of the accuracy: > 0, even numbers
+      !> for an even surface; the second one is ignored in 1-D. Zeros: grids are refined to the accuracy.
       integer :: points(2) = 0
-      !> Largest residual (C9) on these points, >= 0; 0: that of (C10).
+      !> Largest residual (C9) on the grid of these points, >= 0; 0: the tolerance (C10).
       real(dp) :: residual = 0.0_dp
    end type grid_options
 
    type, extends(contact_solver) :: grid_contact
       type(grid_options), private :: options
       logical, private :: keep_fields = .true.
-      !> The surface on its smaller cell, if that is solved: rotated by 45 degrees.
+      !> The surface on its smaller cell, rotated by 45 degrees. Not allocated if the cell itself is solved.
       type(surface_type), allocatable, private :: smaller
-      !> In a search the pressures of the last load, of each grid from the coarsest.
+      !> The pressures of the last load of a search on each grid, from the coarsest. Allocated within a search only.
       type(grid_start), allocatable, private :: starts(:)
    contains
       procedure :: start
@@ -52,7 +53,7 @@ module wavycon_grid_contact
 
 contains
 
-   !> Starts the solver.
+   !> Starts the solver. Any surface with a series of heights can be solved.
    subroutine start(self, surface, options, keep_fields)
       class(grid_contact), intent(out) :: self
       type(surface_type), intent(in) :: surface
@@ -77,7 +78,8 @@ contains
       self%smaller = smaller_cell(surface)
    end subroutine start
 
-   !> Each level has ten times the error of the one before it or, if the points are given, half the points each way.
+   !> The number of levels of lower accuracy for searches (`contact_solver%level`). Each coarser level has ten times the
+   !> error or, if the points are given, half the points each way.
    pure integer function coarser_levels(self) result(levels)
       class(grid_contact), intent(in) :: self
 
@@ -94,6 +96,7 @@ contains
       end if
    end function coarser_levels
 
+   !> The traits. The finest grid is the last one of the plan, on the cell that is solved.
    type(solver_traits) function traits(self)
       class(grid_contact), intent(in) :: self
 
@@ -108,7 +111,8 @@ contains
       if (all(self%options%points > 0)) traits%given_grid = traits%finest_grid
    end function traits
 
-   !> Solves one load by solve_by_sequence.
+   !> Solves one load by solve_by_sequence, measures the edge of contact and sets the status. The status is no_memory or
+   !> interrupted if not even the coarsest grid was solved.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(grid_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -162,16 +166,17 @@ contains
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
+   !> Begins or ends a search: allocates or deletes the pressures from which its loads start.
    subroutine set_search(self, begins)
       class(grid_contact), intent(inout) :: self
       logical, intent(in) :: begins
 
       if (allocated(self%starts)) deallocate (self%starts)
-      ! No sequence has more grids: each has twice the points of the one before.
+      ! No sequence has more grids than an integer has bits: each grid has at least twice the points of the one before.
       if (begins) allocate (self%starts(bit_size(self%options%points)))
    end subroutine set_search
 
-   !> Solves a load on the surface or its smaller cell.
+   !> Solves a load on the cell of the surface or on its smaller cell, at the level of a search.
    subroutine solve_cell(self, surface, pbar_over_pstar, answer)
       class(grid_contact), intent(inout) :: self
       type(surface_type), intent(in) :: surface
@@ -182,17 +187,18 @@ contains
       associate (accuracy => self%options%accuracy*10.0_dp**self%level, &
                  points => max(self%options%points/2**self%level, min(self%options%points, 1)), &
                  residual => self%options%residual)
-         ! A pointer that is not associated and an array that is not allocated are arguments that are not present.
+         ! `progress` may be a pointer that is not associated, and `starts` an array that is not allocated. By the rules
+         ! of Fortran such optional arguments are absent.
          call solve_by_sequence(surface, pbar_over_pstar, accuracy, points, answer, self%progress, residual, &
                                 self%keep_fields, self%starts)
       end associate
    end subroutine solve_cell
 
-   !> The numbers of the edge besides area and peak: of points where the pressure is zero or the hardness, the least
-   !> pressure, and how the load is distributed.
+   !> Measures what tables and log tell besides area and peak: the number of points whose pressure is zero or the
+   !> hardness, the least pressure, how concentrated the load is, and the part of the load near the border of the map.
    subroutine measure_edge(surface, edge, solution)
       type(surface_type), intent(in) :: surface
-      type(grid_edge), intent(in) :: edge   !! with free edges whole
+      type(grid_edge), intent(in) :: edge   !! pressures and gaps; with free edges not distributed
       type(contact_solution), intent(inout) :: solution
 
       integer :: inner(2)
@@ -206,7 +212,7 @@ contains
          if (surface%is_height_map() .and. solution%value(contact_area) <= largest_spot) &
             solution%value(concentrated_load) = load_concentration(edge)
          if (.not. surface%has_free_edges) return
-         ! The part of the load within `border` sides of the border.
+         ! The part of the load whose distance from the border of the map is below `border` times the side.
          inner = ceiling(border*points)
          if (points(2) == 1) inner(2) = 0
          associate (middle => p(1 + inner(1):points(1) - inner(1), 1 + inner(2):points(2) - inner(2)))

@@ -1,5 +1,5 @@
-!> How a solution on a grid changes with the load, from solutions of the same grid at loads near by: (C29) to (C29c) of
-!> README.md in this directory.
+!> Derivatives of mean gap and area with respect to the load, for a solution on a grid. They are differences of
+!> solutions on the same grid at loads near by: (C29) to (C29c) of README.md in this directory.
 module wavycon_grid_derivatives
    use wavycon_contact_tuning, only: area_kept_change, change_safety, load_difference
    use wavycon_grid_error, only: change_history
@@ -16,32 +16,35 @@ module wavycon_grid_derivatives
 
 contains
 
-   !> Solves the four loads about that of a solution, and two nearer ones where these are too far from one another, and
-   !> takes differences. What they do not show is unknown, all of it if a load is not solved.
+   !> Solves two loads below and two above that of a solution and takes differences. If the five loads are too far from
+   !> one another, two nearer loads are solved too, and the better of both differences is taken. Derivatives that the
+   !> differences do not show are unknown; all are unknown if one of the loads is not solved.
    subroutine differentiate_on_grid(surface, points, record, history, answer)
-      type(surface_type), intent(in) :: surface      !! whose cell was solved
-      integer, intent(in) :: points(2)               !! of the grid on the whole cell; the second is ignored in 1-D
-      type(solution_record), intent(in) :: record    !! of the solution on this grid, between no load and full contact
-      type(change_history), intent(in) :: history    !! its values on the last three grids
-      type(quantities), intent(out) :: answer
+      type(surface_type), intent(in) :: surface      !! surface on the cell that was solved
+      integer, intent(in) :: points(2)               !! points of the grid on the whole cell; in 1-D the first counts
+      type(solution_record), intent(in) :: record    !! solution on this grid, neither without load nor in full contact
+      type(change_history), intent(in) :: history    !! main values of this solution on the last three grids
+      type(quantities), intent(out) :: answer        !! gap_slope, area_slope and gap_curvature with their errors
 
       integer :: grid(2), i
       real(dp) :: bound   !! theta of (C29)
-      real(dp) :: y(3, 2, -2:2)   !! of approach and area on the last three grids, the last first, at the five loads
-      real(dp) :: counted(-2:2)   !! the points in contact over all points
+      real(dp) :: y(3, 2, -2:2)   !! y of approach and area on the last three grids, the finest first, at the five loads
+      real(dp) :: counted(-2:2)   !! number of points in contact over number of points, at the five loads
       real(dp), dimension(3) :: errors, moved, near_errors, near_values, values   !! G', A', G''
       logical :: solved, too_far, unused
 
       grid = points
       if (surface%dimension == 1) grid(2) = 1
-      bound = merge(0.0_dp, 1.0_dp, surface%has_free_edges)
+      bound = 1.0_dp
+      if (surface%has_free_edges) bound = 0.0_dp
       solved = .true.
       do i = -2, 2
          if (solved) call solve_near(i, i*load_difference)
       end do
       if (.not. solved) return
       call differentiate(record%pbar_over_pstar, bound, y, load_difference, values, errors, too_far)
-      ! In the same contact solutions are linear in the load, and show nothing of its growth.
+      ! If all solutions have the same points in contact the gap is linear in the load, and the differences show nothing
+      ! of the growth of the contact: A' and G'' are unknown.
       if (all(abs(counted - counted(0)) <= 0.0_dp)) values(2:) = unknown
       if (too_far) then
          y(:, :, [-2, 2]) = y(:, :, [-1, 1])
@@ -49,12 +52,12 @@ contains
          if (solved) call solve_near(1, 0.5_dp*load_difference)
          if (.not. solved) return
          call differentiate(record%pbar_over_pstar, bound, y, 0.5_dp*load_difference, near_values, near_errors, unused)
-         ! Where a derivative grows without bound the two differ by more than either shows.
+         ! Where a derivative grows without bound the two estimates differ by more than the error that either tells.
          moved = abs(near_values - values)
          where (is_known(values) .and. near_errors < errors) values = near_values
          errors = max(min(errors, near_errors), moved)
       end if
-      ! A contact of a point or two has the size, and with it the stiffness, of the step.
+      ! A contact of one or two points has a size, and so a stiffness, that depends on the step alone.
       if (record%error(contact_area) >= record%value(contact_area)) errors = unknown
       where (.not. is_known(values)) errors = unknown
       answer%value([gap_slope, area_slope, gap_curvature]) = values
@@ -62,10 +65,11 @@ contains
 
    contains
 
-      !> Solves the load whose x differs from that of the record by this much, as number i of the five; 0 is solved.
+      !> Solves a load near that of the record and sets its y and its number of points in contact. The load i = 0 is
+      !> that of the record and needs no solution. On return `solved` tells whether the load was solved.
       subroutine solve_near(i, difference)
-         integer, intent(in) :: i
-         real(dp), intent(in) :: difference
+         integer, intent(in) :: i               !! number of the load, -2 .. 2
+         real(dp), intent(in) :: difference     !! x of the load less that of the record
 
          real(dp) :: grids(3, 3), odds
          type(sequence_answer) :: nearby
@@ -88,7 +92,7 @@ contains
 
    end subroutine differentiate_on_grid
 
-   !> ln(part/rest), unknown unless both are positive.
+   !> ln(part/rest). It is unknown unless both are positive and known.
    elemental real(dp) function log_ratio(part, rest)
       real(dp), intent(in) :: part, rest
 
@@ -98,12 +102,13 @@ contains
 
    !> G', A', G'' and their errors from y at equal steps of x: (C29) to (C29c).
    pure subroutine differentiate(p, bound, y, step, values, errors, too_far)
-      real(dp), intent(in) :: p                 !! P at the middle
-      real(dp), intent(in) :: bound             !! theta
-      real(dp), intent(in) :: y(3, 2, -2:2)     !! of approach and area on the last three grids, the last first
-      real(dp), intent(in) :: step              !! of x
-      real(dp), intent(out) :: values(3), errors(3)
-      logical, intent(out) :: too_far           !! whether a third of the error or more is that of the differences
+      real(dp), intent(in) :: p                 !! P of the load in the middle
+      real(dp), intent(in) :: bound             !! theta of (C29)
+      real(dp), intent(in) :: y(3, 2, -2:2)     !! y of approach and area on the last three grids, the finest first
+      real(dp), intent(in) :: step              !! step of x, eta of (C29a)
+      real(dp), intent(out) :: values(3)        !! G', A', G''
+      real(dp), intent(out) :: errors(3)        !! their error estimates
+      logical, intent(out) :: too_far           !! whether the differences' own error is more than a third of the error
 
       real(dp) :: error(0:2), first, part, second, terms(0:2), truncated, x1, x2
       integer :: q
@@ -123,8 +128,9 @@ contains
                     slope => part*(1.0_dp - bound*part))
             first = slope*y1*x1
             second = slope*((bend*y1**2 + y2)*x1**2 + y1*x2)
-            values(q) = merge(-first, first, q == 1)
-            if (q == 1) values(3) = -second
+            ! G is one less the approach.
+            values(q) = first
+            if (q == 1) values([1, 3]) = [-first, -second]
             if (.not. all(is_known(y(2, q, :)))) cycle
             errors(q) = slope*x1*error(1) + abs(bend*first)*error(0)
             if (q == 1) errors(3) = slope*(abs(2*bend*y1*x1**2 + x2)*error(1) + x1**2*error(2)) &
@@ -133,23 +139,23 @@ contains
       end do
    end subroutine differentiate
 
-   !> Value, y' step and y'' step^2 on the last grid, by (C29a), and what their errors are from.
+   !> Value and first two differences of y at five loads (C29a), with both parts of their errors.
    pure subroutine differences(y, terms, error, truncated)
-      real(dp), intent(in) :: y(3, -2:2)      !! on the last three grids, the last first
-      real(dp), intent(out) :: terms(0:2)
-      real(dp), intent(out) :: error(0:2)     !! of the grid (C29b)
-      real(dp), intent(out) :: truncated      !! of the first difference (C29c), half of that of the second
+      real(dp), intent(in) :: y(3, -2:2)      !! y on the last three grids, the finest first, at the five loads
+      real(dp), intent(out) :: terms(0:2)     !! y, y' step and y'' step^2 on the last grid
+      real(dp), intent(out) :: error(0:2)     !! their errors due to the grid (C29b)
+      real(dp), intent(out) :: truncated      !! truncation error of y' step (C29c), half of that of y'' step^2
 
-      !> Of value and first two differences, and Taylor's third and fourth terms.
+      !> Weights of the five y in the value, in the first two differences, and in Taylor's third and fourth terms.
       real(dp), parameter :: weights(5, 0:4) = reshape([ &
          0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 1/12.0_dp, -8/12.0_dp, 0.0_dp, 8/12.0_dp, -1/12.0_dp, &
          -1/12.0_dp, 16/12.0_dp, -30/12.0_dp, 16/12.0_dp, -1/12.0_dp, &
          -1/12.0_dp, 2/12.0_dp, 0.0_dp, -2/12.0_dp, 1/12.0_dp, &
          1/24.0_dp, -4/24.0_dp, 6/24.0_dp, -4/24.0_dp, 1/24.0_dp], [5, 5])
-      !> The roots of the sums of squares of these.
+      !> Root of the sum of squares of each set of weights: its factor on independent random errors of y.
       real(dp), parameter :: of_random(0:4) = sqrt(sum(weights**2, dim=1))
-      !> Least ratio of Taylor's fifth term to the fourth, and to the third, which is all that a logarithm in the middle
-      !> shows.
+      !> Least ratios of Taylor's fifth term to the fourth and to the third. Where y' grows as the logarithm of the
+      !> distance from the middle load the fourth term is zero, and only the third shows the truncation.
       real(dp), parameter :: least_ratio(2) = [0.1_dp, 0.3_dp]
       real(dp) :: change(0:4), scatter, sums(3, 0:4), third, fourth
 

@@ -1,9 +1,9 @@
 !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*] on a sequence of grids.
 !>
-!> Each estimate is the largest of three: from the changes over the last three grids (C14); from features that the
-!> grid does not resolve, whose error no change shows (C15), (C16); and, for mean gap and peak pressure, from the
-!> error of the area (C17). README.md in this directory has the equations and the share of estimates that hold. None
-!> is a bound.
+!> Each estimate is the largest of three: that from the changes over the last three grids (C14); that from features
+!> which the grid does not resolve, as their error does not show in the changes (C15), (C16); and, for mean gap and peak
+!> pressure, that from the error of the area (C17). README.md in this directory has the equations and tells how many of
+!> the estimates hold. None is a bound.
 module wavycon_grid_error
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
@@ -19,8 +19,8 @@ module wavycon_grid_error
 
    public :: change_history, estimate_errors, implied_errors, unresolved_errors
 
-   !> Mean gap, contact area and peak pressure on the last grid, and on the two before it, the finer first; with fewer
-   !> than three grids the estimates are unknown.
+   !> Mean gap (with free edges the approach), contact area and peak pressure on the last grid, and on the two grids
+   !> before, the finer of them first. With fewer than three grids the estimates are unknown.
    type :: change_history
       real(dp) :: values(3) = unknown
       real(dp) :: before(3, 2) = unknown
@@ -33,10 +33,10 @@ contains
 
    !> Estimates the errors of mean gap [Delta], contact area fraction and peak pressure [p*] on the last grid.
    function estimate_errors(history, surface, edge, bend) result(errors)
-      type(change_history), intent(in) :: history   !! of all grids up to the last
+      type(change_history), intent(in) :: history   !! values on the grids up to the last one
       type(surface_type), intent(in) :: surface
-      type(grid_edge), intent(in) :: edge        !! of the last grid
-      real(dp), intent(in) :: bend               !! of the pressure at its peak [p*], from grid_peak_pressure
+      type(grid_edge), intent(in) :: edge        !! pressures and gaps on the last grid
+      real(dp), intent(in) :: bend               !! bend of (C16) [p*], from grid_peak_pressure
       real(dp) :: errors(3)
 
       errors = max(history%errors(), unresolved_errors(surface, edge, bend))
@@ -50,14 +50,14 @@ contains
    !> Adds the values of a finer grid.
    pure subroutine push(self, values)
       class(change_history), intent(inout) :: self
-      real(dp), intent(in) :: values(3)
+      real(dp), intent(in) :: values(3)   !! in the order of change_history
 
       self%before = reshape([self%values, self%before(:, 1)], [3, 2])
       self%values = values
    end subroutine push
 
-   !> Errors from the changes (C14): the last change, but at least a part of the one before, because a single change may
-   !> be small by chance.
+   !> Errors from the changes (C14): the last change, but at least a part of the change before, because a single change
+   !> may be small by chance.
    pure function errors_of_changes(self) result(errors)
       class(change_history), intent(in) :: self
       real(dp) :: errors(3)
@@ -71,13 +71,13 @@ contains
       where (.not. is_known(self%before(:, 2))) errors = unknown
    end function errors_of_changes
 
-   !> Errors that changes do not show (C15), (C16): of the area, because the position of the edge between points is
-   !> uncertain and all grids may err alike; of all values, if all points are in contact but a small gap may lie
-   !> between them; of the peak pressure, if too few points are in contact for the polynomial (C13).
+   !> Errors that changes do not show (C15), (C16). The area has one because the position of the edge between points is
+   !> uncertain and all grids may err alike. All values have one if a small gap may lie between points that are in
+   !> contact. The peak pressure has one if too few points are in contact for the polynomial (C13).
    function unresolved_errors(surface, edge, bend) result(errors)
       type(surface_type), intent(in) :: surface
-      type(grid_edge), intent(in) :: edge
-      real(dp), intent(in) :: bend   !! from grid_peak_pressure
+      type(grid_edge), intent(in) :: edge    !! after `fetch_neighbours`
+      real(dp), intent(in) :: bend           !! bend of (C16) [p*], from grid_peak_pressure; 0: the polynomial exists
       real(dp) :: errors(3)
 
       integer(int64) :: crossings, points
@@ -87,19 +87,20 @@ contains
       open_part = possible_openings(edge)/real(points, dp)
       crossings = edge_crossings(edge)
       if (crossings == 0) open_part = max(open_part, 1.0_dp/points)
-      ! With the open part of the surface the mean gap falls as the power 5/2 or faster, and so does the change of the
-      ! peak.
+      ! Near full contact the mean gap, and the change of the peak, are proportional to the open part to the power 5/2
+      ! or a higher one.
       errors = [open_part**2, open_part, open_part**2]
-      ! With free edges Delta and p* are no measures of approach and peak: (C17) has the same relative to their values.
+      ! With free edges approach and peak are not of the order of Delta and p*. Their errors follow from the area's
+      ! relative error by (C17).
       if (surface%has_free_edges) errors([1, 3]) = 0.0_dp
       errors(2) = max(errors(2), edge_scatter*sqrt(real(crossings, dp))/points, edge_bias*crossings/points)
       if (bend > 0.0_dp) errors(3) = max(errors(3), min(bend, unresolved_peak(surface, edge)))
    end function unresolved_errors
 
-   !> Number of points in contact, with no open point beside them, whose pressure is so far below that of a neighbour
-   !> that a gap may lie between them, o of (C15).
+   !> Number of points in contact beside which a gap may lie, o of (C15): the four neighbours are in contact and have no
+   !> lower pressure, and the pressure of one of them is more than `opening_ratio` times as large.
    integer(int64) function possible_openings(edge) result(openings)
-      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
+      type(grid_edge), intent(in) :: edge   !! after `fetch_neighbours`
 
       real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
       integer :: j, m
@@ -119,32 +120,34 @@ contains
       openings = edge%slab%total_count(openings)
    end function possible_openings
 
-   !> Hertz's peak pressure [p*] of a contact whose half width or radius is `unresolved_width` steps (C16). In 2-D it
-   !> has the sum of both curvatures in place of their mean, so that it is large enough for elliptic contacts too.
+   !> Hertz's peak pressure [p*] of a contact whose half width or radius is `unresolved_width` steps (C16). In 2-D the
+   !> sum of both curvatures takes the place of twice their mean, so that the pressure is large enough for elliptic
+   !> contacts too.
    pure real(dp) function unresolved_peak(surface, edge) result(peak)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge
 
-      !> Peak pressure of line contact and of point contact over half width or radius, curvature/(4 pi^2 Delta) and
-      !> stiffness.
+      !> Peak pressure [p*] of line contact and of point contact, divided by the half width or radius, by
+      !> curvature/(4 pi^2 Delta) and by the stiffness sigma.
       real(dp), parameter :: hertz_peak(2) = [2*pi, 8.0_dp]
       real(dp) :: step(2)
 
-      step = surface%length/(merge(2, 1, edge%even)*edge%slab%points)
+      step = surface%length/edge%slab%points
+      if (edge%even) step = step/2
       if (surface%dimension == 1) step(2) = 0.0_dp
       peak = hertz_peak(surface%dimension)*unresolved_width*maxval(step)*surface%stiffness*surface%crest_curvature
    end function unresolved_peak
 
-   !> Least errors of mean gap and peak pressure, from the error of the area (C17): their changes may be small by
-   !> chance.
+   !> The least errors that mean gap and peak pressure can have, from the error of the area (C17). The changes of both
+   !> may be small by chance.
    pure function implied_errors(dimension, values, area_error) result(errors)
       integer, intent(in) :: dimension       !! 1 or 2
       real(dp), intent(in) :: values(3)      !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp), intent(in) :: area_error     !! error estimate of the area
-      real(dp) :: errors(3)                  !! of the same values; zero for the area
+      real(dp) :: errors(3)                  !! errors of the same values; zero for the area
 
-      !> Powers of the open part of the surface with which the mean gap falls towards full contact, in 1-D and 2-D: eqs.
-      !> (20), (30) of Johnson, Greenwood & Higginson (1985) with (7), (24).
+      !> Near full contact the mean gap is proportional to this power of the open part, in 1-D and 2-D: eqs. (20), (30)
+      !> of Johnson, Greenwood & Higginson (1985) with (7), (24).
       real(dp), parameter :: closing_power(2) = [4.0_dp, 2.5_dp]
       real(dp) :: open_part
 
@@ -153,7 +156,7 @@ contains
       associate (gap => values(1), area => values(2), peak => values(3))
          if (.not. min(area, open_part) > 0.0_dp) return
          errors = least_of_area*area_error*[min(gap, 1.0_dp - gap)/min(area, open_part), 0.0_dp, peak/area]
-         ! A gap of only a few points may be much larger than the grid shows, which may show none.
+         ! If only a few points are open the true gap may be much larger than on the grid, where it may even be zero.
          if (area_error >= open_part) errors(1) = max(errors(1), area_error**2, &
             gap*((1.0_dp + area_error/open_part)**closing_power(dimension) - 1.0_dp))
       end associate

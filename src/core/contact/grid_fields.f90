@@ -1,8 +1,8 @@
-!> The fields of a solution on a grid. At its points they are those of the solution. Between the points (C19), (C20) of
-!> README.md interpolate them so that contact and gap exclude each other.
+!> The fields of a solution on a grid. At the points of the grid they are the numbers of the solution. Between the
+!> points (C19), (C20) of README.md in this directory interpolate them so that contact and gap exclude each other.
 !>
-!> One function has the signs and the places of both: p^2 in contact and -(a gap)^(2/3) elsewhere fall in proportion to
-!> the distance from the edge on either side of it, and the factor a makes the slopes the same on the average.
+!> Pressure and gap are joined to one smooth function psi, which is p^2 in contact and -Lambda gap^(2/3) elsewhere. Both
+!> are proportional to the distance from the edge near it. The factor Lambda makes the mean slopes on both sides equal.
 module wavycon_grid_fields
    use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
@@ -19,10 +19,10 @@ module wavycon_grid_fields
       type(grid_edge) :: edge                !! pressure or -gap at the points
       type(surface_type) :: surface
       real(dp) :: approach = 0.0_dp          !! [Delta]
-      logical :: rotated = .false.            !! whether the angles of the grid are X + Y and X - Y
-      real(dp) :: scale = 1.0_dp             !! a^(2/3) [p*^2/Delta^(2/3)]
-      !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). Not allocated
-      !> before it is needed.
+      logical :: rotated = .false.           !! whether the angles of the grid are X + Y and X - Y
+      real(dp) :: gap_factor = 1.0_dp        !! Lambda of (C19) [p*^2/Delta^(2/3)]
+      !> psi [p*^2] at the points of the grid and at two more beyond each side, shape (-1:M+2, -1:N+2). The first
+      !> interpolation allocates it.
       real(dp), allocatable :: psi(:, :)
    contains
       procedure :: at
@@ -31,34 +31,37 @@ module wavycon_grid_fields
       procedure :: at_points
    end type grid_fields
 
-   !> A position that is nearer than this to a point of the grid, in steps, counts as that point, as positions are
-   !> rounded.
+   !> Positions are rounded. One whose distance from a point of the grid is below this, in steps, is taken as that
+   !> point.
    real(dp), parameter :: rounding = 1e-9_dp
 
 contains
 
+   !> Sets the data of the fields. psi is computed later, when it is first needed.
    subroutine start_grid_fields(fields, surface, edge, approach, rotated)
       type(grid_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge       !! pressure [p*] and gap [Delta] at the points
       real(dp), intent(in) :: approach          !! [Delta]
-      logical, intent(in) :: rotated             !! whether the angles of the grid are X + Y and X - Y
+      logical, intent(in) :: rotated            !! whether the angles of the grid are X + Y and X - Y
 
       fields%surface = surface
       fields%edge = edge
       fields%approach = approach
       fields%rotated = rotated
       fields%own_slab = edge%slab
-      ! The points of a rotated grid are every other point of a grid of the cell.
+      ! The points of a rotated grid are only every other point of a grid of the cell: it has no own points.
       if (rotated) return
       fields%own_points = edge%slab%points
       if (.not. edge%even) return
-      associate (are_halved => edge%slab%points > 1)
-         fields%own_points = merge(2*edge%slab%points, 1, are_halved)/surface%parts()
-         fields%own_offset = merge(0.5_dp, 0.0_dp, are_halved)
-      end associate
+      ! The points of a quarter, midway between the lines of the grid; in 1-D only along x.
+      where (edge%slab%points > 1)
+         fields%own_points = 2*edge%slab%points/surface%parts()
+         fields%own_offset = 0.5_dp
+      end where
    end subroutine start_grid_fields
 
+   !> The fields at the points of one own column: the solution's numbers, without interpolation.
    subroutine at_own_column(self, column, shape, pressure, displacement, gap)
       class(grid_fields), intent(in) :: self
       integer, intent(in) :: column
@@ -72,6 +75,7 @@ contains
       displacement = gap - (1.0_dp - self%approach) + shape
    end subroutine at_own_column
 
+   !> The fields at one point, interpolated by (C20).
    subroutine at(self, x, y, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -81,6 +85,7 @@ contains
       displacement = gap - (1.0_dp - self%approach) + self%surface%shape_at(x, y)
    end subroutine at
 
+   !> The fields at many points, interpolated by (C20), with the surface's shape that the caller knows.
    subroutine at_points(self, angle, shape, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       real(dp), intent(in) :: angle(:, :)
@@ -95,6 +100,7 @@ contains
       displacement = gap - (1.0_dp - self%approach) + shape
    end subroutine at_points
 
+   !> The fields on a grid of the cell: the solution's numbers if this is its own grid, otherwise interpolated.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       integer, intent(in) :: points(2)
@@ -122,7 +128,7 @@ contains
       displacement = gap - (1.0_dp - self%approach) + displacement
    end subroutine on_grid
 
-   !> Finds psi at the points, and its scale of gaps.
+   !> Computes psi at the points, and the factor of gaps in it: (C19).
    subroutine find_psi(fields)
       type(grid_fields), intent(inout) :: fields
 
@@ -148,14 +154,15 @@ contains
             call add_slopes(fields%psi(k, l - 1:l + 2))
          end do
       end do
-      if (inside > 0.0_dp .and. outside > 0.0_dp) fields%scale = inside/outside
-      where (fields%psi < 0.0_dp) fields%psi = fields%scale*fields%psi
+      if (inside > 0.0_dp .and. outside > 0.0_dp) fields%gap_factor = inside/outside
+      where (fields%psi < 0.0_dp) fields%psi = fields%gap_factor*fields%psi
 
    contains
 
-      !> If the edge lies in the middle of four points in a row, adds the slopes on either side of it to the sums.
+      !> Adds the slopes of p^2 and of gap^(2/3) on both sides of the edge to their sums, if the edge lies in the middle
+      !> of four adjacent points.
       subroutine add_slopes(psi)
-         real(dp), intent(in) :: psi(:)   !! shape (4)
+         real(dp), intent(in) :: psi(:)   !! p^2 or -gap^(2/3) at four points of a line, shape (4)
 
          real(dp) :: outwards(4)
 
@@ -168,7 +175,7 @@ contains
 
    end subroutine find_psi
 
-   !> Pressure and gap at a point.
+   !> Interpolates pressure and gap at a point.
    subroutine interpolate(fields, place, pressure, gap)
       type(grid_fields), intent(inout) :: fields
       real(dp), intent(in) :: place(2)            !! X, Y in sides of the surface's cell
@@ -188,17 +195,17 @@ contains
       if (psi > 0.0_dp) then
          pressure = min(sqrt(psi), fields%surface%hardness)
       else
-         gap = sqrt(-psi/fields%scale)**3
+         gap = sqrt(-psi/fields%gap_factor)**3
       end if
    end subroutine interpolate
 
-   !> The point of the grid before a place, and the rest of the way in steps.
+   !> Finds the point of the grid before a position along one axis, and the distance from this point in steps.
    pure subroutine locate(place, points, even, node, rest)
-      real(dp), intent(in) :: place      !! in sides of the cell
-      integer, intent(in) :: points      !! M or N
-      logical, intent(in) :: even        !! whether they are those of half the side
-      integer, intent(out) :: node       !! 0 .. M
-      real(dp), intent(out) :: rest      !! 0 .. 1
+      real(dp), intent(in) :: place      !! position over the side of the cell; any number, cells repeat
+      integer, intent(in) :: points      !! number of points along this axis, M or N
+      logical, intent(in) :: even        !! whether the points lie on half of the side, mirrored at both ends
+      integer, intent(out) :: node       !! number of the point, 0 .. points
+      real(dp), intent(out) :: rest      !! distance from the point, 0 .. 1 [step]
 
       real(dp) :: steps
 
@@ -216,10 +223,10 @@ contains
       if (rest <= rounding) rest = 0.0_dp
    end subroutine locate
 
-   !> The cubic (C20) through the values and slopes of four points, from those of the points about them.
+   !> The cubic (C20) in the cell of four points. Slopes at the points are computed from the 16 points about the cell.
    pure real(dp) function cubic(psi, s, t)
-      real(dp), intent(in) :: psi(-1:, -1:)      !! shape (-1:2, -1:2)
-      real(dp), intent(in) :: s, t               !! from point (0, 0) to the next, 0 .. 1
+      real(dp), intent(in) :: psi(-1:, -1:)      !! psi at the 16 points, shape (-1:2, -1:2); the cell has 0 and 1
+      real(dp), intent(in) :: s, t               !! xi_1, xi_2: position in the cell, 0 .. 1 [step]
 
       real(dp) :: linear, value_s(0:1), value_t(0:1), slope_s(0:1), slope_t(0:1)
       integer :: i, j
@@ -235,7 +242,8 @@ contains
                + slope_s(i)*value_t(j)*slope(psi(i - 1:i + 1, j)) + value_s(i)*slope_t(j)*slope(psi(i, j - 1:j + 1))
          end do
       end do
-      ! Between four points in contact there is no gap, and between four points outside no contact.
+      ! The cubic may overshoot. But between four points in contact there is no gap, and between four open points no
+      ! contact: there psi keeps the sign and at least half the size of the bilinear interpolation.
       linear = (1.0_dp - t)*((1.0_dp - s)*psi(0, 0) + s*psi(1, 0)) + t*((1.0_dp - s)*psi(0, 1) + s*psi(1, 1))
       if (all(psi(0:1, 0:1) > 0.0_dp)) then
          cubic = max(cubic, 0.5_dp*linear)
@@ -244,10 +252,10 @@ contains
       end if
    end function cubic
 
-   !> The slope of psi at a point, a step being 1: the mean of the differences to those neighbours that are on the same
-   !> side of the edge.
+   !> The slope of psi at a point, per step: the mean of the differences to those of the two neighbours that are on the
+   !> same side of the edge; zero if neither is.
    pure real(dp) function slope(psi)
-      real(dp), intent(in) :: psi(-1:)   !! shape (-1:1)
+      real(dp), intent(in) :: psi(-1:)   !! psi at the point, 0, and at its neighbours on a line, shape (-1:1)
 
       logical :: left, right   ! whether the neighbour is on the same side
 

@@ -1,5 +1,6 @@
-!> Plans the sequence of grids, each with half the step of the one before, and estimates whether a grid fits into
-!> memory. Below a given grid of an odd number of points the step is a little less than twice as large.
+!> Plans a sequence of grids, each with half the step of the one before, and estimates whether a grid fits into memory.
+!> A grid of an odd number of points n cannot be halved exactly: the grid before it has (n + 1)/2 points, whose step is
+!> a little less than twice as large.
 !>
 !> Numbers of points are those of the part of the cell that is solved: of an even surface half the cell in 1-D and a
 !> quarter in 2-D, of any other surface the whole cell. In 1-D the second number is 1.
@@ -14,30 +15,32 @@ module wavycon_grid_plan
 
    public :: bytes_of_grid, fast_size, fits_memory, grid_plan, plan_grids
 
-   !> Real numbers for each point besides the surface: pressure, undeformed gap, and the memory of a correction or of
-   !> the measures. On maps of 2048 x 2048 points 5.5 were measured, with a hardness 6.5.
+   !> Real numbers in memory for each point, without those of the surface: pressure, undeformed gap, and the arrays of a
+   !> correction or of the measures. On maps of 2048 x 2048 points 5.5 were measured, and 6.5 with a hardness.
    integer, parameter :: numbers_of_point = 7
 
    type :: grid_plan
-      integer, allocatable :: grids(:, :)   !! points along x and y of each grid, the coarsest first, shape (2, n)
-      integer :: trusted = 1                !! the first whose error estimates include the surface's shortest waves
+      integer, allocatable :: grids(:, :)   !! points along x and y of n grids, the coarsest first, shape (2, n)
+      integer :: trusted = 1                !! first grid whose error estimates include the surface's shortest waves
    end type grid_plan
 
 contains
 
-   !> Plans the grids of a surface.
+   !> Plans the grids of a surface. If points are given, the last grid has these, and the others are found by halving.
+   !> Otherwise a map's own grid, or one that resolves the shortest wave, is halved as often as possible; then grids are
+   !> added up to the largest number of points.
    !>
-   !> N.B. The shortest waves of a height map have two steps of its own grid. Coarser grids lack these waves, and the
-   !> map's own grid has only two points to each: changes from grid to grid do not show their error before the step is
-   !> halved once more. So the first trusted grid has half the step of the map's.
+   !> N.B. The shortest wave of a height map is two steps of the map's own grid long. Coarser grids lack this wave, and
+   !> the own grid has only two points to the wave. So changes from grid to grid do not show the error of these waves
+   !> before the step of the own grid is halved once more, and the first trusted grid has half the map's step.
    pure type(grid_plan) function plan_grids(surface, points) result(plan)
       type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)   !! of the last grid's whole cell; zeros: the accuracy decides
+      integer, intent(in) :: points(2)   !! points of the last grid on the whole cell; zeros: the accuracy decides
 
       integer :: grid(2), least(2), most, parts(2)
 
-      parts = merge(2, 1, surface%shape%is_even())
-      if (surface%dimension == 1) parts(2) = 1
+      parts = 1
+      if (surface%shape%is_even()) parts(:surface%dimension) = 2
       least = 2*first_points/parts
       if (surface%dimension == 1) least(2) = 1
       if (all(points > 0)) then
@@ -55,7 +58,8 @@ contains
       end do
       plan%trusted = size(plan%grids, 2)
       if (all(points > 0)) return
-      most = merge(most_points_line, most_points_plane, surface%dimension == 1)/product(parts)
+      most = most_points_plane/product(parts)
+      if (surface%dimension == 1) most = most_points_line/product(parts)
       do while (product(int(grid, int64)) <= most)
          ! In 1-D the second number stays 1.
          grid = [2, surface%dimension]*grid
@@ -64,7 +68,7 @@ contains
       if (surface%is_height_map()) plan%trusted = min(plan%trusted + 1, size(plan%grids, 2))
    end function plan_grids
 
-   !> The least number of points, not below a given one, whose Fourier transform is fast: 1, 3 or 5 times a power of
+   !> The least number of points, not below a given number, whose Fourier transform is fast: 1, 3 or 5 times a power of
    !> two.
    elemental integer function fast_size(number)
       integer, intent(in) :: number   !! >= 1
@@ -79,25 +83,25 @@ contains
       fast_size = minval(factors*power, factors*power >= number)
    end function fast_size
 
-   !> Whether the available memory is enough to solve on a grid. The answer is the same on all ranks that have a slab of
-   !> the grid.
+   !> Whether the available memory is enough to solve on a grid. The answer is the same on all processes that have a
+   !> slab of the grid.
    logical function fits_memory(grid)
-      integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
+      integer, intent(in) :: grid(2)   !! points along x and y of the part of the cell that is solved
 
       type(grid_slab) :: slab
       integer(int64) :: points
 
       call slab%start(grid)
       points = int(grid(1), int64)*slab%width
-      ! Arrays of a slab have default integers as indices.
+      ! The indices of a slab's arrays are default integers.
       fits_memory = points <= huge(grid)
       if (fits_memory) fits_memory = slab%has_memory(numbers_of_point)
       fits_memory = .not. slab%any(.not. fits_memory)
    end function fits_memory
 
-   !> The memory that it takes to solve on a grid [byte].
+   !> The memory that a solution on a grid takes [byte], without that of the surface.
    pure integer(int64) function bytes_of_grid(grid)
-      integer, intent(in) :: grid(2)   !! points of the part of the cell that is solved
+      integer, intent(in) :: grid(2)   !! points along x and y of the part of the cell that is solved
 
       bytes_of_grid = storage_size(1.0_dp)/8*numbers_of_point*product(int(grid, int64))
    end function bytes_of_grid

@@ -1,4 +1,4 @@
-!> Interpolates a pressure to a finer grid, linearly between the points of the coarser grid.
+!> Interpolates the solution on one grid linearly to a finer grid, on which it is the start.
 module wavycon_grid_refinement
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_points, only: image_of_point
@@ -11,25 +11,28 @@ module wavycon_grid_refinement
 
 contains
 
-   !> The pressure, where it is positive, and the gap, times the weight with which (C11) places the edge, as negative
-   !> pressures: what is above zero between the points is the pressure there.
+   !> Interpolates the pressure to a finer grid. The field that is interpolated is the pressure in contact and minus the
+   !> gap at open points, where the gap is converted to a pressure with the weight of (C11). The fine pressure is this
+   !> field where it is positive, so that it ends where (C11) places the edge of contact. The pressure alone would end
+   !> up to a step farther out.
    subroutine refine_pressure(edge, fine_slab, fine)
-      type(grid_edge), intent(in) :: edge                !! of the coarser grid
-      type(grid_slab), intent(in) :: fine_slab           !! of more points; distributed if that of the edge is
-      real(dp), allocatable, intent(out) :: fine(:, :)   !! >= 0, own columns, shape (M', fine_slab%columns())
+      type(grid_edge), intent(in) :: edge                !! pressures and gaps on the coarser grid
+      type(grid_slab), intent(in) :: fine_slab           !! the finer grid; distributed if the coarser one is
+      real(dp), allocatable, intent(out) :: fine(:, :)   !! pressure, >= 0, shape (M', fine_slab%columns())
 
       associate (coarse => edge%pressure_or_gap, weight => edge%rule%gap_weight*maxval(edge%stiffness))
          call refine(merge(1.0_dp, weight, coarse > 0.0_dp)*coarse, edge%slab, edge%even, fine_slab, fine)
       end associate
    end subroutine refine_pressure
 
-   !> Interpolates a field linearly; what is negative between the points becomes zero.
+   !> Interpolates a field linearly to a finer grid; negative results become zero. If the grids are distributed, each
+   !> process first fetches the coarse columns about its fine ones.
    subroutine refine(coarse, coarse_slab, even, fine_slab, fine)
-      real(dp), intent(in), contiguous :: coarse(:, :)   !! own columns, shape (M, coarse_slab%columns())
-      type(grid_slab), intent(in) :: coarse_slab         !! of M x N points; N = 1 in 1-D
+      real(dp), intent(in), contiguous :: coarse(:, :)   !! field on M x N points, shape (M, coarse_slab%columns())
+      type(grid_slab), intent(in) :: coarse_slab         !! the coarser grid; N = 1 in 1-D
       logical, intent(in) :: even                        !! whether the points are those of a quarter of the cell
-      type(grid_slab), intent(in) :: fine_slab           !! of more points; distributed if coarse_slab is
-      real(dp), allocatable, intent(out) :: fine(:, :)   !! own columns, shape (M', fine_slab%columns())
+      type(grid_slab), intent(in) :: fine_slab           !! the finer grid; distributed if coarse_slab is
+      real(dp), allocatable, intent(out) :: fine(:, :)   !! field on the finer grid, shape (M', fine_slab%columns())
 
       real(dp), allocatable :: needed(:, :)
       integer :: before(fine_slab%points(1)), column, first, j, last, m
@@ -38,7 +41,7 @@ contains
       m = coarse_slab%points(1)
       allocate (fine(fine_slab%points(1), fine_slab%columns()), source=0.0_dp)
       call find_place([(j, j=1, fine_slab%points(1))], fine_slab%points(1), m, even, before, rests)
-      ! The coarse columns about the own fine ones, or their images.
+      ! The first and last coarse columns that the fine columns of this process need; those beyond the grid are images.
       call find_place(fine_slab%first, fine_slab%points(2), coarse_slab%points(2), even, first, rest)
       call find_place(fine_slab%last, fine_slab%points(2), coarse_slab%points(2), even, last, rest)
       if (fine_slab%columns() == 0) last = first - 2
@@ -53,20 +56,21 @@ contains
       end do
    end subroutine refine
 
-   !> The coarse point before a fine one, and the rest of the way in coarse steps. Points of a quarter lie midway
-   !> between the lines of the grid.
+   !> Finds the coarse point before a fine one along one axis, and the distance between both in coarse steps. The points
+   !> of a quarter of the cell begin half a step from its border, those of a whole cell at the border.
    elemental subroutine find_place(point, fine_points, coarse_points, even, before, rest)
-      integer, intent(in) :: point, fine_points, coarse_points
-      logical, intent(in) :: even
-      integer, intent(out) :: before   !! 0 .. coarse_points
-      real(dp), intent(out) :: rest    !! 0 <= rest < 1
+      integer, intent(in) :: point, fine_points, coarse_points   !! number of the fine point; points of both grids
+      logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
+      integer, intent(out) :: before   !! number of the coarse point, 0 .. coarse_points
+      real(dp), intent(out) :: rest    !! distance, 0 <= rest < 1 [coarse step]
 
-      real(dp) :: middle, place
+      real(dp) :: first_step, position   ! first_step: distance of the first point from the border [step]
 
-      middle = merge(0.5_dp, 0.0_dp, even)
-      place = (point - 1 + middle)*coarse_points/fine_points + 1.0_dp - middle
-      before = floor(place)
-      rest = place - before
+      first_step = 0.0_dp
+      if (even) first_step = 0.5_dp
+      position = (point - 1 + first_step)*coarse_points/fine_points + 1.0_dp - first_step
+      before = floor(position)
+      rest = position - before
    end subroutine find_place
 
 end module wavycon_grid_refinement

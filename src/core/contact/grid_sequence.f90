@@ -1,8 +1,8 @@
 !> Solves one load on a sequence of grids, each with half the step of the one before, until the error estimates are
-!> within an accuracy.
+!> within an accuracy or the last grid of the plan is solved.
 !>
-!> The solution on one grid is the start on the next, and the error estimates follow from the changes from grid to grid.
-!> Numbers (C..) are the equations of README.md in this directory.
+!> The solution on one grid is the start on the next one, and the error estimates follow from the changes from grid to
+!> grid. Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change
@@ -27,57 +27,60 @@ module wavycon_grid_sequence
 
    public :: grid_start, sequence_answer, solve_by_sequence
 
-   !> A solution at a load near by, from which a grid may start.
+   !> The pressure on one grid at another load of a search, from which a load near by may start.
    type :: grid_start
-      real(dp) :: mean_pressure = 0.0_dp         !! its load P; 0: there is none
-      real(dp), allocatable :: pressure(:, :)    !! as of grid_state
+      real(dp) :: mean_pressure = 0.0_dp         !! load P of this pressure; 0: there is none
+      real(dp), allocatable :: pressure(:, :)    !! p/p*, as in grid_state
    end type grid_start
 
    type, extends(quantities) :: sequence_answer
-      type(grid_state) :: state            !! on the finest grid, without the gap
-      !> On the finest grid; not allocated if the first did not fit into memory, or if `progress` stopped the solver.
+      type(grid_state) :: state            !! solution on the finest grid that was solved, without the gap
+      !> Pressures and gaps on this grid. Not allocated if the first grid did not fit into memory, or if `progress`
+      !> stopped the solver.
       type(grid_edge), allocatable :: edge
-      type(change_history) :: history      !! the values on the last three grids, without the bound of a hardness
-      type(change_history), private :: at_hardness   !! the same of the area at the hardness alone
+      !> Main values on the last three grids. With a hardness the area is that before its bound P/H is applied.
+      type(change_history) :: history
+      type(change_history), private :: at_hardness   !! area at the hardness on the last three grids; (2) alone is used
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
-      integer :: grids = 0
-      integer :: iterations = 0            !! on all grids
-      real(dp) :: transform_pairs = 0.0_dp !! in both precisions, in units of one on the finest grid
+      integer :: grids = 0                 !! number of grids that were solved
+      integer :: iterations = 0            !! number of iterations on all grids
+      real(dp) :: transform_pairs = 0.0_dp !! transforms there and back, in units of one pair on the finest grid
    end type sequence_answer
 
 contains
 
-   !> Solves one load, to an accuracy or up to a given grid. The sequence ends early if a grid does not fit into memory
-   !> (`out_of_memory`), the iteration on it does not converge (`state%converged` is false), or `progress` says that it
-   !> shall stop (`state%interrupted`): then there is no edge.
+   !> Solves one load, to an accuracy or up to a given grid. For each grid of the plan the loop solves (`solve_level`),
+   !> measures (`measure_level`), and either ends or interpolates the start of the next grid (`refine_pressure`). The
+   !> sequence ends early if the next grid does not fit into memory (`out_of_memory`), if the iteration on a grid does
+   !> not converge (`state%converged` is false), or if `progress` stops the solver (`state%interrupted`; there is no
+   !> edge then).
    subroutine solve_by_sequence(surface, mean_pressure, accuracy, points, answer, progress, residual, needs_gap, &
                                 starts)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure           !! P in (0, 1), or in (0, H) if the surface has a hardness
-      !> Largest error estimate allowed of the three values, with free edges over these, >= 0.
+      !> Largest error estimate that is allowed, >= 0: of mean gap [Delta], area fraction and peak pressure [p*]; with
+      !> free edges relative to the values.
       real(dp), intent(in) :: accuracy
-      integer, intent(in) :: points(2)                !! of the last grid, on the whole cell; zeros: to the accuracy
+      integer, intent(in) :: points(2)                !! points of the last grid on the whole cell; or zeros
       type(sequence_answer), intent(out) :: answer
-      !> Is called after each grid, and asked in its iterations whether to stop.
+      !> `grid_solved` is called after each grid, `shall_stop` before each iteration.
       class(solver_progress), intent(in), optional :: progress
-      !> Residual (C9) of the last grid that `points` gives; absent or 0: as its edge needs it (C10).
+      !> Residual (C9) of the last grid if `points` are given; absent or 0: the tolerance (C10).
       real(dp), intent(in), optional :: residual
-      !> Whether the edge of a surface with free edges is to have the gap at points far from the contact too.
+      !> Whether answer%edge of a surface with free edges needs the gap at points far from the contact too.
       logical, intent(in), optional :: needs_gap
-      !> Of each grid of the surface from the coarsest: on entry the load before, if one was solved, then this one,
-      !> which leaves no pressure in answer%state.
+      !> Pressures of the last load of a search on each grid of the plan, from the coarsest. On return they are those of
+      !> this load, moved from answer%state, whose pressure is then not allocated.
       type(grid_start), intent(inout), optional :: starts(:)
 
-      real(dp), allocatable :: h(:, :)
+      real(dp), allocatable :: h(:, :)   ! undeformed gap [Delta]
       type(grid_plan) :: plan
-      real(dp) :: errors(3), last_residual, scale(3), values(3)
+      real(dp) :: errors(3), level_residual, unit(3), values(3)   ! unit: units of the errors
       logical :: ends
       integer :: i
 
       plan = plan_grids(surface, points)
-      last_residual = 0.0_dp
-      if (present(residual) .and. all(points > 0)) last_residual = residual
       answer%out_of_memory = .not. fits_memory(plan%grids(:, 1))
       if (answer%out_of_memory) return
       call answer%state%slab%start(plan%grids(:, 1))
@@ -86,17 +89,19 @@ contains
       do i = 1, size(plan%grids, 2)
          ends = i == size(plan%grids, 2)
          if (present(starts)) then
-            ! Farther away the coarser grid is nearer.
+            ! If the loads differ by more, the solution on the coarser grid is the better start.
             answer%state%starts_near = abs(mean_pressure - starts(i)%mean_pressure) <= largest_change*mean_pressure
             if (answer%state%starts_near) call move_alloc(starts(i)%pressure, answer%state%pressure)
          end if
-         call solve_level(surface, mean_pressure, merge(last_residual, 0.0_dp, ends), h, answer, progress)
+         level_residual = 0.0_dp
+         if (present(residual) .and. all(points > 0) .and. ends) level_residual = residual
+         call solve_level(surface, mean_pressure, level_residual, h, answer, progress)
          if (answer%state%interrupted) return
-         ! No finer grid starts from a solution that has not converged.
+         ! A solution that has not converged is no start for a finer grid.
          ends = ends .or. .not. answer%state%converged
          if (.not. ends) answer%out_of_memory = .not. fits_memory(plan%grids(:, i + 1))
          ends = ends .or. answer%out_of_memory
-         ! Only the errors of an answer are of interest.
+         ! Errors are estimated only where this grid may be the last one.
          call measure_level(surface, mean_pressure, h, ends .or. i >= plan%trusted, answer)
          if (present(starts)) then
             starts(i)%mean_pressure = mean_pressure
@@ -104,11 +109,11 @@ contains
          end if
          values = answer%main_values(surface)
          errors = answer%error(main_quantities)
-         scale = 1.0_dp
-         if (surface%has_free_edges) scale = values
+         unit = 1.0_dp
+         if (surface%has_free_edges) unit = values
          answer%accurate = answer%state%converged .and. i >= plan%trusted .and. &
-            all(errors <= accuracy*scale .or. .not. is_known(values)) .and. &
-            answer%error(area_at_hardness) <= accuracy*scale(2)
+            all(errors <= accuracy*unit .or. .not. is_known(values)) .and. &
+            answer%error(area_at_hardness) <= accuracy*unit(2)
          if (present(progress)) &
             call progress%grid_solved(plan%grids(:, i)*merge(2, 1, surface%shape%is_even() .and. plan%grids(:, i) > 1) &
                                       /surface%parts(), answer%state%iterations, answer%state%residual)
@@ -125,26 +130,29 @@ contains
       else
          errors = known_errors(errors, surface%full_contact_peak)
       end if
-      ! No pressure is negative: an estimate as large as the peak says nothing of it. With free edges the same is true
-      ! of the approach and of the area.
-      where ((.not. answer%accurate .and. errors >= max(values, tiny(scale)) .and. &
+      ! No pressure is negative: an error estimate as large as the peak pressure says nothing. With free edges the same
+      ! is true of approach and area. Such errors are unknown.
+      where ((.not. answer%accurate .and. errors >= max(values, tiny(unit)) .and. &
               [surface%has_free_edges, surface%has_free_edges, .true.]) .or. .not. is_known(values)) &
          errors = unknown
       answer%error(main_quantities) = errors
       answer%error(elastic_energy) = scaled(errors(1), 2*mean_pressure)
    end subroutine solve_by_sequence
 
-   !> Solves on one grid, that of answer%state%pressure, and starts from that pressure.
+   !> Solves (C1) on one grid, from the pressure answer%state%pressure. The pressure is first multiplied by a factor
+   !> that gives it the right mean.
    subroutine solve_level(surface, mean_pressure, residual, h, answer, progress)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: mean_pressure, residual
-      real(dp), allocatable, intent(out) :: h(:, :)   !! undeformed gap [Delta]
+      real(dp), intent(in) :: mean_pressure           !! P
+      real(dp), intent(in) :: residual                !! largest residual, as in solve_on_grid
+      real(dp), allocatable, intent(out) :: h(:, :)   !! undeformed gap [Delta], shape (M, slab%columns())
       type(sequence_answer), intent(inout) :: answer
       class(solver_progress), intent(in), optional :: progress
 
       type(compliance_operator) :: half_space
-      integer :: most
-      real(dp) :: carried, load
+      integer :: most                                 ! largest number of iterations
+      real(dp) :: carried, load                       ! sums of the pressures of the start and of the solution
+      real(dp) :: cell(surface%dimension), ratio      ! sides of the cell; the longest of them over the shortest step
 
       associate (slab => answer%state%slab, pressure => answer%state%pressure)
          allocate (h(slab%points(1), slab%columns()))
@@ -154,14 +162,14 @@ contains
          if (carried > 0.0_dp) then
             pressure = pressure*(load/carried)
          else
-            ! The contact of the coarser grid lies between these points.
+            ! No point of this grid lies in the contact of the coarser grid.
             pressure = mean_pressure
          end if
          if (has_points_at(slab, surface%hardness, pressure)) call set_load(slab, pressure, load, surface%hardness)
-         associate (length => surface%length(:surface%dimension), step => surface%length/slab%points)
-            most = max(iteration_limit, nint(iterations_of_root*sqrt( &
-                   maxval(length)/minval(step(:surface%dimension)*merge(0.5_dp, 1.0_dp, surface%shape%is_even())))))
-         end associate
+         cell = surface%length(:surface%dimension)
+         ratio = maxval(cell)/minval(cell/slab%points(:surface%dimension))
+         if (surface%shape%is_even()) ratio = 2*ratio
+         most = max(iteration_limit, nint(iterations_of_root*sqrt(ratio)))
       end associate
       answer%transform_pairs = answer%transform_pairs/2**surface%dimension
       if (surface%has_free_edges) then
@@ -176,36 +184,38 @@ contains
       answer%iterations = answer%iterations + answer%state%iterations
    end subroutine solve_level
 
-   !> The mean of p u/2, u = gap - h + approach.
+   !> The elastic energy per area [p* Delta], the mean of p u/2 with u = gap - h + approach.
    real(dp) function energy_of(state, undeformed_gap)
-      type(grid_state), intent(in) :: state   !! solved, with the gap
-      real(dp), intent(in) :: undeformed_gap(:, :)
+      type(grid_state), intent(in) :: state          !! solution with its gap
+      real(dp), intent(in) :: undeformed_gap(:, :)   !! h [Delta], shape of the gap
 
       integer :: j
-      real(dp) :: parts(1, size(undeformed_gap, 2)), total(1)
+      real(dp) :: column_sums(1, size(undeformed_gap, 2)), total(1)
 
       do j = 1, size(undeformed_gap, 2)
-         parts(1, j) = dot_product(state%pressure(:, j), state%gap(:, j) - undeformed_gap(:, j) + state%approach)
+         column_sums(1, j) = dot_product(state%pressure(:, j), &
+                                         state%gap(:, j) - undeformed_gap(:, j) + state%approach)
       end do
-      total = state%slab%column_totals(parts)
+      total = state%slab%column_totals(column_sums)
       energy_of = 0.5_dp*total(1)/product(real(state%slab%points, dp))
    end function energy_of
 
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
-   !> estimates (C14) to (C17). The area is at least P/H, the smallest that carries the load at the hardness; its error
-   !> is estimated before this bound is applied, which would hide changes. The error is unknown where (C12) gives no
-   !> area although there is contact. With a hardness the same of the area at which p = H. The edge takes over the
-   !> memory of the gap, which no longer exists afterwards.
+   !> estimates (C14) to (C17). With a hardness the area is at least P/H, the smallest area that carries the load; its
+   !> error is estimated before this bound is applied, because the bound would hide changes. The area's error is unknown
+   !> where (C12) gives no area although there is contact. The area at which p = H is measured in the same way. On
+   !> return answer%state%gap is not allocated: answer%edge has taken over its memory.
    subroutine measure_level(surface, mean_pressure, h, estimated, answer)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: mean_pressure
-      real(dp), intent(in) :: h(:, :)    !! undeformed gap [Delta], of the columns of answer%state%gap
-      logical, intent(in) :: estimated   !! whether this may be the last grid: errors are wanted
+      real(dp), intent(in) :: mean_pressure   !! P
+      real(dp), intent(in) :: h(:, :)         !! undeformed gap [Delta], shape of answer%state%gap
+      logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
       real(dp) :: area, bend, capped_errors(3), errors(3)
       logical :: has_corners
-      type(grid_edge) :: astray, capped
+      type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
+      type(grid_edge) :: uncertain   ! 1 at points whose contact does not follow from their height, elsewhere -h
 
       answer%value(mean_gap) = answer%state%open_gap()
       answer%value(approach) = answer%state%approach
@@ -222,7 +232,7 @@ contains
       call answer%edge%fetch_neighbours()
       answer%value(contact_area_counted) = counted_area_fraction(answer%edge)
       area = grid_contact_area(answer%edge)
-      ! At a step the pressure next to it does not say where the contact ends: it ends with the block.
+      ! At a step of the heights contact ends with the block. The pressure beside the step does not show this place.
       if (surface%has_steps) area = answer%value(contact_area_counted)
       answer%value(contact_area) = area
       if (surface%dimension == 2 .and. estimated) &
@@ -236,10 +246,11 @@ contains
       associate (p => answer%edge%pressure_or_gap)
          has_corners = ends_at_corners(surface, p)
          if (surface%has_steps) then
-            ! The cells in contact are the area where contact ends with a block, and else to half a step: where only one
-            ! of contact and height changes between two points.
-            call start_grid_edge(astray, merge(1.0_dp, 0.0_dp, (p > 0.0_dp) .neqv. (2*h < maxval(h))), h, even=.true.)
-            errors(2) = max(errors(2), 0.5_dp*edge_crossings(astray)/size(h))
+            ! Where contact ends with a block the points in contact give the area exactly. Where contact or height alone
+            ! changes between two neighbours, the edge is uncertain by half a step.
+            call start_grid_edge(uncertain, merge(1.0_dp, 0.0_dp, (p > 0.0_dp) .neqv. (2*h < maxval(h))), h, &
+                                 even=.true.)
+            errors(2) = max(errors(2), 0.5_dp*edge_crossings(uncertain)/size(h))
          else if (has_corners .and. surface%dimension == 2) then
             errors(2) = max(errors(2), errors(1)/max(answer%history%values(1), tiny(area))*area)
          end if
@@ -254,17 +265,17 @@ contains
       answer%value(area_at_hardness) = min(area, mean_pressure/surface%hardness)
       call answer%at_hardness%push([0.0_dp, area, 0.0_dp])
       capped_errors = answer%at_hardness%errors()
-      ! Between the points the pressure may reach H although it does so at none of them.
+      ! Between the points the pressure may reach H although no point does.
       if (answer%value(peak_pressure) >= surface%hardness) &
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
       answer%error(area_at_hardness) = capped_errors(2)
    end subroutine measure_level
 
-   !> Whether contact ends at the border of the map or at a step, where the pressure grows beyond all bounds as at the
-   !> edge of a punch.
+   !> Whether contact ends at the border of a map with free edges or at a step of its heights. The pressure is infinite
+   !> there, as at the edge of a punch.
    pure logical function ends_at_corners(surface, p)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: p(:, :)   !! > 0 in contact; with free edges at the points of the map
+      real(dp), intent(in) :: p(:, :)   !! > 0 at points in contact; used for surfaces with free edges only
 
       associate (m => size(p, 1), n => size(p, 2))
          ends_at_corners = surface%has_free_edges .and. &

@@ -1,11 +1,12 @@
-!> Minimises the complementary energy 1/2 (p, Sp) + (p, h) over the pressures 0 <= p <= H of given mean on a grid. H is
-!> the hardness; elastic bodies have none.
+!> Solves (C1) or (C21) on one grid: minimises the complementary energy 1/2 (p, S p) + (p, h) over the pressures
+!> 0 <= p <= H of given mean. H is the hardness; elastic bodies have none.
 !>
 !> Each step computes the gap of the present pressure at all points, in double precision, and verifies the conditions
-!> of contact there. It then selects the points in and near the contact, and corrects the pressure at these points in
-!> single precision (`pressure_correction`). A step reduces the residual by some four digits.
+!> of contact there. The step then selects the points in and near the contact, and corrects the pressure at these
+!> points in single precision (`pressure_correction`). A step reduces the residual by some four digits.
 !>
-!> Fields have the own columns of the grid; sums and neighbours come from its slab.
+!> If the grid is distributed over processes, fields have the columns of this process, and the grid's slab provides sums
+!> over the grid and neighbouring columns.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_solver
@@ -13,6 +14,7 @@ module wavycon_grid_solver
    use wavycon_contact_region, only: add_neighbours
    use wavycon_contact_tuning, only: approach_tolerance, correction_limit, correction_margin, correction_part, &
       edge_tolerance, halo
+   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -25,24 +27,27 @@ module wavycon_grid_solver
 
    public :: rounding, solve_on_grid
 
-   !> Residuals below the first, over Delta, are rounding. Those below the second are rounding if a step does not halve
-   !> them: the rounding of gaps depends on the depth of the surface and on its longest wave.
+   !> Limits of residuals due to rounding [Delta]. A residual below the first is rounding. One below the second is
+   !> rounding if a step does not halve the residual: the rounding of gaps depends on the depth of the surface and on
+   !> its longest wave.
    real(dp), parameter :: rounding = 32*epsilon(1.0_dp), most_rounding = 1e-12_dp
 
 contains
 
-   !> Solves (C1) on a grid. If it does not converge in most_iterations, state%converged is false.
+   !> Solves (C1) on a grid. On return pressure, gap, approach and residual are those of the solution, and
+   !> state%converged tells whether the residual is within the tolerance. If `progress` stops the solver,
+   !> state%interrupted is true and the gap is not allocated.
    subroutine solve_on_grid(half_space, undeformed_gap, residual, most_iterations, state, progress)
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h/Delta, shape (M, state%slab%columns())
-      real(dp), intent(in) :: residual               !! the largest allowed (C9), > 0; 0: that of (C10)
-      integer, intent(in) :: most_iterations
-      !> On entry `slab` and `hardness` are set and `pressure` is the start, 0 <= p <= H, whose mean P in (0, H) is
-      !> kept.
+      real(dp), intent(in) :: residual               !! largest residual (C9) that is allowed; 0: the tolerance (C10)
+      integer, intent(in) :: most_iterations         !! iterations of all corrections after which the solver gives up
+      !> On entry `slab` and `hardness` are set, and `pressure` is the start, 0 <= p <= H. Its mean P, in (0, H), is the
+      !> load and does not change.
       type(grid_state), intent(inout) :: state
-      class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
+      class(solver_progress), intent(in), optional :: progress   !! `shall_stop` is called before each iteration
 
-      logical :: touched(size(undeformed_gap, 2))
+      logical :: touched(size(undeformed_gap, 2))   ! whether a column has points in contact
       real(dp) :: allowed, last_residual, start_part, touching
       real(sp), allocatable :: inside(:, :)
       integer :: j
@@ -59,14 +64,15 @@ contains
          if (residual <= 0.0_dp) then
             allowed = edge_tolerance*gap_at_edge(half_space%even, state, touched)
             if (half_space%is_free) then
-               ! The approach, times the square root of the part of all points that are in contact (C28).
+               ! With free edges the smaller of (C10) and (C28); the number of points in contact gives A of (C28).
                touching = state%slab%sum_of(merge(1.0_dp, 0.0_dp, state%pressure > 0.0_dp))
                allowed = min(allowed, approach_tolerance*abs(state%approach) &
                                       *sqrt(touching/product(real(state%slab%points, dp))))
             end if
          end if
          allowed = max(allowed, rounding)
-         ! A start from a load near by is corrected as others are, unless its residual is as small as theirs then.
+         ! A start from a load near by may have an allowed residual at once. It is corrected nevertheless, unless the
+         ! residual is as small as a correction would make it: otherwise a search for a load would see its error.
          start_part = 1.0_dp
          if (state%starts_near .and. state%corrections == 0) start_part = correction_margin
          state%converged = state%residual <= start_part*allowed .or. &
@@ -81,30 +87,38 @@ contains
       state%residual = state%residual/max(state%size_of_gaps(), rounding)
    end subroutine solve_on_grid
 
-   !> Whether a pressure lies between its bounds: the gap is zero there.
+   !> Whether a pressure lies between its bounds, 0 < p < H. At such free points the gap must be zero.
    elemental logical function is_free(pressure, hardness)
       real(dp), intent(in) :: pressure, hardness
 
       is_free = pressure > 0.0_dp .and. pressure < hardness
    end function is_free
 
-   !> By how much a gap violates (C1) or (C21).
+   !> The part of a gap that violates (C1) or (C21): at free points all of it, at p = 0 an overlap, at p = H an open
+   !> gap.
    elemental real(dp) function violation(gap, pressure, hardness)
       real(dp), intent(in) :: gap, pressure, hardness
 
-      violation = merge(merge(gap, max(gap, 0.0_dp), pressure < hardness), min(gap, 0.0_dp), pressure > 0.0_dp)
+      violation = gap
+      if (pressure <= 0.0_dp) violation = min(gap, 0.0_dp)
+      if (pressure >= hardness) violation = max(gap, 0.0_dp)
    end function violation
 
-   !> The gap h + Sp - approach (C1), whose mean over the free points is zero (C3), and the residual times G. The
-   !> approach is that of the present mean gap and a change: the change is a mean of small gaps and loses no digits.
+   !> Computes the gap h + S p - approach (C1) of the present pressure, the approach, and the residual times G. The
+   !> approach is that whose mean gap over the free points is zero (C3). It is computed as the approach before plus a
+   !> change: the change is the mean of gaps that are small, and so loses no digits.
    subroutine compute_gap(half_space, undeformed_gap, touched, state)
-      type(compliance_operator), intent(inout) :: half_space
-      real(dp), intent(in) :: undeformed_gap(:, :)
-      logical, intent(in) :: touched(:)   !! whether a column of the grid has points in contact, shape (n)
+      type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
+      real(dp), intent(in) :: undeformed_gap(:, :)             !! h/Delta, shape of the pressure
+      logical, intent(in) :: touched(:)   !! whether a column has points in contact, shape (slab%columns())
+      !> On entry with pressure and the approach before; on return with gap, approach, mean gap, residual [Delta] and
+      !> residual indentation.
       type(grid_state), intent(inout) :: state
 
-      real(dp) :: approach, change, extremes(2), free, parts(2, size(touched)), points, sums(4), total
-      real(dp) :: violations(4, size(touched))
+      real(dp) :: approach, change, extremes(2), free, free_sums(2, size(touched)), points, sums(4), total
+      !> Sums over each column of squared violations, of overlaps and of open points with a hardness, and of gaps with
+      !> free edges.
+      real(dp) :: column_sums(4, size(touched))
       integer :: i, j, threads
       logical :: has_hardness
 
@@ -128,15 +142,15 @@ contains
                free = free + merge(1.0_dp, 0.0_dp, is_free(p(i, j), hardness))
                total = total + merge(gap(i, j), 0.0_dp, is_free(p(i, j), hardness))
             end do
-            parts(:, j) = [total, free]
+            free_sums(:, j) = [total, free]
          end do
-         sums(:2) = state%slab%column_totals(parts)
+         sums(:2) = state%slab%column_totals(free_sums)
          if (.not. has_hardness .or. sums(2) > 0.0_dp) then
             change = sums(1)/sums(2)
          else
             extremes = state%slab%largest([-minval(gap, p <= 0.0_dp), maxval(gap, p >= hardness)])
-            ! The approach may lie anywhere between the least gap at points that are open and the largest at points at
-            ! the hardness.
+            ! No point is free. The approach may lie anywhere between the largest gap at the hardness and the least gap
+            ! at open points, and becomes the middle of both.
             change = extremes(2)
             if (-extremes(1) < huge(change)) change = 0.5_dp*(extremes(2) - extremes(1))
          end if
@@ -149,12 +163,12 @@ contains
                gap(i, j) = gap(i, j) - change
                total = total + violation(gap(i, j), p(i, j), hardness)**2
             end do
-            violations(:, j) = [total, 0.0_dp, 0.0_dp, 0.0_dp]
-            if (has_hardness) violations(2:3, j) = [sum(max(-gap(:, j), 0.0_dp), p(:, j) >= hardness), &
-                                                    real(count(p(:, j) <= 0.0_dp), dp)]
-            if (half_space%is_free) violations(4, j) = sum(gap(:, j))
+            column_sums(:, j) = [total, 0.0_dp, 0.0_dp, 0.0_dp]
+            if (has_hardness) column_sums(2:3, j) = [sum(max(-gap(:, j), 0.0_dp), p(:, j) >= hardness), &
+                                                     real(count(p(:, j) <= 0.0_dp), dp)]
+            if (half_space%is_free) column_sums(4, j) = sum(gap(:, j))
          end do
-         sums = state%slab%column_totals(violations)
+         sums = state%slab%column_totals(column_sums)
       end associate
       state%residual = sqrt(sums(1)/points)
       state%residual_indentation = sums(2)/points
@@ -164,26 +178,27 @@ contains
       if (half_space%is_free) state%mean_gap = sums(4)/points
    end subroutine compute_gap
 
-   !> Changes the approach to that of the least residual: the mean over the free points and the points that violate
-   !> their conditions. The mean over a few free points alone might make many others violate theirs.
+   !> Changes the approach to that of the least residual, which is the mean gap over the free points and the points that
+   !> violate their condition. This is used where points are at the hardness: if only a few points are free, their mean
+   !> alone would make many other points violate their condition.
    subroutine reduce_violation(slab, gap, pressure, hardness, change)
       type(grid_slab), intent(in) :: slab
-      real(dp), intent(in) :: gap(:, :), pressure(:, :), hardness
-      real(dp), intent(inout) :: change   !! of the approach [Delta]
+      real(dp), intent(in) :: gap(:, :), pressure(:, :), hardness   !! gap [Delta] before the change; p and H [p*]
+      real(dp), intent(inout) :: change   !! change of the approach [Delta]; on entry a first estimate
 
       !> The residual is a piecewise quadratic function of the approach; Newton's method ends in a few steps.
       integer, parameter :: most_steps = 20
-      real(dp) :: next, parts(2, size(gap, 2)), sums(2)
+      real(dp) :: column_sums(2, size(gap, 2)), next, sums(2)
       integer :: j, step
 
       do step = 1, most_steps
          do j = 1, size(gap, 2)
             associate (counts => abs(violation(gap(:, j) - change, pressure(:, j), hardness)) > 0.0_dp &
                        .or. is_free(pressure(:, j), hardness))
-               parts(:, j) = [sum(gap(:, j), counts), real(count(counts), dp)]
+               column_sums(:, j) = [sum(gap(:, j), counts), real(count(counts), dp)]
             end associate
          end do
-         sums = slab%column_totals(parts)
+         sums = slab%column_totals(column_sums)
          if (sums(2) <= 0.0_dp) exit
          next = sums(1)/sums(2)
          if (abs(next - change) <= epsilon(change)*abs(change)) exit
@@ -191,23 +206,24 @@ contains
       end do
    end subroutine reduce_violation
 
-   !> Root mean square of the gap at the points next to the free ones, times the square root of the part of all points
-   !> that are free [Delta], (C10); zero if all points are.
+   !> g_e A^(1/2) of (C10) [Delta]: the root mean square of the gap at the points next to free ones, times the square
+   !> root of the free part of all points. It is zero if all points are free. Only columns next to points in contact are
+   !> looked at.
    real(dp) function gap_at_edge(even, state, touched) result(gap)
-      logical, intent(in) :: even
-      type(grid_state), intent(in) :: state
-      logical, intent(in) :: touched(:)
+      logical, intent(in) :: even             !! whether the grid continues by mirror images, otherwise periodically
+      type(grid_state), intent(in) :: state   !! pressure and gap are used
+      logical, intent(in) :: touched(:)       !! whether a column has points in contact, shape (slab%columns())
 
       real(dp), dimension(0:size(state%gap, 1) + 1) :: before, here, next   ! 1 at the free points of a column, else 0
       real(dp), dimension(size(state%gap, 1), 1) :: high, low
-      real(dp) :: beside, free, number, parts(3, size(touched)), squares, sums(3)
+      real(dp) :: beside, column_sums(3, size(touched)), free, number, squares, sums(3)
       integer :: i, j, n
 
       n = size(touched)
       low = 0.0_dp
       high = 0.0_dp
       if (state%slab%points(2) > 1) call state%slab%halo(state%pressure, even, low, high)
-      parts = 0.0_dp
+      column_sums = 0.0_dp
       here = marked(low(:, 1))
       if (n > 0) next = marked(state%pressure(:, 1))
       do j = 1, n
@@ -230,32 +246,32 @@ contains
             number = number + beside
             free = free + here(i)
          end do
-         parts(:, j) = [squares, number, free]
+         column_sums(:, j) = [squares, number, free]
       end do
-      sums = state%slab%column_totals(parts)
+      sums = state%slab%column_totals(column_sums)
       gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
 
    contains
 
-      !> 1 at the free points of a column, 0 at the others, with the images before and behind.
+      !> 1 at the free points of a column and 0 at the others, also at the image points before and after the column.
       pure function marked(pressure)
-         real(dp), intent(in) :: pressure(:)
+         real(dp), intent(in) :: pressure(:)         !! p/p* of a column, shape (M)
          real(dp) :: marked(0:size(pressure) + 1)
 
          associate (m => size(pressure))
             marked(1:m) = merge(1.0_dp, 0.0_dp, is_free(pressure, state%hardness))
-            marked(0) = marked(merge(1, m, even))
-            marked(m + 1) = marked(merge(m, 1, even))
+            marked(0) = marked(image_of_point(0, m, even))
+            marked(m + 1) = marked(image_of_point(m + 1, m, even))
          end associate
       end function marked
 
    end function gap_at_edge
 
-   !> The points that may be free after the next correction: points that are free or whose gap has the wrong sign or is
-   !> below the residual, and points within some steps of these.
+   !> Selects the region of the next correction: the points that may be free after it. These are the free points, points
+   !> that violate their condition or whose open gap is below the residual, and all points within `halo` steps of them.
    subroutine find_region(even, state, inside)
-      logical, intent(in) :: even
-      type(grid_state), intent(in) :: state
+      logical, intent(in) :: even             !! whether the grid continues by mirror images, otherwise periodically
+      type(grid_state), intent(in) :: state   !! pressure, gap and residual [Delta] are used
       real(sp), allocatable, intent(out) :: inside(:, :)   !! > 0 at these points, shape (M, slab%columns())
 
       integer :: j, step

@@ -1,5 +1,5 @@
-!> The source of fields, contact contours and stresses of a load that was solved on a grid: pressures and gaps at its
-!> points.
+!> The source of fields, contact contours and stresses of a load that was solved on a grid. The data are the pressures
+!> and gaps at the points of the grid.
 module wavycon_grid_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
@@ -30,10 +30,10 @@ module wavycon_grid_source
    public :: grid_source
 
    type, extends(field_source) :: grid_source
-      type(grid_edge), allocatable :: edge    !! pressure and gap at the grid points; always allocated
-      logical :: rotated = .false.            !! the grid's cell is the smaller one, rotated by 45 degrees
+      type(grid_edge), allocatable :: edge    !! pressures and gaps at the points; allocated after take_edge
+      logical :: rotated = .false.            !! whether the grid covers the smaller cell, rotated by 45 degrees
       real(dp) :: residual_indentation = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
-      type(change_history) :: history         !! the values on the last three grids
+      type(change_history) :: history         !! main values on the last three grids
    contains
       procedure :: take_edge
       procedure :: fields
@@ -45,19 +45,19 @@ module wavycon_grid_source
       procedure :: unpack => unpack_source
    end type grid_source
 
-   !> Numbers in the array of pack_source before the field.
+   !> Number of values in the array of pack_source before those of the field.
    integer, parameter :: own_values = 18
 
 contains
 
-   !> Sets the pressures and gaps.
+   !> Takes over the pressures and gaps without copying them.
    pure subroutine take_edge(self, edge)
       class(grid_source), intent(inout) :: self
       type(grid_edge), allocatable, intent(inout) :: edge   !! not allocated afterwards
 
       call move_alloc(edge, self%edge)
-      self%distributed_points = merge(product(int(self%edge%slab%points, int64)), 0_int64, &
-                                      self%edge%slab%is_distributed)
+      self%distributed_points = 0
+      if (self%edge%slab%is_distributed) self%distributed_points = product(int(self%edge%slab%points, int64))
    end subroutine take_edge
 
    !> Gathers the pressures and gaps of a distributed grid on the rank that writes the tables.
@@ -80,6 +80,7 @@ contains
       call self%take_edge(whole)
    end subroutine collect
 
+   !> Makes the fields, which interpolate between the points (`grid_fields`).
    subroutine fields(self, surface, answer)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -92,6 +93,8 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
+   !> The edge of contact (C11), (C12), and the loads of the spots. In 2-D the polygons are moved into the contact by
+   !> the offset of (C12).
    subroutine contact_contours(self, surface, curves, loads)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -119,15 +122,16 @@ contains
          call make_strips(edges, self%edge%in_contact(1, 1), self%edge%even, curves)
          call find_region_numbers(self%edge, [self%edge%period(1), 1], 0, numbers)
          call spot_loads(self%edge, numbers, loads)
-         ! Strips begin with that of the first point, numbers with that of the point before it.
+         ! make_strips begins with the strip of the first point, the numbers begin with that of the point before. They
+         ! differ if that point is in contact and the first one is not.
          if (self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) loads = cshift(loads, 1)
       end if
    end subroutine contact_contours
 
-   !> The stresses of the series that interpolates the pressures at the points. Their error is that of the peak pressure
-   !> and the part of the series' last octave; it is unknown where that of the peak is. With free edges the series has
-   !> zeros beyond the map, and the stresses are those without its images. Without the memory for the series there are
-   !> no stresses.
+   !> The stresses below the Fourier series that interpolates the pressures at the points. Their error estimate has two
+   !> parts: the error of the peak pressure, and the stresses of the waves in the series' last octave. It is unknown if
+   !> the error of the peak is. With free edges the pressure is continued by zeros to twice the points each way, and the
+   !> stresses of the periodic images are removed. If the memory is not enough for the series, no stresses exist.
    subroutine stresses(self, surface, answer)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -136,9 +140,10 @@ contains
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
       type(series_stress), allocatable :: own
-      !> Numbers on the whole cell: pressures, series, waves; twice as many from a rotated cell.
+      !> Real numbers for each point of the whole cell: pressures, series and waves. From a rotated cell the series has
+      !> twice as many.
       integer(int64), parameter :: numbers_a_point = 8
-      integer :: parts
+      integer :: cells   ! cells along x and y of the series: the map alone, or the map and as many zeros
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
 
@@ -146,27 +151,29 @@ contains
          allocate (answer, source=stress_fields(exist=.false.))
          return
       end if
-      parts = merge(2, 1, surface%has_free_edges)
+      cells = 1
+      if (surface%has_free_edges) cells = 2
       associate (points => self%edge%slab%points)
-         allocate (values(parts*points(1), parts*points(2)), source=0.0_dp)
+         allocate (values(cells*points(1), cells*points(2)), source=0.0_dp)
          values(:points(1), :points(2)) = max(self%edge%pressure_or_gap, 0.0_dp)
       end associate
-      ! If all points are in contact at P < 1, the grid misses a gap. If that gap were closed the pressure there would
-      ! be P - 1.
+      ! If all points are in contact at P < 1, there is a gap between the points. In full contact the pressure at this
+      ! place would be P - 1, so that the error is at least 1 - P.
       error = self%record%error(peak_pressure)
       if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%record%pbar_over_pstar)
-      call transform%start(shape(values), self%edge%even .and. parts == 1, whole=.true.)
+      call transform%start(shape(values), self%edge%even .and. cells == 1, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
       if (self%rotated) pressure = to_difference_angles(pressure)
       allocate (own)
-      call start_series_stress(own, surface, pressure, self%record%pbar_over_pstar/parts**2, or_nan(error), &
+      call start_series_stress(own, surface, pressure, self%record%pbar_over_pstar/cells**2, or_nan(error), &
                                is_sampled=.true.)
-      if (parts > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
+      if (cells > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses
 
-   !> From solutions of the same grid at loads near by. Unknown with a hardness, and of a distributed grid.
+   !> Derivatives with respect to the load, from solutions on the same grid at loads near by. They are unknown with a
+   !> hardness and on a distributed grid.
    subroutine derivatives(self, surface, answer)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -180,9 +187,10 @@ contains
       end if
    end subroutine derivatives
 
-   !> What a checkpoint keeps: the residual indentation, the stiffness of `edge`, the points along x and y, the first of
-   !> the own columns, whether the cell is rotated, whether the grid covers a quarter of it, whether its pressures are
-   !> uniform on cells, `history`, and the pressures and gaps at the own columns.
+   !> Packs the source into one array for a checkpoint: (1) the residual indentation, (2:3) the stiffness of `edge`,
+   !> (4:5) the points along x and y, (6) the first column of this rank, (7:9) whether the cell is rotated, the grid
+   !> covers a quarter of the cell, and pressures are uniform on cells, as 1 or 0, (10:18) `history`, and then the
+   !> pressures and gaps in the columns of this rank.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
@@ -203,13 +211,13 @@ contains
       end associate
    end subroutine pack_source
 
-   !> Takes the columns that pack_source has put into an array on any rank, as far as they are own ones here. Called for
-   !> the arrays of all ranks, it restores the source.
+   !> Takes those columns from an array of pack_source that this rank needs. The array may come from any rank; calls for
+   !> the arrays of all ranks restore the source. Columns that have not been found are NaN.
    subroutine unpack_source(self, values, whole, complete)
-      class(grid_source), intent(inout) :: self   !! empty at first
-      real(dp), intent(in) :: values(:)
-      logical, intent(in) :: whole                !! whether the own columns are all columns
-      logical, intent(out) :: complete            !! whether all own columns have been found
+      class(grid_source), intent(inout) :: self   !! before the first call `edge` is not allocated
+      real(dp), intent(in) :: values(:)           !! array of pack_source
+      logical, intent(in) :: whole                !! whether this rank needs all columns of the grid
+      logical, intent(out) :: complete            !! whether all columns that this rank needs have been found
 
       integer :: first, j, points(2)
       integer(int64) :: before, rows
@@ -239,11 +247,11 @@ contains
       end associate
    end subroutine unpack_source
 
-   !> What each spot carries of the load: the pressures at its points.
+   !> The part of the load that each spot carries: the sum of the pressures at the spot's points over the sum of all.
    pure subroutine spot_loads(edge, numbers, loads)
-      type(grid_edge), intent(in) :: edge
-      type(region_numbers), intent(in) :: numbers   !! of the points
-      real(dp), allocatable, intent(out) :: loads(:)
+      type(grid_edge), intent(in) :: edge             !! pressures and gaps at the points
+      type(region_numbers), intent(in) :: numbers     !! number of the spot of each point
+      real(dp), allocatable, intent(out) :: loads(:)  !! parts of the load, shape (number of spots)
 
       integer :: k, l
 

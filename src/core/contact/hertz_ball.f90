@@ -1,8 +1,8 @@
 !> Hertz's contact of two bodies whose gap is a paraboloid, x^2/(2 R_x) + y^2/(2 R_y): K. L. Johnson, *Contact
 !> mechanics*, Cambridge University Press (1985), eqs. (4.25), (4.26).
 !>
-!> With a >= b the half axes along the larger radius R and the smaller R', k = (1 - b^2/a^2)^(1/2), K and D = (K -
-!> E)/k^2 complete elliptic integrals of modulus k:
+!> Let a >= b be the half axes of the contact, a along the larger radius R and b along the smaller radius R'. K and E
+!> are the complete elliptic integrals of modulus k = (1 - b^2/a^2)^(1/2), and D = (K - E)/k^2. Then
 !>
 !>     R/R' = (K - D)/(D b^2/a^2),   p_0 = E* a^2/(2 R b D),   approach = a^2 K/(2 R D),   force = (2/3) pi a b p_0.
 module wavycon_hertz_ball
@@ -17,11 +17,12 @@ module wavycon_hertz_ball
 
    !> A contact, in any unit of length and of pressure.
    type :: hertz_ball
-      real(dp) :: half_axis(2) = 0.0_dp      !! of the contact, along x and y [length]
+      real(dp) :: half_axis(2) = 0.0_dp      !! half axes of the contact along x and y [length]
       real(dp) :: force = 0.0_dp             !! [pressure length^2]
       real(dp) :: approach = 0.0_dp          !! [length]
       real(dp) :: peak_pressure = 0.0_dp     !! [pressure]
-      !> With adhesion the force of a flat punch as large as the contact, which is taken off [pressure length^2].
+      !> With adhesion the tensile force of a flat punch of the contact's size, which is subtracted from Hertz's
+      !> pressure [pressure length^2].
       real(dp) :: tension = 0.0_dp
    contains
       procedure :: contact_area
@@ -30,14 +31,14 @@ module wavycon_hertz_ball
 
 contains
 
-   !> The contact under a force, at an approach, of an area or of a peak pressure, one of which is given, >= 0.
+   !> The contact that has a given force, approach, area or peak pressure.
    !>
-   !> Peak pressure and axes are proportional to each other, the approach goes with their square and the force with
-   !> their cube.
+   !> The peak pressure is proportional to the half axes, the approach to their square and the force to their cube. So
+   !> one contact, `unit_contact`, is multiplied by factors.
    pure type(hertz_ball) function hertz_contact(radii, e_star, force, approach, area, peak_pressure) result(contact)
-      real(dp), intent(in) :: radii(2)   !! along x and y [length], > 0; up to 1e8 times one another
-      real(dp), intent(in) :: e_star     !! [pressure], > 0
-      real(dp), intent(in), optional :: force, approach, area, peak_pressure
+      real(dp), intent(in) :: radii(2)   !! radii of curvature along x and y [length], > 0; their ratio is at most 1e8
+      real(dp), intent(in) :: e_star     !! contact modulus E* [pressure], > 0
+      real(dp), intent(in), optional :: force, approach, area, peak_pressure   !! exactly one of these is given, >= 0
 
       real(dp) :: factor
 
@@ -51,24 +52,24 @@ contains
                            factor*contact%peak_pressure)
    end function hertz_contact
 
-   !> Half width [length] and peak pressure [pressure] of a roller under a force a depth, Johnson (1985), eqs. (4.43),
-   !> (4.45).
+   !> Half width and peak pressure of the contact of a cylinder, Johnson (1985), eqs. (4.43), (4.45).
    pure function hertz_roller(radius, e_star, force) result(answer)
-      real(dp), intent(in) :: radius   !! [length], > 0
-      real(dp), intent(in) :: e_star   !! [pressure], > 0
-      real(dp), intent(in) :: force    !! [pressure length], >= 0
-      real(dp) :: answer(2)
+      real(dp), intent(in) :: radius   !! radius of the cylinder [length], > 0
+      real(dp), intent(in) :: e_star   !! contact modulus E* [pressure], > 0
+      real(dp), intent(in) :: force    !! force for a unit of the cylinder's length [pressure length], >= 0
+      real(dp) :: answer(2)            !! half width [length] and peak pressure [pressure]
 
       answer = [sqrt(4*force*radius/(pi*e_star)), sqrt(force*e_star/(pi*radius))]
    end function hertz_roller
 
+   !> The area of the ellipse of contact [length^2].
    pure real(dp) function contact_area(self)
       class(hertz_ball), intent(in) :: self
 
       contact_area = pi*product(self%half_axis)
    end function contact_area
 
-   !> 4 a E, the length of the ellipse, with E = K - k^2 D.
+   !> The perimeter of the ellipse of contact [length], 4 a E with E = K - k^2 D.
    pure real(dp) function perimeter(self)
       class(hertz_ball), intent(in) :: self
 
@@ -79,7 +80,7 @@ contains
       perimeter = 4*maxval(self%half_axis)*(first_kind - (1.0_dp - ratio**2)*d)
    end function perimeter
 
-   !> The contact whose longer half axis is the larger radius.
+   !> The contact whose longer half axis equals the larger radius. The axis ratio is found by bisection.
    pure type(hertz_ball) function unit_contact(radii, e_star) result(contact)
       real(dp), intent(in) :: radii(2), e_star
 
@@ -87,7 +88,7 @@ contains
       real(dp) :: a, b, d, high, k, k1, low, middle
       integer :: step
 
-      ! ln(b/a), by bisection: the ratio of the radii falls with it.
+      ! The bracket of ln(b/a). The ratio of the radii falls as ln(b/a) grows.
       low = -1.5_dp*log(maxval(radii)/minval(radii)) - 1e-3_dp
       high = 0.0_dp
       do step = 1, steps
@@ -104,22 +105,23 @@ contains
       call integrals(k, k1, d)
       a = maxval(radii)
       b = k*a
-      contact%half_axis = merge([a, b], [b, a], radii(1) >= radii(2))
+      contact%half_axis = [a, b]
+      if (radii(1) < radii(2)) contact%half_axis = [b, a]
       contact%peak_pressure = e_star*a**2/(2*maxval(radii)*b*d)
       contact%approach = a**2*k1/(2*maxval(radii)*d)
       contact%force = 2*pi*a*b*contact%peak_pressure/3
    end function unit_contact
 
-   !> K and D of the modulus of an ellipse.
+   !> The elliptic integrals K and D of the modulus that belongs to an axis ratio.
    pure subroutine integrals(ratio, first_kind, d)
-      real(dp), intent(in) :: ratio   !! b/a
-      real(dp), intent(out) :: first_kind, d
+      real(dp), intent(in) :: ratio            !! b/a
+      real(dp), intent(out) :: first_kind, d   !! K, D
 
       integer(c_int), parameter :: all_digits = 0
       real(dp) :: modulus
 
       modulus = sqrt((1.0_dp - ratio)*(1.0_dp + ratio))
-      ! The integrals of modulus 1 are infinite.
+      ! Both integrals are infinite at the modulus 1, to which a small ratio is rounded.
       modulus = min(modulus, 1.0_dp - epsilon(modulus))
       first_kind = gsl_sf_ellint_Kcomp(modulus, all_digits)
       d = gsl_sf_ellint_Dcomp(modulus, all_digits)

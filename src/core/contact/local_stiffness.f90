@@ -1,6 +1,8 @@
-!> The inverse S^-1 of the half-space's operator, cut off at a few steps: a preconditioner for contacts of few points.
+!> The preconditioner for contacts of few points: the inverse S^-1 of the half-space's operator, cut off at a distance
+!> of a few steps.
 !>
-!> S^-1 is |k|. Its kernel falls with the third power of the distance, so that the next neighbours have most of it.
+!> S^-1 multiplies each wave by its wave number |k|. Its kernel falls as the inverse third power of the distance, so
+!> that the nearest neighbours have most of it, and a stencil of a few steps is close to S^-1.
 module wavycon_local_stiffness
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: contact_region, longest_chunk
@@ -14,16 +16,20 @@ module wavycon_local_stiffness
 
    public :: local_stiffness
 
-   !> The kernel is that of a cell with this many points a side: its images are far enough away.
+   !> The weights are computed on a periodic cell with this many points a side. So the images are far enough away.
    integer, parameter :: kernel_points = 32
-   !> Largest ratio of the steps in x and y. Beyond it neighbours in a circle of steps leave out the nearest points.
+   !> Largest ratio of the steps in x and y. The stencil is a circle in numbers of steps; at larger ratios it would
+   !> leave out points that are nearer than some of its own.
    real(dp), parameter :: largest_step_ratio = 1.5_dp
 
    type :: local_stiffness
-      logical :: exists = .false.        !! whether the grid has one: its steps are nearly equal and it is large enough
-      !> Displacements of the own columns, and images of them beyond the grid; zero outside the region.
+      !> Whether the grid allows a stencil: the steps are nearly equal, and the grid is larger than the stencil.
+      logical :: exists = .false.
+      !> Displacements to which the stencil is applied, zero outside the region: the columns of this process and
+      !> `stencil_reach` rows and columns on each side, shape (1-r:M+r, 1-r:slab%columns()+r).
       real(sp), allocatable :: field(:, :)
-      logical, private :: even = .false.
+      logical, private :: even = .false.   !! whether the grid continues by mirror images, otherwise periodically
+      !> The stencil: pressures at the distances of i and j steps from a displacement of one at one point.
       real(sp), private :: weights(-stencil_reach:stencil_reach, -stencil_reach:stencil_reach) = 0.0_sp
       logical :: is_started = .false.
    contains
@@ -33,10 +39,11 @@ module wavycon_local_stiffness
 
 contains
 
+   !> Computes the weights, if the grid allows a stencil: S^-1 is applied to a displacement of one at a single point.
    subroutine start(self, half_space, slab)
       class(local_stiffness), intent(out) :: self
       type(compliance_operator), intent(in) :: half_space   !! S, started on the grid
-      type(grid_slab), intent(in) :: slab                   !! of the grid
+      type(grid_slab), intent(in) :: slab                   !! columns of the grid that this process has
 
       type(grid_convolution) :: cell
       real(dp), allocatable :: pressure(:, :)
@@ -58,7 +65,7 @@ contains
       pressure(0, 0) = 1.0_dp
       call cell%start(points, .false., half_space%kernel, per_step/kernel_points)
       call cell%apply(pressure, 1, threads=1)
-      do j = 0, merge(stencil_reach, 0, slab%points(2) > 1)
+      do j = 0, min(stencil_reach, points(2) - 1)
          do i = 0, stencil_reach
             if (i**2 + j**2 > stencil_reach**2) cycle
             self%weights([-i, i], [-j, j]) = real(pressure(i, j), sp)
@@ -66,12 +73,12 @@ contains
       end do
    end subroutine start
 
-   !> Replaces displacements by their pressures at the points of a region.
+   !> Applies the stencil to the displacements in self%field, at the points of a region.
    subroutine apply(self, slab, region, pressure)
-      class(local_stiffness), intent(inout) :: self      !! which exists, with the displacements in `field`
-      type(grid_slab), intent(in) :: slab                !! that of `start`
-      type(contact_region), intent(in) :: region         !! of its points
-      real(sp), intent(inout) :: pressure(:, :)          !! own columns; not changed outside the region
+      class(local_stiffness), intent(inout) :: self      !! self%exists is true; `field` has the displacements
+      type(grid_slab), intent(in) :: slab                !! the slab of `start`
+      type(contact_region), intent(in) :: region         !! points at which pressures are wanted
+      real(sp), intent(inout) :: pressure(:, :)          !! does not change elsewhere, shape (M, slab%columns())
 
       integer, parameter :: r = stencil_reach
       real(sp) :: values(longest_chunk)

@@ -1,9 +1,10 @@
-!> Continues a field from the contact to the points outside it, over grids of ever larger steps, and the adjoint of
-!> that: equations (C4a) to (C4c) of README.md in this directory.
+!> The multilevel preconditioner: the continuation J of a field from the contact to the points outside, and its adjoint
+!> J', equations (C4a) to (C4c) of README.md in this directory. `precondition` of pressure_correction applies J' T J.
 !>
-!> The multilevel preconditioner uses it. A point of each coarser grid has the mean of two by two points of the finer
-!> one; the sequence ends where a number of points is odd. If the grid is distributed, so are the large ones of the
-!> coarser grids; small ones are whole.
+!> The continuation uses a sequence of grids, each with half the points of the one before in each direction. A point of
+!> a coarser grid has the mean of two by two points of the finer one. The sequence ends where a number of points is odd
+!> or too small. If the grid is distributed over processes, large coarser grids are distributed too; on small ones every
+!> process has all columns.
 module wavycon_multilevel_preconditioner
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
@@ -19,16 +20,20 @@ module wavycon_multilevel_preconditioner
    !> The coarsest grid has at least this many points each way.
    integer, parameter :: least_points = 4
 
+   !> One grid of the sequence, with all coarser ones in its component `coarser`.
    type :: multilevel_preconditioner
-      logical, private :: even = .false.       !! whether the field is mirrored at the borders; otherwise it is periodic
-      real(sp), private :: decay = 1.0_sp      !! factor of a value for each doubling of the distance from the contact
-      type(grid_slab), private :: slab         !! the columns of the grid
-      !> Part of a point's area that is in contact, on the finest grid 1 or 0; own columns, shape (M, columns).
-      !> Allocated by `start`.
+      logical, private :: even = .false.       !! whether the grid continues by mirror images, otherwise periodically
+      real(sp), private :: decay = 1.0_sp      !! c of (C4c), factor for each doubling of the distance from the contact
+      type(grid_slab), private :: slab         !! columns of this grid that this process has
+      !> w_j of (C4b): the part of a point's area that is in contact, on the finest grid 1 or 0, shape (M,
+      !> slab%columns()). `start` allocates this array; the caller sets it on the finest grid.
       real(sp), allocatable :: contact(:, :)
-      type(multilevel_preconditioner), allocatable, private :: coarser   !! of half the points, unless this is coarsest
-      type(grid_slab), private :: part         !! its columns whose means are taken from these: all or some
-      real(sp), allocatable, private :: values(:, :)   !! of its slab, with a column before and one after
+      type(multilevel_preconditioner), allocatable, private :: coarser   !! the next grid, if there is one
+      !> Columns of the next grid that are means of columns of this process. The next grid itself has either these
+      !> columns or all.
+      type(grid_slab), private :: averaged
+      !> A field on the next grid, in the columns 1 .. coarser%slab%columns(), with one more column on each side.
+      real(sp), allocatable, private :: values(:, :)
    contains
       procedure :: start
       procedure :: average_contact
@@ -38,10 +43,10 @@ module wavycon_multilevel_preconditioner
 
 contains
 
-   !> Allocates a grid and the coarser ones; no point is in contact.
+   !> Allocates a grid and all coarser ones, without any point in contact.
    subroutine start(self, points, even)
       class(multilevel_preconditioner), intent(out) :: self
-      integer, intent(in) :: points(2)   !! M, N of the whole grid; N = 1 in 1-D
+      integer, intent(in) :: points(2)   !! M, N of the grid; N = 1 in 1-D
       logical, intent(in) :: even        !! whether the points are those of a quarter of an even field's cell
 
       type(grid_slab) :: slab
@@ -50,6 +55,7 @@ contains
       call start_on(slab, even, self)
    end subroutine start
 
+   !> Allocates a grid on a slab and, if it can be halved, all coarser ones.
    recursive subroutine start_on(slab, even, grid)
       type(grid_slab), intent(in) :: slab
       logical, intent(in) :: even
@@ -59,30 +65,30 @@ contains
       grid%slab = slab
       allocate (grid%contact(slab%points(1), slab%columns()), source=0.0_sp)
       if (.not. all((mod(slab%points, 2) == 0 .and. slab%points >= 2*least_points) .or. slab%points == 1)) return
-      grid%part = slab%coarser()
+      grid%averaged = slab%coarser()
       allocate (grid%coarser)
-      call start_on(distributed_or_whole(grid%part), even, grid%coarser)
-      allocate (grid%values(grid%part%points(1), 0:grid%coarser%slab%columns() + 1))
+      call start_on(distributed_or_whole(grid%averaged), even, grid%coarser)
+      allocate (grid%values(grid%averaged%points(1), 0:grid%coarser%slab%columns() + 1))
    end subroutine start_on
 
-   !> The own columns of a coarser grid: those whose means are taken here, or all of them if the grid is small or some
-   !> means of the next one would need columns of two slabs.
-   pure type(grid_slab) function distributed_or_whole(part) result(slab)
-      type(grid_slab), intent(in) :: part
+   !> The columns of a coarser grid that this process has: those that are means of its columns of the finer grid, or all
+   !> columns. It has all if the grid is small, or if some means of the next grid would need columns of two processes.
+   pure type(grid_slab) function distributed_or_whole(averaged) result(slab)
+      type(grid_slab), intent(in) :: averaged   !! columns that are means of columns of this process
 
-      slab = part
-      if (mod(part%width, 2) /= 0 .or. product(int(part%points, int64)) < least_distributed_points) &
-         slab = grid_slab(points=part%points, width=part%points(2), last=part%points(2))
+      slab = averaged
+      if (mod(averaged%width, 2) /= 0 .or. product(int(averaged%points, int64)) < least_distributed_points) &
+         slab = grid_slab(points=averaged%points, width=averaged%points(2), last=averaged%points(2))
    end function distributed_or_whole
 
-   !> Takes over a change of the points in contact.
+   !> Computes `contact` of all coarser grids and the decay, after the caller has changed `contact` of the finest grid.
    recursive subroutine average_contact(self)
       class(multilevel_preconditioner), intent(inout) :: self
 
       real(dp) :: total(1)
 
       if (allocated(self%coarser)) then
-         call average(self%contact, self%part, self%coarser%slab, self%coarser%contact)
+         call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
          self%decay = self%coarser%decay
       else
@@ -92,17 +98,17 @@ contains
       end if
    end subroutine average_contact
 
-   !> Continues a field to the points outside the contact: a point without contact about it has the value of the next
-   !> coarser grid.
+   !> Applies J: continues a field to the points outside the contact (C4b), (C4c). The field is averaged over the grids,
+   !> from fine to coarse, divided by the contact on the last grid, and filled in from coarse to fine.
    recursive subroutine extend(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
-      !> Zero outside the contact, own columns, shape (M, columns); on coarser grids means over the area in contact
-      !> times it.
+      !> On entry r, zero outside the contact; on return J r; shape (M, slab%columns()). In the recursion this is r_j,
+      !> the mean over the contact times the part in contact, and then v_j.
       real(sp), intent(inout), contiguous :: field(:, :)
 
       if (allocated(self%coarser)) then
          associate (coarse => self%values(:, 1:self%coarser%slab%columns()))
-            call average(field, self%part, self%coarser%slab, coarse)
+            call average(field, self%averaged, self%coarser%slab, coarse)
             call self%coarser%extend(coarse)
          end associate
          call fill(self, field)
@@ -111,11 +117,12 @@ contains
       end if
    end subroutine extend
 
-   !> The adjoint of `extend`: adds to the values in contact the values outside, with the weights that `extend` uses.
+   !> Applies J', the adjoint of `extend`: adds the values outside the contact to those in contact, with the weights of
+   !> `extend`, by the transposed operators in reverse order.
    recursive subroutine collect(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
-      real(sp), intent(inout), contiguous :: field(:, :)   !! own columns, shape (M, columns); its values outside the
-                                                           !! contact are of no use afterwards
+      !> A field, on return J' of it; shape (M, slab%columns()). Values outside the contact are not used afterwards.
+      real(sp), intent(inout), contiguous :: field(:, :)
 
       if (allocated(self%coarser)) then
          call adjoint_fill(self, field)
@@ -126,7 +133,7 @@ contains
       end if
    end subroutine collect
 
-   !> Divides each value by the part of its area in contact; points without contact get zero.
+   !> Divides each value by the part of the point's area that is in contact. Points without contact get zero.
    pure subroutine normalise(contact, values)
       real(sp), intent(in), contiguous :: contact(:, :)
       real(sp), intent(inout), contiguous :: values(:, :)
@@ -138,17 +145,19 @@ contains
       end where
    end subroutine normalise
 
-   !> Means of two by two points. In 1-D the only column counts twice, here and in the following procedures.
-   subroutine average(fine, part, slab, coarse)
-      real(sp), intent(in), contiguous :: fine(:, :)        !! own columns
-      type(grid_slab), intent(in) :: part, slab             !! of the coarser grid
-      real(sp), intent(inout), contiguous :: coarse(:, :)   !! shape (any, slab%columns())
+   !> Applies R of (C4b), the means of two by two points. In 1-D the only column counts twice, here and in the following
+   !> procedures.
+   subroutine average(fine, averaged, slab, coarse)
+      real(sp), intent(in), contiguous :: fine(:, :)        !! field on the finer grid, columns of this process
+      !> Columns of the coarser grid: those that are computed here, and those that `coarse` has.
+      type(grid_slab), intent(in) :: averaged, slab
+      real(sp), intent(inout), contiguous :: coarse(:, :)   !! field on the coarser grid, shape (M/2, slab%columns())
 
-      integer :: before, i, j
+      integer :: before, i, j   ! before: columns of `coarse` before those that are computed here
 
-      before = part%first - slab%first
+      before = averaged%first - slab%first
       !$omp parallel do num_threads(threads_for(size(fine))) private(i)
-      do j = 1, part%columns()
+      do j = 1, averaged%columns()
          associate (other => min(2*j, size(fine, 2)))
             do i = 1, size(coarse, 1)
                coarse(i, before + j) = 0.25_sp*((fine(2*i - 1, 2*j - 1) + fine(2*i, 2*j - 1)) &
@@ -156,26 +165,26 @@ contains
             end do
          end associate
       end do
-      call complete(part, slab, coarse)
+      call complete(averaged, slab, coarse)
    end subroutine average
 
-   !> Gathers the columns of the other slabs where a whole grid follows a distributed one.
-   subroutine complete(part, slab, coarse)
-      type(grid_slab), intent(in) :: part, slab
-      real(sp), intent(inout), contiguous :: coarse(:, :)
+   !> Gathers the columns that other processes have computed, if this grid is whole and the finer one is distributed.
+   subroutine complete(averaged, slab, coarse)
+      type(grid_slab), intent(in) :: averaged, slab         !! as in `average`
+      real(sp), intent(inout), contiguous :: coarse(:, :)   !! shape (M/2, slab%columns())
 
-      if (part%is_distributed .and. .not. slab%is_distributed) &
-         call part%gather(4*size(coarse, 1), (coarse(:, part%first:part%last)), coarse, first_only=.false.)
+      if (averaged%is_distributed .and. .not. slab%is_distributed) &
+         call averaged%gather(4*size(coarse, 1), (coarse(:, averaged%first:averaged%last)), coarse, first_only=.false.)
    end subroutine complete
 
-   !> The adjoint of `average`, added to a field.
+   !> Adds the adjoint of `average`, applied to the values on the coarser grid, to a field.
    subroutine adjoint_average(grid, fine)
       class(multilevel_preconditioner), intent(in) :: grid
-      real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! shape (M, slab%columns())
 
       integer :: before, i, j
 
-      before = grid%part%first - grid%coarser%slab%first
+      before = grid%averaged%first - grid%coarser%slab%first
       !$omp parallel do num_threads(threads_for(size(fine))) private(i)
       do j = 1, size(fine, 2)
          do i = 1, size(grid%values, 1)
@@ -185,16 +194,17 @@ contains
       end do
    end subroutine adjoint_average
 
-   !> Adds to a field, outside the contact, the decayed values of the coarser grid, linear between its points.
+   !> Adds the second term of (C4c) to a field: the values of the coarser grid times the decay, interpolated linearly by
+   !> I and weighted with the open part of each point, 1 - w_j.
    subroutine fill(grid, fine)
       class(multilevel_preconditioner), intent(inout) :: grid
-      real(sp), intent(inout), contiguous :: fine(:, :)   !! own columns
+      real(sp), intent(inout), contiguous :: fine(:, :)   !! shape (M, slab%columns())
 
       real(sp) :: line(0:size(grid%values, 1) + 1)
       integer :: before, i, j, m
 
       m = size(grid%values, 1)
-      before = grid%part%first - grid%coarser%slab%first
+      before = grid%averaged%first - grid%coarser%slab%first
       associate (values => grid%values, n => grid%coarser%slab%columns())
          call grid%coarser%slab%halo(values(:, 1:n), grid%even, values(:, 0:0), values(:, n + 1:n + 1))
       end associate
@@ -214,33 +224,33 @@ contains
       end do
    end subroutine fill
 
-   !> The adjoint of `fill` without the field itself.
+   !> Sets the values on the coarser grid to the adjoint of the term that `fill` adds, applied to a field.
    subroutine adjoint_fill(grid, fine)
       class(multilevel_preconditioner), intent(inout) :: grid
-      real(sp), intent(in), contiguous :: fine(:, :)   !! own columns
+      real(sp), intent(in), contiguous :: fine(:, :)   !! shape (M, slab%columns())
 
-      !> The columns beside the own ones.
+      !> The neighbouring columns of `contact` and `fine`: after and before those of this process.
       real(sp), dimension(size(fine, 1), 1) :: contact_high, contact_low, high, low
       real(sp) :: line(0:size(fine, 1) + 1)
-      !> Parts of the columns before, of and after a column of the coarser grid.
-      real(sp), parameter :: parts(4) = [0.25_sp, 0.75_sp, 0.75_sp, 0.25_sp]
+      !> Weights of the four fine columns that a coarse column interpolates.
+      real(sp), parameter :: weights(4) = [0.25_sp, 0.75_sp, 0.75_sp, 0.25_sp]
       integer :: before, i, j, k, m
 
       m = size(fine, 1)
-      before = grid%part%first - grid%coarser%slab%first
+      before = grid%averaged%first - grid%coarser%slab%first
       call grid%slab%halo(fine, grid%even, low, high)
       call grid%slab%halo(grid%contact, grid%even, contact_low, contact_high)
       !$omp parallel do num_threads(threads_for(size(fine))) private(i, k, line)
-      do j = 1, grid%part%columns()
+      do j = 1, grid%averaged%columns()
          line = 0.0_sp
          do k = 2*j - 2, 2*j + 1
-            associate (part => parts(k - 2*j + 3))
+            associate (weight => weights(k - 2*j + 3))
                if (k < 1) then
-                  line(1:m) = line(1:m) + part*(1.0_sp - contact_low(:, 1))*low(:, 1)
+                  line(1:m) = line(1:m) + weight*(1.0_sp - contact_low(:, 1))*low(:, 1)
                else if (k > size(fine, 2)) then
-                  line(1:m) = line(1:m) + part*(1.0_sp - contact_high(:, 1))*high(:, 1)
+                  line(1:m) = line(1:m) + weight*(1.0_sp - contact_high(:, 1))*high(:, 1)
                else
-                  line(1:m) = line(1:m) + part*(1.0_sp - grid%contact(:, k))*fine(:, k)
+                  line(1:m) = line(1:m) + weight*(1.0_sp - grid%contact(:, k))*fine(:, k)
                end if
             end associate
          end do
@@ -251,7 +261,7 @@ contains
                                                      + 0.25_sp*(line(2*i - 2) + line(2*i + 1)))
          end do
       end do
-      call complete(grid%part, grid%coarser%slab, grid%values(:, 1:grid%coarser%slab%columns()))
+      call complete(grid%averaged, grid%coarser%slab, grid%values(:, 1:grid%coarser%slab%columns()))
    end subroutine adjoint_fill
 
 end module wavycon_multilevel_preconditioner

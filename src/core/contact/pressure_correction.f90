@@ -1,9 +1,9 @@
-!> Corrects a pressure whose gap violates the conditions of contact: one inner solution of `solve_on_grid`, in single
-!> precision, on the points in and near the contact.
+!> Corrects a pressure whose gap violates the conditions of contact. `solve_on_grid` calls this once in each step. The
+!> correction is computed in single precision, at the points in and near the contact.
 !>
-!> Conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky & Keer (Wear 231
-!> (1999) 206-219), with a preconditioner and Polak & Ribiere's factor. Numbers (C..) are the equations of README.md in
-!> this directory.
+!> The method is conjugate gradients on the points in contact, whose set is updated in each iteration, after Polonsky &
+!> Keer (Wear 231 (1999) 206-219), with a preconditioner and the factor of Polak & Ribiere. Numbers (C..) are the
+!> equations of README.md in this directory.
 module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
@@ -26,25 +26,26 @@ module wavycon_pressure_correction
 
 contains
 
-   !> Iterates by (C3) to (C8) until the residual is below a part of its start, or for a number of iterations. One field
-   !> of the grid holds z, d, Sd, and what (C7) changes besides the step, one after another.
+   !> Iterates (C3) to (C8) until the residual is at most a given part of the residual at the start, or for a given
+   !> number of iterations. To save memory one field of the grid holds z, d, S d, and the further change of the pressure
+   !> by (C7), one after another.
    subroutine correct_pressure(half_space, inside, part, most_iterations, grid, progress)
       type(compliance_operator), intent(inout) :: half_space
-      !> > 0 at the points in and near the contact, shape of the pressure; not allocated afterwards.
+      !> > 0 at the points whose pressure may change, shape of the pressure; not allocated afterwards.
       real(sp), allocatable, intent(inout) :: inside(:, :)
-      real(dp), intent(in) :: part             !! of the residual at the start, in (0, 1)
-      integer, intent(in) :: most_iterations   !! > 0
-      !> On entry with pressure, gap and residual [Delta]; on return the gap is not allocated, as the correction needs
-      !> its memory.
+      real(dp), intent(in) :: part             !! part of the residual to be reached, in (0, 1)
+      integer, intent(in) :: most_iterations   !! largest number of iterations, > 0
+      !> On entry pressure, gap and residual [Delta] of one pressure. On return the pressure is corrected and the gap is
+      !> not allocated, because the correction needs its memory.
       type(grid_state), intent(inout) :: grid
-      class(solver_progress), intent(in), optional :: progress   !! is asked before each iteration
+      class(solver_progress), intent(in), optional :: progress   !! `shall_stop` is called before each iteration
 
       type(correction_state) :: state
       type(local_stiffness) :: stencil
       type(multilevel_preconditioner) :: extension
       real(dp) :: blocked, descent
       real(sp), allocatable :: r(:), d(:)      !! residual and direction of the last iteration, shape (region%points)
-      real(sp), allocatable :: field(:, :)     !! own columns, shape (M, columns)
+      real(sp), allocatable :: field(:, :)     !! shape of the pressure
       integer :: iterations
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
@@ -54,7 +55,7 @@ contains
       deallocate (inside, grid%gap)
       allocate (r(state%region%points), d(state%region%points), source=0.0_sp)
       descent = 0.0_dp
-      ! Smaller overlaps may be rounding: such points would enter and leave the contact without end.
+      ! A smaller overlap may be rounding: a point that has it would enter and leave the contact again and again.
       state%allowance = real(overlap_part*part, sp)
       iterations = 0
       do while (state%residual > part*state%scale .and. iterations < most_iterations)
@@ -71,16 +72,17 @@ contains
       end do
       call state%add_to(grid)
       grid%corrections = grid%corrections + 1
-      ! A correction without iterations corrects the approach alone. It counts, so that the number of steps is limited.
+      ! A correction without iterations changes the approach alone. It counts as one iteration, because otherwise the
+      ! number of steps in `solve_on_grid` would not be limited.
       grid%iterations = grid%iterations + max(1, iterations)
    end subroutine correct_pressure
 
-   !> Computes z of (C4) from the residual r, without subtracting its mean: by the multilevel preconditioner, or at
-   !> light loads by a stencil.
+   !> Computes z = B r of (C4) from the residual r; the mean of z is not subtracted. B is the multilevel preconditioner
+   !> J' T J, or at light loads a stencil.
    subroutine precondition(extension, stencil, half_space, state, field)
-      type(multilevel_preconditioner), intent(inout) :: extension   !! both are started when they are first needed
-      type(local_stiffness), intent(inout) :: stencil
-      type(compliance_operator), intent(inout) :: half_space
+      type(multilevel_preconditioner), intent(inout) :: extension   !! J; is started when it is first needed
+      type(local_stiffness), intent(inout) :: stencil               !! is started when it is first needed
+      type(compliance_operator), intent(inout) :: half_space        !! T = S^-1, started on the grid
       type(correction_state), intent(inout) :: state
       real(sp), intent(inout), contiguous :: field(:, :)   !! becomes z, shape (M, slab%columns())
 
@@ -111,24 +113,26 @@ contains
       call extension%collect(field)
    end subroutine precondition
 
-   !> Computes the next direction by Polak & Ribiere's factor (C5), from z.
+   !> Computes the next direction (C5) from z, with the factor of Polak & Ribiere.
    !>
-   !> The means of z and d over the contact follow from the sums of z and of the last direction. The gap has no mean
-   !> there, so that that of z does not change (gap, z). That of r_old is zero as long as no point leaves.
+   !> One pass and one message compute the five sums of (C8a), from which both means and the factor follow. The mean of
+   !> z is not subtracted from z in (gap, z): the gap has no mean over the free points, so that the product does not
+   !> change. In (r_old, z) it matters, because r_old has a mean when points have left the contact.
    subroutine find_direction(state, field, residuals, direction, descent)
       type(correction_state), intent(in) :: state
-      real(sp), intent(inout), contiguous :: field(:, :)    !! z, then d
-      real(sp), intent(inout), contiguous :: residuals(:)   !! r_old, then r
-      real(sp), intent(inout), contiguous :: direction(:)   !! d_old, then d
-      real(dp), intent(inout) :: descent                    !! (gap_old, z_old), then (gap, z); zero: d = z
+      real(sp), intent(inout), contiguous :: field(:, :)    !! on entry z, on return d; shape (M, slab%columns())
+      real(sp), intent(inout), contiguous :: residuals(:)   !! on entry r_old, on return r; shape (region%points)
+      real(sp), intent(inout), contiguous :: direction(:)   !! on entry d_old, on return d; shape (region%points)
+      !> On entry (gap_old, z_old), on return (gap, z). Zero on entry restarts the search with beta = 0.
+      real(dp), intent(inout) :: descent
 
       real(dp) :: sums(5)
-      real(dp), allocatable :: parts(:, :)
-      real(sp) :: beta, mean, mean_before
+      real(dp), allocatable :: chunk_sums(:, :)
+      real(sp) :: beta, mean, mean_before   ! means of z and of d_old over the free points
       real(sp), dimension(longest_chunk) :: r, z
       integer :: c, n
 
-      allocate (parts(size(sums), state%region%chunks))
+      allocate (chunk_sums(size(sums), state%region%chunks))
       !$omp parallel do num_threads(state%region%threads) private(n, r, z)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, contact => state%contact)
@@ -136,15 +140,16 @@ contains
             call state%region%take_chunk(c, field, z)
             r(:n) = contact(a:b)*(state%gap(a:b) - state%approach)
             z(:n) = contact(a:b)*z(:n)
-            parts(:, c) = [sdot(n, r, 1, z, 1), sdot(n, residuals(a:b), 1, z, 1), sdot(n, contact(a:b), 1, z, 1), &
-                           sdot(n, contact(a:b), 1, residuals(a:b), 1), sdot(n, contact(a:b), 1, direction(a:b), 1)]
+            chunk_sums(:, c) = [sdot(n, r, 1, z, 1), sdot(n, residuals(a:b), 1, z, 1), &
+                                sdot(n, contact(a:b), 1, z, 1), sdot(n, contact(a:b), 1, residuals(a:b), 1), &
+                                sdot(n, contact(a:b), 1, direction(a:b), 1)]
          end associate
       end do
-      sums = state%totals(parts)
+      sums = state%totals(chunk_sums)
       associate (points => max(state%contact_points, 1.0_dp))
          mean = real(sums(3)/points, sp)
          mean_before = real(sums(5)/points, sp)
-         ! A contact of one point has no direction and (gap, z) = 0: the search restarts.
+         ! If only one point is free its direction is zero, and (gap, z) = 0: the search restarts.
          beta = 0.0_sp
          if (descent > tiny(descent)) &
             beta = real(max((sums(1) - (sums(2) - sums(3)*sums(4)/points))/descent, 0.0_dp), sp)
@@ -162,51 +167,53 @@ contains
       end do
    end subroutine find_direction
 
-   !> Moves pressure and gap by the step to the least energy along the direction (C6), within the bounds of the pressure
-   !> and with its mean (C7), and updates the contact (C8).
+   !> Takes the step to the least energy along the direction (C6), keeps the pressure within its bounds and restores its
+   !> mean (C7) or (C24), and updates the contact (C8). If no point reaches a bound, the displacement S d gives the new
+   !> gap; otherwise one more application of S is needed for the change of the pressure.
    subroutine take_step(state, half_space, residuals, direction, field)
       type(correction_state), intent(inout) :: state
-      type(compliance_operator), intent(inout) :: half_space
-      real(sp), intent(in), contiguous :: residuals(:), direction(:)
-      real(sp), intent(inout), contiguous :: field(:, :)   !! Sd; of no use afterwards
+      type(compliance_operator), intent(inout) :: half_space           !! S, started on the grid
+      real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d, shape (region%points)
+      real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
 
       real(dp) :: sums(4)
-      real(dp), allocatable :: parts(:, :)
-      real(sp) :: mean, step
+      real(dp), allocatable :: chunk_sums(:, :)
+      real(sp) :: mean, step   ! mean gap over the free points after the step (C8b); tau of (C6)
       real(sp), dimension(longest_chunk) :: change, free, image
       integer :: c, n
 
-      allocate (parts(size(sums), state%region%chunks), source=0.0_dp)
+      allocate (chunk_sums(size(sums), state%region%chunks), source=0.0_dp)
       !$omp parallel do num_threads(state%region%threads) private(image, n)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
             n = b - a + 1
             call state%region%take_chunk(c, field, image)
-            parts(:3, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
-                            sdot(n, state%contact(a:b), 1, image, 1)]
+            chunk_sums(:3, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
+                                 sdot(n, state%contact(a:b), 1, image, 1)]
          end associate
       end do
-      sums = state%totals(parts)
-      ! A contact of one point has no direction; overlaps may still be added.
+      sums = state%totals(chunk_sums)
+      ! If only one point is free the direction and the step are zero, but points may still enter the contact.
       step = 0.0_sp
       if (sums(1) > 0.0_dp) step = real(sums(2)/sums(1), sp)
       mean = real(-step*sums(3)/max(state%contact_points, 1.0_dp), sp)
-      ! The points that stay above zero and their pressures, the changes since the start, and the points that pass H.
+      ! Sums after the step: number of the free points whose pressure stays above zero, sum of their pressures, sum of
+      ! the changes since the start, and number of the points that reach H.
       !$omp parallel do num_threads(state%region%threads) private(change, free, n)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
             n = b - a + 1
             change(:n) = max(state%change(a:b) - step*direction(a:b), -start(a:b))
             free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) > -start(a:b))
-            parts(1, c) = sdot(n, free, 1, free, 1)
-            parts(2, c) = sdot(n, free, 1, start(a:b), 1) + sdot(n, free, 1, change, 1)
-            parts(3, c) = sdot(n, change, 1, ones, 1)
-            if (.not. allocated(state%room)) cycle
-            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) >= state%room(a:b))
-            parts(4, c) = sdot(n, free, 1, free, 1)
+            chunk_sums(1, c) = sdot(n, free, 1, free, 1)
+            chunk_sums(2, c) = sdot(n, free, 1, start(a:b), 1) + sdot(n, free, 1, change, 1)
+            chunk_sums(3, c) = sdot(n, change, 1, ones, 1)
+            if (.not. allocated(state%below_hardness)) cycle
+            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) >= state%below_hardness(a:b))
+            chunk_sums(4, c) = sdot(n, free, 1, free, 1)
          end associate
       end do
-      sums = state%totals(parts)
+      sums = state%totals(chunk_sums)
       if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) then
          call state%update_contact(mean, step, direction, field)
          return
@@ -221,15 +228,16 @@ contains
       call state%update_contact(state%mean_gap(field))
    end subroutine take_step
 
-   !> Moves the pressure by a step with which points leave the contact, and then multiplies it by the factor that
-   !> restores its mean (C7).
+   !> Takes a step by which points leave the contact, and then multiplies the pressure by the factor that restores its
+   !> mean (C7). The factor is 1 + excess.
    subroutine restore_mean(state, direction, step, load, change_sum, field)
       type(correction_state), intent(inout) :: state
-      real(sp), intent(in), contiguous :: direction(:)
-      real(sp), intent(in) :: step
-      real(dp), intent(in) :: load                         !! sum of the pressures after the step
-      real(dp), intent(in) :: change_sum                   !! of the changes since the start
-      real(sp), intent(inout), contiguous :: field(:, :)   !! becomes what the pressure changes
+      real(sp), intent(in), contiguous :: direction(:)     !! d, shape (region%points)
+      real(sp), intent(in) :: step                         !! tau of (C6)
+      real(dp), intent(in) :: load                         !! sum of the pressures after the step, before the factor
+      real(dp), intent(in) :: change_sum                   !! sum of the changes since the start, before the factor
+      !> On return the change of the pressure at the points of the region, shape (M, slab%columns()).
+      real(sp), intent(inout), contiguous :: field(:, :)
 
       real(sp) :: excess, factor
       real(sp), dimension(longest_chunk) :: change, delta
@@ -238,7 +246,8 @@ contains
       excess = 0.0_sp
       factor = 0.0_sp
       if (load > 0.0_dp) excess = real(-change_sum/load, sp)
-      ! The step may be so much longer than the pressure that what is left of it would be rounded to zero.
+      ! The step may be so much longer than the pressure that the factor 1 + excess would be rounded to zero or less.
+      ! The factor is then computed from the sum of the pressures at the start.
       if (excess <= -1.0_sp) factor = real(state%sum_of(real(state%start_pressure, dp))/load, sp)
       !$omp parallel do num_threads(state%region%threads) private(change, delta, n)
       do c = 1, state%region%chunks
@@ -249,8 +258,7 @@ contains
             if (excess > -1.0_sp) then
                change(:n) = change(:n) + state%contact(a:b)*(excess*(start(a:b) + change(:n)))
             else
-               change(:n) = merge(factor*(start(a:b) + change(:n)) - start(a:b), change(:n), &
-                                  state%contact(a:b) > 0.0_sp)
+               where (state%contact(a:b) > 0.0_sp) change(:n) = factor*(start(a:b) + change(:n)) - start(a:b)
             end if
             delta(:n) = change(:n) - state%change(a:b)
             state%change(a:b) = change(:n)
@@ -259,14 +267,15 @@ contains
       end do
    end subroutine restore_mean
 
-   !> Moves the pressure at all free points by a step and the same shift that restores the mean, and then to the nearer
-   !> bound if it is beyond it (C24). Close to H the step is much longer than what is left of it, and is computed in
-   !> double precision.
+   !> Takes a step by which points reach H, and projects the pressure on the allowed ones (C24): all free points get the
+   !> same shift, and a pressure beyond a bound becomes this bound. The shift is that which restores the mean. Close to
+   !> H only a small part of a long step is left after this, so that the change is computed in double precision.
    subroutine project(state, direction, step, field)
       type(correction_state), intent(inout) :: state
-      real(sp), intent(in), contiguous :: direction(:)
-      real(sp), intent(in) :: step
-      real(sp), intent(inout), contiguous :: field(:, :)   !! becomes what the pressure changes
+      real(sp), intent(in), contiguous :: direction(:)     !! d, shape (region%points)
+      real(sp), intent(in) :: step                         !! tau of (C6)
+      !> On return the change of the pressure at the points of the region, shape (M, slab%columns()).
+      real(sp), intent(inout), contiguous :: field(:, :)
 
       real(dp), allocatable, dimension(:) :: above, below, change
       real(dp) :: shift
@@ -276,17 +285,17 @@ contains
       associate (start => state%start_pressure, contact => state%contact)
          allocate (change, source=state%change - real(step, dp)*direction)
          above = contact*(start + change)
-         below = contact*(state%room - change)
+         below = contact*(state%below_hardness - change)
          shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(change))
-         change = min(max(change + contact*shift, -real(start, dp)), real(state%room, dp))
+         change = min(max(change + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
       end associate
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
             n = b - a + 1
             delta(:n) = real(change(a:b), sp) - state%change(a:b)
             state%change(a:b) = real(change(a:b), sp)
-            where (state%change(a:b) <= -state%start_pressure(a:b) .or. state%change(a:b) >= state%room(a:b)) &
-               state%contact(a:b) = 0.0_sp
+            where (state%change(a:b) <= -state%start_pressure(a:b) .or. &
+                   state%change(a:b) >= state%below_hardness(a:b)) state%contact(a:b) = 0.0_sp
             call state%region%put_chunk(c, delta, field)
          end associate
       end do

@@ -1,5 +1,6 @@
-!> The load of a pressure on a grid, and pressures of a given load between zero and the hardness: equation (C24) of
-!> README.md in this directory. Fields have the own columns of the grid, and sums go over all of it.
+!> Changes a pressure on a grid so that it carries a given load and stays between zero and the hardness: equation (C24)
+!> of README.md in this directory. If the grid is distributed over processes, fields have the columns of this process,
+!> and sums are those over the whole grid.
 module wavycon_pressure_load
    use wavycon_grid_slab, only: grid_slab, strip_columns
    use wavycon_kinds, only: dp
@@ -10,16 +11,17 @@ module wavycon_pressure_load
 
 contains
 
-   !> Changes a pressure so that its sum is that of a load. Without points at H the pressure is multiplied by a factor.
-   !> Otherwise all points between zero and H change by the same, within these bounds, and the others too where that is
-   !> not enough.
+   !> Changes a pressure so that its sum becomes a given load. If no point is at H the pressure is multiplied by a
+   !> factor. Otherwise a shift is added at all points between zero and H, and the result is cut at these bounds. If
+   !> that cannot give the load, the points at the bounds are shifted too.
    subroutine set_load(slab, pressure, load, hardness)
-      type(grid_slab), intent(in) :: slab         !! of the grid
-      real(dp), intent(inout) :: pressure(:, :)   !! p, >= 0; more than H becomes H. Shape (M, slab%columns())
+      type(grid_slab), intent(in) :: slab         !! columns of the grid that this process has
+      real(dp), intent(inout) :: pressure(:, :)   !! p >= 0, a pressure above H becomes H; shape (M, slab%columns())
       real(dp), intent(in) :: load                !! sum of the pressures, > 0 and < H times their number
       real(dp), intent(in) :: hardness            !! H, huge if there is none
 
-      real(dp) :: lack, room, shift
+      !> Load that is missing (too much if negative), and the largest change that the points between zero and H allow.
+      real(dp) :: lack, largest_change, shift
       logical, allocatable :: changes(:, :)
       integer :: first(slab%strips() + 1), s
 
@@ -30,8 +32,9 @@ contains
       pressure = min(pressure, hardness)
       lack = load - slab%sum_of(pressure)
       allocate (changes, source=pressure > 0.0_dp .and. pressure < hardness)
-      room = slab%sum_of(merge(merge(hardness - pressure, pressure, lack > 0.0_dp), 0.0_dp, changes))
-      if (abs(lack) >= room) changes = .true.
+      largest_change = slab%sum_of(merge(pressure, 0.0_dp, changes))
+      if (lack > 0.0_dp) largest_change = slab%sum_of(merge(hardness - pressure, 0.0_dp, changes))
+      if (abs(lack) >= largest_change) changes = .true.
       do s = 1, slab%strips() + 1
          first(s) = 1 + size(pressure, 1)*min((s - 1)*strip_columns, size(pressure, 2))
       end do
@@ -40,10 +43,10 @@ contains
       where (changes) pressure = min(max(pressure + shift, 0.0_dp), hardness)
    end subroutine set_load
 
-   !> Whether any pressure is at the hardness or above.
+   !> Whether the pressure is at the hardness or above at any point of the grid.
    logical function has_points_at(slab, hardness, pressure)
-      type(grid_slab), intent(in) :: slab
-      real(dp), intent(in) :: hardness, pressure(:, :)
+      type(grid_slab), intent(in) :: slab                !! columns of the grid that this process has
+      real(dp), intent(in) :: hardness, pressure(:, :)   !! H, huge if there is none; p, shape (M, slab%columns())
 
       real(dp) :: extremes(2)
 
@@ -53,18 +56,22 @@ contains
       has_points_at = extremes(1) >= hardness
    end function has_points_at
 
-   !> The shift s for which the sum of min(max(s, -above), below) is a given one: the sum grows with s, in straight
-   !> pieces.
+   !> The shift s for which the sum over all points of min(max(s, -above), below) has a given value. The sum is a
+   !> piecewise linear function of s that grows with s. Newton's method solves the equation; a step that leaves the
+   !> bracket of the root is replaced by bisection.
    real(dp) function bounded_shift(slab, first, above, below, total) result(shift)
-      type(grid_slab), intent(in) :: slab
-      integer, intent(in) :: first(:)              !! places at which the numbers of each own strip begin, and one more
-                                                   !! than the last of all, shape (slab%strips() + 1)
-      real(dp), intent(in) :: above(:), below(:)   !! of points of the own columns, both 0 where nothing changes
-      real(dp), intent(in) :: total                !! between the sums of -above and of below over the grid
+      type(grid_slab), intent(in) :: slab          !! columns of the grid that this process has
+      !> Indices in `above` and `below` at which the strips of this process begin, and one more than the last index,
+      !> shape (slab%strips() + 1).
+      integer, intent(in) :: first(:)
+      !> Distances of the pressure from the lower and from the upper bound, both >= 0, at the points of this process; 0
+      !> at points that do not change.
+      real(dp), intent(in) :: above(:), below(:)
+      real(dp), intent(in) :: total                !! the sum, between the sums of -above and of below over the grid
 
-      !> Newton's method ends in a few steps. Those by bisection end at the last digit.
+      !> Newton's method ends in a few steps, bisection when the digits are used up.
       integer, parameter :: most_steps = 100
-      real(dp) :: excess, extremes(2), free, high, low, next, parts(2, size(first) - 1), sums(2)
+      real(dp) :: excess, extremes(2), free, high, low, next, strip_sums(2, size(first) - 1), sums(2)
       integer :: s, step
 
       shift = 0.0_dp
@@ -74,11 +81,11 @@ contains
       high = max(0.0_dp, extremes(2))
       do step = 1, most_steps
          do s = 1, size(first) - 1
-            associate (over => above(first(s):first(s + 1) - 1), under => below(first(s):first(s + 1) - 1))
-               parts(:, s) = [sum(min(max(shift, -over), under)), real(count(shift > -over .and. shift < under), dp)]
+            associate (down => above(first(s):first(s + 1) - 1), up => below(first(s):first(s + 1) - 1))
+               strip_sums(:, s) = [sum(min(max(shift, -down), up)), real(count(shift > -down .and. shift < up), dp)]
             end associate
          end do
-         sums = slab%strip_totals(parts)
+         sums = slab%strip_totals(strip_sums)
          excess = sums(1) - total
          free = sums(2)
          if (excess > 0.0_dp) high = shift

@@ -1,6 +1,7 @@
-!> The method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated Fourier series whose coefficients
-!> minimise the complementary energy, a quadratic programme. Beale's method finds its minimum, as in the paper, or
-!> Goldfarb & Idnani's dual method, which is faster with many harmonics.
+!> The solvers 'beale' and 'series': the method of Johnson, Greenwood & Higginson (1985). The pressure is a truncated
+!> Fourier series whose amplitudes minimise the complementary energy; the pressure is constrained to p >= 0 at given
+!> points. This is a quadratic programme. 'beale' solves it by Beale's method, as the paper does, and 'series' by
+!> the dual method of Goldfarb & Idnani, which is faster with many harmonics.
 module wavycon_series_contact
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
@@ -40,25 +41,28 @@ module wavycon_series_contact
    !> Harmonics of the paper's series, for 1-D and 2-D waves.
    integer, parameter :: paper_harmonics(2) = [10, 9]
 
-   !> Largest errors of mean gap [Delta], contact area fraction and peak pressure [p*] of the paper's harmonics and
-   !> points, from 0.05 to 0.9 p*: of loads 0.001 p* apart those of the 1-D wave are 0.0218, 0.0276 and 0.128, those of
-   !> the 2-D wave 0.0244, 0.0306 and 0.103. At lighter loads they reach 0.056 and 0.26, at heavier ones 0.09 in area.
+   !> Upper limits of the errors of mean gap [Delta], contact area fraction and peak pressure [p*], with the harmonics
+   !> and constraint points of the paper, at loads from 0.05 to 0.9 p*. At loads 0.001 p* apart the largest errors were
+   !> 0.0218, 0.0276 and 0.128 for the 1-D wave, and 0.0244, 0.0306 and 0.103 for the 2-D wave. At lighter loads the
+   !> errors reach 0.056 in the mean gap and 0.26 in the peak pressure, at heavier loads 0.09 in the area.
    real(dp), parameter :: paper_errors(3) = [0.025_dp, 0.031_dp, 0.13_dp]
 
    type :: qp_options
       integer :: harmonics = paper_harmonics(2)    !! n >= 1
-      integer :: constraint_points = 27            !! on [0, pi] in each direction, >= 2
-      integer :: symmetry = symmetry_full          !! one of the names of wavycon_fourier_terms
-      real(dp) :: edge_level = 0.1_dp              !! isobar taken as the edge of contact [p*], > 0
-      logical :: by_beale = .true.                 !! by Beale's method; otherwise by the dual method
+      integer :: constraint_points = 27            !! number of points on [0, pi] in each direction, >= 2
+      integer :: symmetry = symmetry_full          !! symmetry of the series, a name of wavycon_fourier_terms
+      real(dp) :: edge_level = 0.1_dp              !! pressure of the isobar that is taken as the edge [p*], > 0
+      logical :: by_beale = .true.                 !! whether Beale's method is used, otherwise the dual method
    end type qp_options
 
    !> The source of fields, edge and stresses of a pressure that is a truncated Fourier series.
    type, extends(field_source) :: series_source
       type(qp_options) :: options
       type(fourier_terms) :: terms
-      logical :: rotated = .false.         !! phi and theta are the cell's angles rotated by 45 degrees
-      real(dp), allocatable :: x(:)        !! amplitudes of the terms of (p - pbar)/p*
+      !> Whether the axes of the series are rotated by 45 degrees: X = phi + theta, Y = phi - theta. Otherwise X = phi
+      !> and Y = theta.
+      logical :: rotated = .false.
+      real(dp), allocatable :: x(:)        !! amplitudes of the terms of the series of (p - pbar)/p*
    contains
       procedure :: pressure
       procedure :: displacement
@@ -70,10 +74,10 @@ module wavycon_series_contact
    end type series_source
 
    type, extends(contact_solver) :: series_contact
-      type(series_source) :: series                    !! without amplitudes
-      type(qp_problem) :: problem                      !! at zero load, or at the last load that started from nothing
-      integer, private :: solver = by_beale             !! or by_dual: of its solutions
-      type(dual_solver), allocatable, private :: dual   !! after the first load
+      type(series_source) :: series                     !! options and terms of the series, without amplitudes
+      type(qp_problem) :: problem                       !! the programme, with the bounds of some load
+      integer, private :: solver = by_beale             !! by_beale or by_dual, for the records of solutions
+      type(dual_solver), allocatable, private :: dual   !! state of the dual method; not allocated before the first load
    contains
       procedure :: start
       procedure :: solve_partial_contact
@@ -84,8 +88,9 @@ module wavycon_series_contact
 
 contains
 
-   !> The number of points, in the paper's proportion to harmonics: 27 for 9 harmonics of the 2-D wave, 26 (25
-   !> intervals) for 10 of the 1-D wave. Always more than harmonics.
+   !> The number of constraint points that is in the paper's proportion to the harmonics: 27 points for 9 harmonics of
+   !> the 2-D wave, 26 points (25 intervals) for 10 harmonics of the 1-D wave. There are always more points than
+   !> harmonics.
    pure integer function paper_constraint_points(dimension, harmonics) result(points)
       integer, intent(in) :: dimension   !! 1 or 2
       integer, intent(in) :: harmonics   !! >= 1
@@ -94,10 +99,11 @@ contains
       if (dimension == 1) points = (5*harmonics + 1)/2 + 1
    end function paper_constraint_points
 
-   !> Chooses the terms of the series and the points of the constraints. Solutions always keep their fields.
+   !> Chooses the terms of the series and the points of the constraints. Solutions always keep their fields. Afterwards
+   !> `is_started` tells whether the surface is a wave of the paper.
    subroutine start(self, surface, options)
       class(series_contact), intent(out) :: self
-      type(surface_type), intent(in) :: surface  !! a wave of the paper
+      type(surface_type), intent(in) :: surface
       type(qp_options), intent(in) :: options
 
       call assert(options%harmonics >= 1, 'harmonics >= 1')
@@ -114,6 +120,8 @@ contains
       call add_cosine_rows(self%problem, self%series%terms, options%constraint_points, options%symmetry)
    end subroutine start
 
+   !> Solves a load by the quadratic programme and measures its series. With a hardness mean gap and approach follow
+   !> from the multipliers of the constraints (C25) wherever some pressure is at H.
    subroutine solve_partial_contact(self, pbar_over_pstar, solution)
       class(series_contact), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar
@@ -121,7 +129,7 @@ contains
 
       type(qp_solution) :: programme
       type(series_source), allocatable :: source
-      real(dp) :: residual_indentation, open_gap
+      real(dp) :: largest_pressure, residual_indentation, open_gap
 
       call self%solve_programme(pbar_over_pstar, programme)
       solution%pbar_over_pstar = pbar_over_pstar
@@ -133,7 +141,8 @@ contains
       residual_indentation = 0.0_dp
       solution%active_constraints = size(programme%active)
       if (self%surface%has_hardness()) then
-         ! The energy per area is P plus the programme's objective times the mean square of the surface's wave.
+         ! (C25). The energy per area is P plus the programme's objective times the mean square of the surface's wave,
+         ! which is 2^-D; so the multipliers times 2^-D are gaps times the points' parts of the cell.
          associate (at_hardness => programme%active > size(self%problem%bounds)/2, &
                     gaps => programme%multipliers/2**self%surface%dimension)
             open_gap = sum(gaps, .not. at_hardness)
@@ -142,15 +151,17 @@ contains
       end if
       allocate (source, source=self%series)
       call move_alloc(programme%x, source%x)
-      ! Without residual indentation no point is at H, although a peak between the points may come close.
+      ! Without residual indentation no pressure is at H, although a peak between the points may come close to H.
+      largest_pressure = huge(largest_pressure)
+      if (residual_indentation > 0.0_dp) largest_pressure = self%surface%hardness
       call measure_series(source%pressure(pbar_over_pstar), source%displacement(), source%options%edge_level, &
-                          solution%quantities, &
-                          merge(self%surface%hardness, huge(1.0_dp), residual_indentation > 0.0_dp))
+                          solution%quantities, largest_pressure)
       associate (x => source%x, n => self%surface%dimension)
-         ! The mean square of the surface's own wave is 2^-n.
+         ! The programme's energy is in units of the mean square of the surface's wave, 2^-n.
          solution%value(elastic_energy) = 0.5_dp*dot_product(x, self%problem%hessian*x)/2**n
       end associate
-      ! The crest, from which the approach follows otherwise, is then not in elastic contact.
+      ! `measure_series` takes the displacement at the crest as the approach. With residual indentation the crest is not
+      ! in elastic contact.
       if (residual_indentation > 0.0_dp) then
          solution%value(mean_gap) = open_gap
          solution%value(approach) = 1.0_dp - open_gap + residual_indentation
@@ -158,12 +169,12 @@ contains
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
-   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with p <= H where the surface has a
-   !> hardness. Its pivots are those since the last load; its x are the amplitudes of the Fourier terms of
-   !> (p - pbar)/p*.
+   !> Solves the quadratic programme (17), (18) or (26), (27) of the paper, with the further constraints p <= H if the
+   !> surface has a hardness. On return programme%x are the amplitudes of the Fourier terms of (p - pbar)/p*, and
+   !> programme%pivots counts the exchanges of variables for this load.
    subroutine solve_programme(self, pbar_over_pstar, programme)
       class(series_contact), intent(inout) :: self
-      real(dp), intent(in) :: pbar_over_pstar       !! 0 < P < 1 or H
+      real(dp), intent(in) :: pbar_over_pstar       !! P > 0, below H with a hardness, otherwise below 1
       type(qp_solution), intent(out) :: programme
 
       real(dp) :: start
@@ -188,8 +199,8 @@ contains
       programme%pivots = programme%pivots + pivots
    end subroutine solve_programme
 
-   !> Whether a load starts from the active constraints of the last one. With few more points than harmonics two loads
-   !> have most of these in common.
+   !> Whether a load starts from the active constraints of the last load. If there are only a few more points than
+   !> harmonics, two loads have most of the active constraints in common.
    pure logical function continues(self)
       class(series_contact), intent(in) :: self
 
@@ -198,6 +209,7 @@ contains
       end associate
    end function continues
 
+   !> The traits. The errors of a truncated series are not estimated.
    type(solver_traits) function traits(self)
       class(series_contact), intent(in) :: self
 
@@ -205,13 +217,14 @@ contains
                              continues_last_load=continues(self))
    end function traits
 
+   !> Forgets the last active constraints; the next load starts from none.
    subroutine forget_last_load(self)
       class(series_contact), intent(inout) :: self
 
       if (allocated(self%dual)) deallocate (self%dual)
    end subroutine forget_last_load
 
-   !> p/p* as a series in phi and theta.
+   !> The Fourier series of p/p* in phi and theta.
    type(fourier_series) function pressure(self, pbar_over_pstar) result(series)
       class(series_source), intent(in) :: self
       real(dp), intent(in) :: pbar_over_pstar    !! P
@@ -220,13 +233,14 @@ contains
       series%c(0, 0) = pbar_over_pstar
    end function pressure
 
-   !> (u - ubar)/Delta as a series in phi and theta: eqs. (13), (A10).
+   !> The Fourier series of (u - ubar)/Delta in phi and theta: eqs. (13), (A10) of the paper.
    type(fourier_series) function displacement(self) result(series)
       class(series_source), intent(in) :: self
 
       call self%terms%coefficients(self%terms%compliance*self%x, series%c)
    end function displacement
 
+   !> Makes the fields from the series of pressure and displacement.
    subroutine fields(self, surface, answer)
       class(series_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -242,7 +256,7 @@ contains
       call move_alloc(own, answer)
    end subroutine fields
 
-   !> The error of a truncated series is not estimated.
+   !> The stresses below the truncated series. Their error is NaN, because that of the series is not estimated.
    subroutine stresses(self, surface, answer)
       class(series_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -258,6 +272,7 @@ contains
       call move_alloc(own, answer)
    end subroutine stresses
 
+   !> The Fourier series of p/p* in X and Y.
    subroutine coefficients(self, series)
       class(series_source), intent(in) :: self
       type(fourier_series), intent(out) :: series
@@ -266,7 +281,7 @@ contains
       if (self%rotated) series = to_sum_angles(series)
    end subroutine coefficients
 
-   !> The isobar p = edge_level p*.
+   !> The isobar p = edge_level p*, which is taken as the edge of contact.
    subroutine contact_contours(self, surface, curves, loads)
       class(series_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -282,7 +297,7 @@ contains
          if (surface%dimension == 2) then
             call start_isobar_grid(grid, series, level, measuring_intervals(harmonics))
             if (self%rotated) then
-               ! A period of phi and theta is two cells.
+               ! A period of phi and theta covers two cells of the surface.
                call trace_edges(grid, curves, cell=grid%period/[1, 2], skew=grid%period(1)/2)
                call rotate_contours(curves, factor=1.0_dp)
             else
@@ -293,19 +308,21 @@ contains
             call line_zeros(series%c(:, 0), measuring_intervals(harmonics), zeros)
             call make_strips(zeros, sum(series%c) >= 0.0_dp, .true., curves)
          end if
-         ! The part outside the isobar is not known.
+         ! The load of a spot is not known: some of the pressure lies outside the isobar.
          allocate (loads(0))
       end associate
    end subroutine contact_contours
 
-   !> The slope of the mean gap at fixed active constraints, from the least energy of pressures of mean 1 that vanish at
-   !> these: (C30) of README.md in this directory. Unknown with a hardness, or if the constraints depend on each other.
+   !> The slope of the mean gap at fixed active constraints, from the least energy of a pressure of mean 1 that vanishes
+   !> at the points of these constraints: (C30) of README.md in this directory. The slope is unknown with a hardness,
+   !> and if the active constraints are linearly dependent. All other derivatives are unknown.
    subroutine derivatives(self, surface, answer)
       class(series_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(quantities), intent(out) :: answer
 
-      !> Pressures below this part of the peak pressure are rounding: the constraint is active.
+      !> A constraint is active if the pressure at its point is below this part of the peak pressure: such a pressure is
+      !> zero but for rounding.
       real(dp), parameter :: active = 1e-9_dp
       type(qp_problem) :: problem
       type(working_set) :: set
@@ -326,7 +343,7 @@ contains
       if (set%count < size(constraints)) return
       allocate (multipliers(set%count), x(size(self%x)))
       call set%solve(problem, x, multipliers)
-      ! The energy is in units of the mean square of the surface's own wave.
+      ! The programme's energy is in units of the mean square of the surface's wave, 2^-D.
       answer%value(gap_slope) = -sum(problem%hessian*x**2)/2**surface%dimension
    end subroutine derivatives
 

@@ -1,6 +1,7 @@
-!> Pressure and displacement as Fourier series: truncated ones, shown as they are, whose pressure is a little negative
-!> between the points at which it is constrained and whose gap is nowhere exactly zero; and those of a contact without
-!> an edge, which is full contact or no load. For a load without a solution the fields are NaN.
+!> Fields whose pressure and displacement are Fourier series. There are two cases. The truncated series of
+!> `series_contact` are shown as they are: between the constraint points the pressure is a little negative, and the gap
+!> is nowhere exactly zero. The series of full contact and of no load are exact, and there is no edge of contact. For a
+!> load without a solution the fields are NaN.
 module wavycon_series_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_fields, only: contact_fields
@@ -19,11 +20,11 @@ module wavycon_series_fields
       type(fourier_series) :: pressure       !! p/p*
       type(fourier_series) :: displacement   !! (u - ubar)/Delta
       type(surface_type) :: surface
-      real(dp) :: mean_gap = 1.0_dp          !! G
-      !> Whether the true pressure and gap are nowhere less than least_pressure and 0: what the series have below is
-      !> rounding, or lies between the points of a height map.
+      real(dp) :: mean_gap = 1.0_dp          !! G [Delta]
+      !> Whether the series are those of full contact or no load. Then pressures below least_pressure and gaps below 0
+      !> are due to rounding, or lie between the points of a height map, and are set to these limits.
       logical, private :: is_edgeless = .false.
-      !> Without a bound in full contact below p*, which adhesion holds.
+      !> The least pressure [p*]; -huge if adhesion holds the surfaces in full contact below P = 1.
       real(dp), private :: least_pressure = 0.0_dp
    contains
       procedure :: at
@@ -32,12 +33,12 @@ module wavycon_series_fields
 
 contains
 
-   !> The fields of full contact, of no load, or of a load without a solution.
+   !> Sets the fields of full contact, of no load, or of a load without a solution.
    subroutine start_edgeless_fields(fields, surface, pbar_over_pstar, status)
       type(series_fields), intent(out) :: fields
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: pbar_over_pstar   !! P
-      integer, intent(in) :: status             !! full_contact, no_load, or that of a load without a solution
+      integer, intent(in) :: status             !! full_contact or no_load; all others: a load without a solution
 
       fields%surface = surface
       fields%is_edgeless = status == full_contact .or. status == no_load
@@ -45,7 +46,7 @@ contains
          fields%pressure = full_contact_series(surface, pbar_over_pstar)
          fields%displacement = surface%shape
          fields%mean_gap = 0.0_dp
-         ! Only adhesion holds surfaces in full contact below p*: they are under tension at the troughs.
+         ! Below P = 1 only adhesion holds surfaces in full contact: at the troughs the pressure is a tension.
          if (pbar_over_pstar < 1.0_dp) fields%least_pressure = -huge(1.0_dp)
       else
          allocate (fields%pressure%c(0:surface%shape%last(1), 0:surface%shape%last(2)), source=0.0_dp)
@@ -54,6 +55,7 @@ contains
       end if
    end subroutine start_edgeless_fields
 
+   !> The fields at one point, as sums of the series.
    subroutine at(self, x, y, pressure, displacement, gap)
       class(series_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -67,6 +69,7 @@ contains
       gap = max(gap, 0.0_dp)
    end subroutine at
 
+   !> The fields on a grid of the cell, by fast Fourier transforms.
    subroutine on_grid(self, points, offset, pressure, displacement, gap)
       class(series_fields), intent(inout) :: self
       integer, intent(in) :: points(2)

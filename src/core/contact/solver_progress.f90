@@ -1,4 +1,5 @@
-!> What a solver calls within a load: to display its progress, and to ask whether it shall stop.
+!> Procedures that a solver calls within a load: one displays the progress, the other tells whether the solver shall
+!> stop. An extension of the type replaces these defaults, which do nothing.
 module wavycon_solver_progress
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -14,22 +15,21 @@ module wavycon_solver_progress
 
 contains
 
-   !> Called after each grid. Here nothing is done.
+   !> Called after each grid that is solved.
    subroutine grid_solved(self, points, iterations, residual)
       class(solver_progress), intent(in) :: self
-      integer, intent(in) :: points(2)     !! of the grid, on the whole cell along x and y
-      integer, intent(in) :: iterations    !! on this grid
-      real(dp), intent(in) :: residual     !! (C9)
+      integer, intent(in) :: points(2)     !! points of the grid on the whole cell along x and y
+      integer, intent(in) :: iterations    !! number of iterations on this grid
+      real(dp), intent(in) :: residual     !! residual (C9) of README.md in this directory
 
       associate (unused => self, also_unused => points, unused_too => iterations, not_used => residual); end associate
    end subroutine grid_solved
 
-   !> Whether the solver shall leave the load, which then has the status `interrupted`. Asked before each load that a
-   !> solver solves, also those of a search, and before each iteration on a grid. Here the answer is no. All ranks must
-   !> give the same one.
+   !> Whether the solver shall stop. The load then has the status `interrupted`. A solver calls this before each load,
+   !> also within a search for a load, and before each iteration on a grid. All processes must return the same answer.
    logical function shall_stop(self, iterations, residual)
       class(solver_progress), intent(in) :: self
-      integer, intent(in) :: iterations    !! of this correction of the pressure; 0 before a load
+      integer, intent(in) :: iterations    !! iterations of this correction of the pressure so far; 0 before a load
       real(dp), intent(in) :: residual     !! root mean square of the violated conditions [Delta]; 1 before a load
 
       associate (unused => self, unused_too => iterations, also_unused => residual); end associate

@@ -1,8 +1,8 @@
-!> The points of a grid that are equivalent by the symmetries of a lattice of crests: fields are evaluated at the
-!> first of them only.
+!> Finds which points of a grid are equivalent by the symmetries of a lattice of crests. Fields are evaluated at the
+!> first point of each set of equivalent points only.
 !>
-!> The symmetries are the mirror lines X = 0 and Y = 0, the diagonals of a square cell, and the translation by half a
-!> cell both ways of a cell with two crests.
+!> The symmetries are reflections in the lines X = 0 and Y = 0, reflections in the diagonals of a square cell, and, in a
+!> cell with two crests, the translation by half a cell along both axes.
 module wavycon_equivalent_points
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -11,9 +11,12 @@ module wavycon_equivalent_points
    public :: equivalent_points, point_image
 
    type :: equivalent_points
-      logical :: is_square = .false.   !! whether x and y are equivalent on the lattice
-      integer :: crests = 0            !! of the cell, 1 or 2; 0: no points are equivalent
+      logical :: is_square = .false.   !! whether the lattice does not change if x and y are exchanged
+      integer :: crests = 0            !! number of crests in the cell, 1 or 2; 0: no points are equivalent
+      !> Points of the grid, and twice the distance of its first point from the origin in steps.
       integer, private :: points(2) = 1, twice_offset(2) = 0
+      !> Whether the points of the grid have these symmetries: reflections in the axes and in the diagonals,
+      !> translation.
       logical, private :: has_mirrors = .false., has_diagonals = .false., has_second_crest = .false.
    contains
       procedure :: start
@@ -21,20 +24,21 @@ module wavycon_equivalent_points
       procedure :: number_of_first
    end type equivalent_points
 
-   !> The first point equivalent to a point: mirrored, and then with X and Y exchanged.
+   !> The first of the points that are equivalent to a point, and the operations that lead to this first point:
+   !> reflection in the axes, then exchange of X and Y.
    type :: point_image
-      integer :: point(2) = 0                    !! from 0
-      logical :: mirrored(2) = .false.           !! in X and in Y
-      logical :: exchanged = .false.
+      integer :: point(2) = 0                    !! indices of the first point, from 0
+      logical :: mirrored(2) = .false.           !! whether X and Y have changed their signs
+      logical :: exchanged = .false.             !! whether X and Y have been exchanged
    end type point_image
 
 contains
 
-   !> Finds the symmetries that the points of a grid have.
+   !> Finds those symmetries of the lattice that the points of a grid have too.
    subroutine start(self, points, offset)
       class(equivalent_points), intent(inout) :: self
-      integer, intent(in) :: points(2)     !! of the cell
-      real(dp), intent(in) :: offset(2)    !! of the first point, in steps
+      integer, intent(in) :: points(2)     !! points of the grid on the cell
+      real(dp), intent(in) :: offset(2)    !! distance of the first point from the origin, in steps
 
       real(dp), parameter :: rounding = 1e-12_dp
 
@@ -46,10 +50,10 @@ contains
       self%has_second_crest = self%crests == 2 .and. all(mod(points, 2) == 0)
    end subroutine start
 
-   !> The first of all points equivalent to this one, in the order of a loop over X within one over Y.
+   !> The first of all points that are equivalent to a point. The order is that of a loop over X inside a loop over Y.
    pure type(point_image) function first_of(self, point) result(first)
       class(equivalent_points), intent(in) :: self
-      integer, intent(in) :: point(2)      !! from 0
+      integer, intent(in) :: point(2)      !! indices of the point, from 0
 
       type(point_image) :: other
 
@@ -62,7 +66,7 @@ contains
           (other%point(2) == first%point(2) .and. other%point(1) < first%point(1))) first = other
    end function first_of
 
-   !> The first of the mirror images of a point and, on a square cell, of those on the other side of its diagonals.
+   !> The first of the mirror images of a point; if the cell is square, mirror images in the diagonals are included.
    pure type(point_image) function reflected(grid, point) result(first)
       type(equivalent_points), intent(in) :: grid
       integer, intent(in) :: point(2)
@@ -76,7 +80,7 @@ contains
       if (first%exchanged) first%point = first%point([2, 1])
    end function reflected
 
-   !> The number of points that are not equivalent to an earlier one.
+   !> The number of sets of equivalent points.
    pure integer function number_of_first(self) result(number)
       class(equivalent_points), intent(in) :: self
 

@@ -10,16 +10,16 @@ module wavycon_fourier_series
 
    public :: fourier_series, divide_series, evaluate_line, turn, weighted
 
-   !> f(X, Y) = Re sum_kl W_kl exp(i (kX + lY)), k = 0..m, l = -n..n; in 1-D l = 0 only. For k = 0 the waves of l and -l
-   !> are one: each of W_0l and its conjugate W_0,-l is half of it.
+   !> f(X, Y) = Re sum_kl W_kl exp(i (kX + lY)), k = 0..m, l = -n..n; in 1-D l = 0 only. For k = 0 the terms of l and -l
+   !> are the same wave: half of its amplitude is W_0l, the other half the conjugate W_0,-l.
    !>
-   !> The waves of an even field, f(-X, Y) = f(X, -Y) = f(X, Y), are kept as f = sum_kl c_kl cos kX cos lY, k, l >= 0:
-   !> they are real, W_k,-l = W_kl = c_kl/2 for l > 0, and W_k0 = c_k0.
+   !> An even field, f(-X, Y) = f(X, -Y) = f(X, Y), is f = sum_kl c_kl cos kX cos lY, k, l >= 0. Its waves are real,
+   !> W_k,-l = W_kl = c_kl/2 for l > 0 and W_k0 = c_k0, and only the c_kl are stored.
    type :: fourier_series
-      real(dp), allocatable :: c(:, :)         !! of an even field, shape (0:m, 0:n)
-      complex(dp), allocatable :: wave(:, :)   !! W of any other field, shape (0:m, -n:n)
-      !> Of a series that is distributed as grids are, where the rank has some of the first indices only, see
-      !> wavycon_grid_transform: its wave numbers in X as columns, k is column k + 1. A whole series has the default.
+      real(dp), allocatable :: c(:, :)         !! c_kl of an even field, shape (0:m, 0:n)
+      complex(dp), allocatable :: wave(:, :)   !! W_kl of any other field, shape (0:m, -n:n)
+      !> How a series is distributed over processes (ranks, see wavycon_grid_transform). A rank has some wave numbers k,
+      !> its own ones; here they are columns, k is column k + 1. A series that is not distributed has the default.
       type(grid_slab) :: rows
    contains
       procedure :: is_even
@@ -39,19 +39,21 @@ module wavycon_fourier_series
 
 contains
 
+   !> Whether the series is stored as that of an even field; also if there is no series.
    pure logical function is_even(self)
       class(fourier_series), intent(in) :: self
 
       is_even = .not. allocated(self%wave)
    end function is_even
 
+   !> Whether each rank has some of the wave numbers in X only.
    pure logical function is_distributed(self)
       class(fourier_series), intent(in) :: self
 
       is_distributed = self%rows%is_distributed
    end function is_distributed
 
-   !> The first own wave number in X.
+   !> The first wave number in X that this rank has.
    pure integer function first(self)
       class(fourier_series), intent(in) :: self
 
@@ -60,31 +62,33 @@ contains
       if (allocated(self%wave)) first = lbound(self%wave, 1)
    end function first
 
-   !> The last own wave number in X or that in Y; below 0 if there is no series.
+   !> The last wave number in X that this rank has, or the last one in Y; -1 if there is no series.
    elemental integer function last(self, way)
       class(fourier_series), intent(in) :: self
-      integer, intent(in) :: way   !! 1: in X, 2: in Y
+      integer, intent(in) :: way   !! axis: 1 for X, 2 for Y
 
       last = -1
       if (allocated(self%c)) last = ubound(self%c, way)
       if (allocated(self%wave)) last = ubound(self%wave, way)
    end function last
 
-   !> W_kl of the own k up to a highest one.
+   !> W_kl for one l and all k from first() to a given one.
    pure function row(self, l, highest) result(waves)
       class(fourier_series), intent(in) :: self
-      integer, intent(in) :: l
-      integer, intent(in) :: highest   !! up to last(1)
+      integer, intent(in) :: l         !! wave number in Y, -last(2) .. last(2)
+      integer, intent(in) :: highest   !! last k, at most last(1)
       complex(dp) :: waves(self%first():highest)
 
-      if (self%is_even()) then
-         waves = merge(1.0_dp, 0.5_dp, l == 0)*self%c(:highest, abs(l))
-      else
+      if (.not. self%is_even()) then
          waves = self%wave(:highest, l)
+      else if (l == 0) then
+         waves = self%c(:highest, 0)
+      else
+         waves = 0.5_dp*self%c(:highest, abs(l))
       end if
    end function row
 
-   !> The frequency of each wave, one over its wavelength.
+   !> The frequency of each wave, one over its wavelength [1/length]. The waves (k, l) and (k, -l) have the same one.
    pure function frequencies(self, length) result(frequency)
       class(fourier_series), intent(in) :: self
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
@@ -97,10 +101,10 @@ contains
       end do
    end function frequencies
 
-   !> Multiplies the waves of k, l and of k, -l by a factor.
+   !> Multiplies each wave by a factor, which is the same for (k, l) and (k, -l).
    pure subroutine multiply(self, factor)
       class(fourier_series), intent(inout) :: self
-      real(dp), intent(in) :: factor(:, 0:)   !! shape of `frequencies`
+      real(dp), intent(in) :: factor(:, 0:)   !! factor of each k and |l|, shape of `frequencies`
 
       integer :: l
 
@@ -110,7 +114,7 @@ contains
       if (self%is_even()) self%c = factor*self%c
    end subroutine multiply
 
-   !> Sets the mean, if that is an own wave.
+   !> Sets the mean of the field. Ranks that do not have the wave number 0 do nothing.
    pure subroutine set_mean(self, mean)
       class(fourier_series), intent(inout) :: self
       real(dp), intent(in) :: mean
@@ -126,8 +130,8 @@ contains
    !> Adds Re w exp(i (kX + lY)) to a series that is not even.
    pure subroutine add_wave(self, k, l, w)
       class(fourier_series), intent(inout) :: self
-      integer, intent(in) :: k, l      !! k an own wave number; not both zero
-      complex(dp), intent(in) :: w
+      integer, intent(in) :: k, l      !! wave numbers, not both zero; this rank has k
+      complex(dp), intent(in) :: w     !! complex amplitude
 
       if (k > 0) then
          self%wave(k, l) = self%wave(k, l) + w
@@ -144,9 +148,9 @@ contains
       turn = exp(cmplx(0.0_dp, angle, dp))
    end function turn
 
-   !> The field at a point. The series is whole.
+   !> The field at a point.
    pure real(dp) function at(self, x, y)
-      class(fourier_series), intent(in) :: self
+      class(fourier_series), intent(in) :: self   !! not distributed
       real(dp), intent(in) :: x, y   !! X, Y [rad]
 
       integer :: k, l
@@ -160,16 +164,16 @@ contains
       end associate
    end function at
 
-   !> The field along a line, X = X_0 + d_x t, Y = Y_0 + d_y t. Its waves are first added up to those of equal wave
-   !> number along t. The series is whole.
+   !> The field along a line, X = X_0 + d_x t, Y = Y_0 + d_y t. On the line a wave has the wave number d_x k + d_y l.
+   !> Waves of the same number are added first, so that each point needs only a sum over one index.
    pure function on_line(self, start, direction, t) result(values)
-      class(fourier_series), intent(in) :: self
+      class(fourier_series), intent(in) :: self   !! not distributed
       real(dp), intent(in) :: start(2)       !! X_0, Y_0 [rad]
       integer, intent(in) :: direction(2)    !! d_x, d_y >= 0
-      real(dp), intent(in) :: t(:)           !! [rad]
+      real(dp), intent(in) :: t(:)           !! coordinates of the points along the line [rad]
       real(dp) :: values(size(t))
 
-      complex(dp), allocatable :: along(:)
+      complex(dp), allocatable :: along(:)   ! amplitudes by wave number along the line
       complex(dp) :: phase, step, turn_x(0:self%last(1)), waves(0:self%last(1))
       integer :: i, k, l, n
 
@@ -194,29 +198,32 @@ contains
       end do
    end function on_line
 
-   !> An even field on a quarter of the cell, at X = pi k/N, Y = pi l/N, k, l = 0..N (l = 0 only in 1-D).
+   !> An even field on a quarter of the cell, at X = pi k/N, Y = pi l/N, k, l = 0..N (l = 0 only in 1-D): two products
+   !> of matrices with a table of cosines.
    pure subroutine evaluate_on_grid(self, intervals, values)
       class(fourier_series), intent(in) :: self
       integer, intent(in) :: intervals                     !! N >= 1
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (0:N, 0:N) or (0:N, 0:0)
 
-      real(dp) :: half_way(0:intervals, 0:ubound(self%c, 2))
+      real(dp) :: half_way(0:intervals, 0:ubound(self%c, 2))   ! values at X, coefficients along Y
       integer :: m, n, rows, columns
 
       m = size(self%c, 1)
       n = size(self%c, 2)
       rows = intervals + 1
-      columns = merge(rows, 1, n > 1)
+      columns = 1
+      if (n > 1) columns = rows
       allocate (values(0:rows - 1, 0:columns - 1))
       call dgemm('N', 'N', rows, n, m, 1.0_dp, cosine_table(intervals, m - 1), rows, self%c, m, 0.0_dp, half_way, rows)
       call dgemm('N', 'T', rows, columns, n, 1.0_dp, half_way, rows, cosine_table(intervals, n - 1), rows, &
                  0.0_dp, values, rows)
    end subroutine evaluate_on_grid
 
-   !> Gathers a distributed series, on the rank that writes the tables or on all; on other ranks it stays as it is.
+   !> Gathers a distributed series on rank 0, which writes the tables, or on all ranks. On ranks that do not get the
+   !> whole series it does not change.
    subroutine gather(self, first_only)
       class(fourier_series), intent(inout) :: self
-      logical, intent(in) :: first_only   !! whether only where tables are written
+      logical, intent(in) :: first_only   !! whether rank 0 alone gets the whole series
 
       real(dp), allocatable :: own(:, :), whole(:, :)   ! real parts of the waves, and then the imaginary ones
       integer :: last, numbers
@@ -242,13 +249,13 @@ contains
       end if
    end subroutine gather
 
-   !> sum_i c_i cos(i x) and its derivative.
+   !> The value of sum_i c_i cos(i x) and its derivative with respect to x.
    pure subroutine evaluate_line(c, x, value, slope)
-      real(dp), intent(in) :: c(0:)             !! shape (0:n)
-      real(dp), intent(in) :: x                 !! [rad]
+      real(dp), intent(in) :: c(0:)             !! coefficients, shape (0:n)
+      real(dp), intent(in) :: x                 !! angle [rad]
       real(dp), intent(out) :: value, slope
 
-      complex(dp) :: turn, phase
+      complex(dp) :: turn, phase   ! e^(ix), e^(i k x)
       integer :: i
 
       turn = cmplx(cos(x), sin(x), dp)
@@ -262,13 +269,13 @@ contains
       end do
    end subroutine evaluate_line
 
-   !> A series with each wave multiplied by its stiffness, or divided by it, or without a kernel multiplied by the
-   !> square of its frequency, one over its wavelength; the mean becomes 0.
+   !> A series in which each wave is multiplied by its stiffness, or divided by the stiffness. Without a kernel the
+   !> square of the frequency, which is one over the wavelength, takes the place of the stiffness. The mean becomes 0.
    pure type(fourier_series) function weighted(series, length, kernel, divides)
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
-      type(wave_stiffness), intent(in), optional :: kernel
-      logical, intent(in), optional :: divides   !! by the stiffness
+      type(wave_stiffness), intent(in), optional :: kernel   !! stiffness of the waves
+      logical, intent(in), optional :: divides   !! if present the waves are divided, whatever the value
 
       real(dp) :: factor(series%first():series%last(1), 0:series%last(2))
       integer :: k, l
@@ -284,10 +291,10 @@ contains
       call weighted%multiply(factor)
    end function weighted
 
-   !> Divides a series by a number in place.
+   !> Divides all coefficients of a series by a number, in place.
    pure subroutine divide_series(series, unit)
       type(fourier_series), intent(inout) :: series
-      real(dp), intent(in) :: unit   !! not 0
+      real(dp), intent(in) :: unit   !! divisor, not 0
 
       if (series%is_even()) then
          series%c = series%c/unit

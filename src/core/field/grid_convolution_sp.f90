@@ -1,4 +1,4 @@
-!> Convolutions on a grid in single precision.
+!> Convolutions of fields on a grid by fast Fourier transforms, in single precision.
 module wavycon_grid_convolution_sp
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
    use wavycon_assertion, only: assert

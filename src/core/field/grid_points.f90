@@ -1,7 +1,7 @@
-!> The points of a grid.
+!> The points of a grid and their continuation beyond its borders.
 !>
-!> Those of an even field, f(-X, Y) = f(X, -Y) = f(X, Y), lie in a quarter of its cell: M x N points at
-!> X = pi (i - 1/2)/M, Y = pi (j - 1/2)/N. Those of any other field lie in its whole cell: X = 2 pi (i - 1)/M,
+!> The points of an even field, f(-X, Y) = f(X, -Y) = f(X, Y), lie in a quarter of its cell: M x N points at
+!> X = pi (i - 1/2)/M, Y = pi (j - 1/2)/N. The points of any other field lie in its whole cell: X = 2 pi (i - 1)/M,
 !> Y = 2 pi (j - 1)/N. N = 1 for a field in one dimension.
 module wavycon_grid_points
    use wavycon_constants, only: pi
@@ -13,20 +13,21 @@ module wavycon_grid_points
 
 contains
 
-   !> The angle of a point of the grid, or of its continuation, in one direction [rad].
+   !> The angle X or Y [rad] of a point of the grid or of its continuation.
    elemental real(dp) function point_angle(i, points, even)
-      integer, intent(in) :: i         !! any
-      integer, intent(in) :: points    !! M or N, >= 1
+      integer, intent(in) :: i         !! index of the point along this axis, any integer
+      integer, intent(in) :: points    !! number of points along this axis, M or N, >= 1
       logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
 
-      point_angle = merge(pi*(i - 0.5_dp), 2*pi*(i - 1), even)/points
+      point_angle = 2*pi*(i - 1)/points
+      if (even) point_angle = pi*(i - 0.5_dp)/points
    end function point_angle
 
-   !> The index of the grid's point of which a point of its continuation is the image: by mirrors at the borders of a
-   !> quarter, periodically beyond those of a whole cell.
+   !> The index of the point of the grid whose image is a given point of the continuation. A quarter of a cell is
+   !> continued by mirror images at its borders, a whole cell periodically. A point of the grid is its own image.
    elemental integer function image_of_point(i, points, even) result(image)
-      integer, intent(in) :: i         !! any
-      integer, intent(in) :: points    !! M or N, >= 1
+      integer, intent(in) :: i         !! index of the point along this axis, any integer
+      integer, intent(in) :: points    !! number of points along this axis, M or N, >= 1
       logical, intent(in) :: even      !! whether the points are those of a quarter of the cell
 
       image = i

@@ -1,12 +1,13 @@
-!> The own columns of a grid that may be distributed over processes, its ranks. Code that solves contacts knows this
-!> type and not the ranks.
+!> A slab of a grid: the columns that this process has of a grid that may be distributed over processes. The processes
+!> are called ranks, as in MPI. The columns of a slab are called own columns. Code that solves contacts knows slabs
+!> only, not ranks.
 !>
-!> Large grids are distributed over the ranks: each has a slab of adjacent columns, all rows of them. Small grids are
-!> whole on each rank, and each computes all of it: then nothing is exchanged. In the serial program every grid is
-!> whole. Code that works on a slab and takes its sums, neighbours and columns by the procedures here does not ask which
-!> of the two it is. All ranks that work on a grid call them in the same order.
+!> Large grids are distributed: each rank has a slab of adjacent columns with all their rows. Small grids are whole:
+!> each rank has all columns and computes them all, and nothing is exchanged. In the serial program every grid is whole.
+!> Code that takes sums, neighbours and columns by the procedures of this module works for both cases alike. All ranks
+!> that work on a grid must call these procedures in the same order.
 !>
-!> Sums do not depend on the number of ranks to the last digit: each rank sums its columns, or strips of
+!> Sums are the same to the last digit for any number of ranks. Each rank sums over its columns, or over strips of
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
 module wavycon_grid_slab
    use, intrinsic :: iso_fortran_env, only: int64
@@ -20,21 +21,21 @@ module wavycon_grid_slab
 
    public :: grid_slab
 
-   !> Columns of a strip. Slabs begin with a strip, so that sums over strips are the same however a grid is distributed,
-   !> and means of 2, 4, ... 32 columns have all of them on one rank.
+   !> Number of columns in a strip. A slab begins with a strip. So sums over strips do not depend on how a grid is
+   !> distributed, and the 2, 4, ... 32 columns of a mean on a coarser grid are on one rank.
    integer, parameter, public :: strip_columns = 32
 
-   !> Columns that a neighbour may need, and that each rank with columns therefore has at least.
+   !> Largest number of columns that a neighbour may need. Each rank with columns has at least this number of them.
    integer, parameter, public :: most_reach = 8
 
    !> Grids with fewer points are whole on each rank.
    integer(int64), parameter, public :: least_distributed_points = 65536_int64
 
    type :: grid_slab
-      integer :: points(2) = 0          !! M, N of the grid
+      integer :: points(2) = 0          !! M, N, rows and columns of the grid
       logical :: is_distributed = .false.    !! whether other ranks have the other columns
-      integer :: width = 0              !! columns of each rank but the last ones, a multiple of strip_columns
-      integer :: first = 1, last = 0    !! the own columns; last = first - 1: none
+      integer :: width = 0              !! number of columns of each rank but the last ones
+      integer :: first = 1, last = 0    !! first and last own column; last = first - 1 if there is none
    contains
       procedure :: start
       procedure :: divide
@@ -51,11 +52,11 @@ module wavycon_grid_slab
       procedure :: sum_of
       procedure :: extremes
       procedure :: find_largest
-      !> Whether something is true on any rank at work, also if each has the whole grid.
+      !> Whether a condition is true on any rank at work, also if each rank has the whole grid.
       procedure, nopass :: any => any_rank
-      !> Reports an error of any rank at work to all, also if each has the whole grid.
+      !> Reports an error of any rank at work to all ranks, also if each rank has the whole grid.
       procedure, nopass :: share_error
-      !> Columns beside the own ones.
+      !> Gets the columns before and after the own ones.
       generic :: halo => halo_dp, halo_sp
       procedure :: fetch
       procedure :: gather
@@ -66,12 +67,12 @@ module wavycon_grid_slab
 
 contains
 
-   !> Distributes a grid over the ranks that are at work. The result depends on nothing but the arguments and the number
-   !> of these ranks.
+   !> Distributes a grid over the ranks that are at work, if it is large enough. The result depends only on the
+   !> arguments and the number of these ranks.
    subroutine start(self, points, whole)
       class(grid_slab), intent(out) :: self
       integer, intent(in) :: points(2)         !! M, N >= 1
-      logical, intent(in), optional :: whole   !! whether no grid, however large, is distributed; .false. if absent
+      logical, intent(in), optional :: whole   !! whether the grid stays whole, however large it is; default: .false.
 
       integer :: ranks, width
 
@@ -91,8 +92,8 @@ contains
       if (width < points(2)) call set_width(self, width)
    end subroutine start
 
-   !> Divides a grid of any size: all ranks at work but the last ones have the same number of columns. Only for uses
-   !> without neighbours and strips.
+   !> Distributes a grid of any size, so that all ranks at work but the last ones have the same number of columns. Slabs
+   !> need not begin with a strip and may be narrow, so that halo and strip sums must not be used.
    subroutine divide(self, points)
       class(grid_slab), intent(out) :: self
       integer, intent(in) :: points(2)   !! M, N >= 1
@@ -101,7 +102,7 @@ contains
       if (ranks_at_work() > 1) call set_width(self, (points(2) - 1)/ranks_at_work() + 1)
    end subroutine divide
 
-   !> Distributes a grid in slabs of a given width.
+   !> Distributes a grid in slabs of a given number of columns.
    subroutine set_width(self, width)
       class(grid_slab), intent(inout) :: self
       integer, intent(in) :: width
@@ -112,7 +113,8 @@ contains
       self%last = min((this_rank() + 1)*width, self%points(2))
    end subroutine set_width
 
-   !> The first and last columns of all ranks, shape (2, ranks), of a grid that is distributed; last = first - 1: none.
+   !> The first and last columns of all ranks of a distributed grid, shape (2, ranks); last = first - 1 if a rank has
+   !> none.
    function blocks(self)
       class(grid_slab), intent(in) :: self
       integer, allocatable :: blocks(:, :)
@@ -125,33 +127,34 @@ contains
       end do
    end function blocks
 
-   !> The number of the own columns.
+   !> The number of own columns.
    pure integer function columns(self)
       class(grid_slab), intent(in) :: self
 
       columns = self%last - self%first + 1
    end function columns
 
-   !> The number of the own strips. Strip s has the own columns (s - 1)*strip_columns + 1 to min(s*strip_columns,
-   !> columns()).
+   !> The number of own strips. Strip s consists of the own columns (s - 1)*strip_columns + 1 to min(s*strip_columns,
+   !> columns()), counted from 1.
    pure integer function strips(self)
       class(grid_slab), intent(in) :: self
 
       strips = (self%columns() + strip_columns - 1)/strip_columns
    end function strips
 
-   !> Whether this machine has the memory for so many real numbers at each point of the slabs of all its ranks.
+   !> Whether the available memory of this machine is enough for the slabs of all its ranks.
    logical function has_memory(self, numbers)
       class(grid_slab), intent(in) :: self
-      integer, intent(in) :: numbers   !! of each point
+      integer, intent(in) :: numbers   !! real numbers in double precision for each point
 
       has_memory = has_memory_for(int(self%points(1), int64)*self%width*numbers*ranks_on_this_machine())
    end function has_memory
 
-   !> The grid of half the points each way, distributed like this one: each rank has the means of its own columns. It
-   !> may have as little as one column for its neighbours.
+   !> The slab of the grid with half the points each way, distributed in the same way: each rank has the means of its
+   !> own columns. A slab may have as little as one column, so that `halo` must not ask for more.
    pure type(grid_slab) function coarser(self)
-      class(grid_slab), intent(in) :: self   !! even numbers of points, but N may be 1; even width if distributed
+      !> Slab with even numbers of points, but N may be 1; its width is even if the grid is distributed.
+      class(grid_slab), intent(in) :: self
 
       coarser = self
       coarser%points = max(self%points/2, 1)
@@ -161,48 +164,50 @@ contains
       coarser%last = self%last/2
    end function coarser
 
-   !> Sums over the grid from those of the own columns.
-   function column_totals(self, parts) result(totals)
+   !> Adds sums over the own columns to sums over the grid.
+   function column_totals(self, own_sums) result(totals)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(in) :: parts(:, :)    !! shape (sums, columns())
-      real(dp) :: totals(size(parts, 1))
+      real(dp), intent(in) :: own_sums(:, :)    !! shape (number of different sums, columns())
+      real(dp) :: totals(size(own_sums, 1))
 
-      totals = totals_of(self, parts, self%first - 1, self%points(2))
+      totals = totals_of(self, own_sums, self%first - 1, self%points(2))
    end function column_totals
 
-   !> Sums over the grid from those of the own strips.
-   function strip_totals(self, parts) result(totals)
+   !> Adds sums over the own strips to sums over the grid.
+   function strip_totals(self, own_sums) result(totals)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(in) :: parts(:, :)    !! shape (sums, strips())
-      real(dp) :: totals(size(parts, 1))
+      real(dp), intent(in) :: own_sums(:, :)    !! shape (number of different sums, strips())
+      real(dp) :: totals(size(own_sums, 1))
 
-      totals = totals_of(self, parts, (self%first - 1)/strip_columns, (self%points(2) - 1)/strip_columns + 1)
+      totals = totals_of(self, own_sums, (self%first - 1)/strip_columns, (self%points(2) - 1)/strip_columns + 1)
    end function strip_totals
 
-   !> Adds the parts of all ranks in their order.
-   function totals_of(slab, parts, before, number) result(totals)
+   !> Adds the sums of all ranks in the order of the grid. Each rank puts its sums into an array for all columns or
+   !> strips that is zero elsewhere; adding zeros does not round, and so the digits do not depend on the ranks.
+   function totals_of(slab, own_sums, before, number) result(totals)
       type(grid_slab), intent(in) :: slab
-      real(dp), intent(in) :: parts(:, :)
-      integer, intent(in) :: before      !! number of the parts of lower ranks
-      integer, intent(in) :: number      !! of all parts
-      real(dp) :: totals(size(parts, 1))
+      real(dp), intent(in) :: own_sums(:, :)   !! shape (number of different sums, own columns or strips)
+      integer, intent(in) :: before            !! number of columns or strips on lower ranks
+      integer, intent(in) :: number            !! number of columns or strips of the grid
+      real(dp) :: totals(size(own_sums, 1))
 
       real(dp), allocatable :: every(:)
       integer :: sums
 
       if (.not. slab%is_distributed) then
-         totals = sum(parts, dim=2)
+         totals = sum(own_sums, dim=2)
          return
       end if
-      sums = size(parts, 1)
+      sums = size(own_sums, 1)
       allocate (every(sums*number), source=0.0_dp)
-      if (size(parts) > 0) every(sums*before + 1:sums*(before + size(parts, 2))) = reshape(parts, [size(parts)])
+      if (size(own_sums) > 0) &
+         every(sums*before + 1:sums*(before + size(own_sums, 2))) = reshape(own_sums, [size(own_sums)])
       call add_over_ranks(every)
       totals = sum(reshape(every, [sums, number]), dim=2)
    end function totals_of
 
-   !> The sums over the ranks that have different columns, element by element. They do not depend on the number of ranks
-   !> if each number is zero on all but one.
+   !> Adds arrays over the ranks, element by element, if the grid is distributed. The digits do not depend on the number
+   !> of ranks if each element is zero on all ranks but one.
    function total(self, values)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in) :: values(:)
@@ -212,10 +217,10 @@ contains
       if (self%is_distributed) call add_over_ranks(total)
    end function total
 
-   !> The number of points of the grid that have a property, from that of the own columns.
+   !> Adds a count of points in the own columns to the count on the grid.
    integer(int64) function total_count(self, own)
       class(grid_slab), intent(in) :: self
-      integer(int64), intent(in) :: own
+      integer(int64), intent(in) :: own   !! count in the own columns
 
       integer(int64) :: every(1)
 
@@ -224,7 +229,7 @@ contains
       total_count = every(1)
    end function total_count
 
-   !> The largest over the ranks that have different columns, element by element.
+   !> The largest value over the ranks, element by element, if the grid is distributed.
    function largest(self, values)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in) :: values(:)
@@ -234,12 +239,12 @@ contains
       if (self%is_distributed) call largest_over_ranks(largest)
    end function largest
 
-   !> Sum of a field over the grid.
+   !> The sum of a field over the grid.
    real(dp) function sum_of(self, field) result(total)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns())
 
-      real(dp) :: parts(1, size(field, 2)), totals(1)
+      real(dp) :: column_sums(1, size(field, 2)), totals(1)
       real(dp) :: column
       integer :: i, j
 
@@ -249,13 +254,13 @@ contains
          do i = 1, size(field, 1)
             column = column + field(i, j)
          end do
-         parts(1, j) = column
+         column_sums(1, j) = column
       end do
-      totals = self%column_totals(parts)
+      totals = self%column_totals(column_sums)
       total = totals(1)
    end function sum_of
 
-   !> The largest number of a field and minus the least one, over the whole grid.
+   !> The largest value of a field over the grid, and minus the least value.
    function extremes(self, field)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns()), without NaN
@@ -264,7 +269,7 @@ contains
       real(dp) :: highest, lowest
       integer :: i, j
 
-      ! Intrinsic functions look for NaN, and take twice as long on 1024 x 1024 points.
+      ! maxval and minval check for NaN and take twice as long on 1024 x 1024 points.
       highest = -huge(highest)
       lowest = huge(lowest)
       do j = 1, size(field, 2)
@@ -277,14 +282,16 @@ contains
       extremes = self%largest([highest, -lowest])
    end function extremes
 
-   !> The largest number of a field and the first of the points that have it, over the whole grid.
+   !> The largest value of a field over the grid, and the first point that has this value.
    subroutine find_largest(self, field, value, point)
       class(grid_slab), intent(in) :: self
       real(dp), intent(in) :: field(:, :)     !! shape (M, columns())
       real(dp), intent(out) :: value
-      integer, intent(out) :: point(2)        !! from 1
+      integer, intent(out) :: point(2)        !! row and column, from 1
 
-      real(dp) :: column, columns(size(field, 2)), most(1), place(1)
+      !> Minus the number of the point in the order of the grid, from 0: the largest over the ranks is the first point.
+      real(dp) :: minus_number(1)
+      real(dp) :: column, columns(size(field, 2)), most(1)
       integer :: i, j
 
       do j = 1, size(field, 2)
@@ -297,24 +304,24 @@ contains
       end do
       most = self%largest([maxval(columns)])
       value = most(1)
-      ! Numbers of points are whole in a real number up to 2^53.
-      place = -huge(place)
+      ! A real number holds a whole number exactly up to 2^53.
+      minus_number = -huge(minus_number)
       associate (m => self%points(1))
          j = findloc(columns >= value, .true., dim=1)
          if (j > 0) then
             i = findloc(field(:, j) >= value, .true., dim=1)
-            place = -(i - 1.0_dp + real(m, dp)*(self%first + j - 2))
+            minus_number = -(i - 1.0_dp + real(m, dp)*(self%first + j - 2))
          end if
-         place = self%largest(place)
-         point(2) = int(-place(1)/m)
-         point(1) = nint(-place(1) - real(m, dp)*point(2))
+         minus_number = self%largest(minus_number)
+         point(2) = int(-minus_number(1)/m)
+         point(1) = nint(-minus_number(1) - real(m, dp)*point(2))
          if (point(1) < 0) point = point + [m, -1]
       end associate
       point = point + 1
    end subroutine find_largest
 
-   !> The columns before and after the own ones: columns of other ranks, or at the border of the grid the images that
-   !> continue it. A rank without columns gets none.
+   !> Gets the columns before and after the own ones. These are columns of other ranks, or at the border of the grid the
+   !> images that continue the grid. A rank without columns gets none.
    subroutine halo_dp(self, field, even, low, high)
       integer, parameter :: wp = dp
 
@@ -327,16 +334,18 @@ contains
       include 'halo.inc'
    end subroutine halo_sp
 
-   !> Adjacent columns, of which other ranks may have some or all: each rank asks for those that it wants.
+   !> Gets adjacent columns of the grid. Other ranks may have some or all of these columns, and each rank asks for other
+   !> ones.
    subroutine fetch(self, field, even, first, wanted)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(in), contiguous :: field(:, :)             !! shape (any, columns())
-      logical, intent(in) :: even                                 !! whether mirror images continue the grid, or periods
-      integer, intent(in) :: first                                !! of the columns, >= 0; 0: the image before column 1
-      real(dp), intent(inout), contiguous :: wanted(:, first:)    !! up to N + 1 at most, its image; may have no columns
+      real(dp), intent(in), contiguous :: field(:, :)             !! own columns, shape (any, columns())
+      logical, intent(in) :: even    !! whether the grid continues by mirror images, otherwise periodically
+      integer, intent(in) :: first   !! first column, >= 0; column 0 is the image before column 1
+      !> The columns, at most up to N + 1, the image after column N. The array may have no columns.
+      real(dp), intent(inout), contiguous :: wanted(:, first:)
 
       integer(int64), allocatable :: every(:)
-      integer, allocatable, dimension(:, :) :: bounds, have   ! first and last columns of each rank
+      integer, allocatable, dimension(:, :) :: bounds, have   ! first and last columns that each rank wants, and has
       integer :: column_bytes, j, last
 
       last = ubound(wanted, 2)
@@ -362,10 +371,10 @@ contains
 
    contains
 
-      !> First and last column of each rank that wants the image of a column of the grid: this column, or none.
+      !> Which column each rank needs as the image of a column beyond the grid.
       function images_for_ranks(column) result(images)
-         integer, intent(in) :: column   !! of the continuation
-         integer :: images(2, size(bounds, 2))
+         integer, intent(in) :: column   !! column of the continuation, 0 or N + 1
+         integer :: images(2, size(bounds, 2))   !! first and last column; last = first - 1 if the rank needs none
 
          integer :: i
 
@@ -378,13 +387,14 @@ contains
 
    end subroutine fetch
 
-   !> The whole grid on the rank that writes the log and the tables, or on all.
+   !> Gathers the columns of all ranks on rank 0, which writes log and tables, or on all ranks.
    subroutine gather_whole(self, own, whole, first_only)
       class(grid_slab), intent(in) :: self
-      real(dp), intent(in), contiguous :: own(:, :)   !! shape (any, columns())
-      !> Shape (any, N); not allocated on ranks that do not want it if the grid is distributed.
+      real(dp), intent(in), contiguous :: own(:, :)   !! own columns, shape (any, columns())
+      !> All columns, shape (any, N). If the grid is distributed and rank 0 alone wants the columns, the array is not
+      !> allocated on the other ranks.
       real(dp), allocatable, intent(out) :: whole(:, :)
-      logical, intent(in) :: first_only
+      logical, intent(in) :: first_only               !! whether rank 0 alone wants the columns
 
       if (self%is_distributed) then
          allocate (whole(size(own, 1), merge(0, self%points(2), first_only .and. this_rank() > 0)))
@@ -395,13 +405,13 @@ contains
       end if
    end subroutine gather_whole
 
-   !> The whole of a distributed grid, on every rank or on the first.
+   !> Gathers the columns of a distributed grid, of numbers of any type, on rank 0 or on all ranks.
    subroutine gather(self, column_bytes, own, whole, first_only)
       class(grid_slab), intent(in) :: self
-      integer, intent(in) :: column_bytes
-      type(*), intent(in), target :: own(*)          !! the own columns
-      type(*), intent(inout), target :: whole(*)     !! all columns, where they are wanted
-      logical, intent(in) :: first_only              !! whether rank 0 alone wants the grid
+      integer, intent(in) :: column_bytes            !! size of a column [byte]
+      type(*), intent(in), target :: own(*)          !! own columns
+      type(*), intent(inout), target :: whole(*)     !! all columns, on ranks that want them
+      logical, intent(in) :: first_only              !! whether rank 0 alone wants the columns
 
       integer, allocatable :: have(:, :), want(:, :)
 
@@ -411,15 +421,17 @@ contains
       call comm%move(column_bytes, have, own, want, whole)
    end subroutine gather
 
-   !> Exchanges the own columns of a distributed matrix for own rows, or back. It has the columns of this grid; its
-   !> elements may be complex numbers, and their number in a column need not be M.
+   !> Exchanges a matrix that is distributed by columns for the same matrix distributed by rows, or back. The columns
+   !> are distributed like those of this grid. The elements may be complex numbers, and a column need not have M of
+   !> them.
    subroutine exchange_rows(self, rows, bytes, by_columns, by_rows, to_rows)
       class(grid_slab), intent(in) :: self
-      class(grid_slab), intent(in) :: rows                  !! of the matrix, as columns: divided
-      integer, intent(in) :: bytes                          !! of an element
-      type(*), intent(inout), target :: by_columns(*)       !! shape (rows, columns())
-      type(*), intent(inout), target :: by_rows(*)          !! shape (own rows, N)
-      logical, intent(in) :: to_rows                        !! or from rows to columns
+      !> Distribution of the rows of the matrix, made by `divide` as if they were columns.
+      class(grid_slab), intent(in) :: rows
+      integer, intent(in) :: bytes                          !! size of an element [byte]
+      type(*), intent(inout), target :: by_columns(*)       !! own columns, shape (number of rows, columns())
+      type(*), intent(inout), target :: by_rows(*)          !! own rows, shape (rows%columns(), N)
+      logical, intent(in) :: to_rows                        !! whether columns are given and rows wanted; or the reverse
 
       call comm%exchange_rows(bytes, self%blocks(), rows%blocks(), by_columns, by_rows, to_rows)
    end subroutine exchange_rows

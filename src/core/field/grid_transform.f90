@@ -1,10 +1,12 @@
-!> Fourier series of fields on the points of a grid that may be distributed, by FFTW's transforms of its lines.
+!> Converts between the values of a field on the points of a grid and its Fourier series, by FFTW's transforms of
+!> columns and rows. The grid may be distributed over processes, called ranks (`grid_slab`).
 !>
-!> The points are those of wavycon_grid_points. The values of an even field on a quarter of its cell are a sum of
-!> cosines (DCT-II and III), those of any other field a sum of waves. Columns are transformed along x, then rows of the
-!> spectrum along y. On a distributed grid the field has the own columns, and the series the coefficients of own wave
-!> numbers in X: a series of the shape (first:last, :), whose component `rows` has first + 1 to last + 1 of all wave
-!> numbers in X. The digits of the coefficients and of the values do not depend on how the grid is distributed.
+!> The points are those of wavycon_grid_points. An even field on a quarter of its cell is a sum of cosines (DCT-II and
+!> III), any other field a sum of complex waves. Columns are transformed along x, then rows of the spectrum along y. On
+!> a distributed grid each rank has some columns of the field and, in the series, the coefficients of some wave numbers
+!> in X, its own ones. The series then has the shape (first:last, :), and its component `rows` tells that the rank has
+!> numbers first + 1 to last + 1 of all wave numbers in X. The digits of coefficients and values do not depend on how
+!> the grid is distributed.
 module wavycon_grid_transform
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_f_pointer, c_loc
    use wavycon_assertion, only: assert
@@ -22,9 +24,9 @@ module wavycon_grid_transform
    type :: grid_transform
       integer :: points(2) = 0       !! M, N
       logical :: even = .true.       !! whether the points are those of a quarter of an even field's cell
-      type(grid_slab) :: slab        !! of the points
-      integer, private :: waves = 0     !! wave numbers in X that the points determine
-      integer, private :: numbers = 0   !! real numbers of an element of the spectrum
+      type(grid_slab) :: slab        !! columns of the grid that this rank has
+      integer, private :: waves = 0     !! number of wave numbers in X that the points determine
+      integer, private :: numbers = 0   !! real numbers for an element of the spectrum: cosine 1, complex wave 2
    contains
       procedure :: start
       procedure :: new_series
@@ -35,46 +37,50 @@ module wavycon_grid_transform
       procedure :: sample_column
    end type grid_transform
 
-   !> Rows of the spectrum that are copied at a time, so that copies fill lines of the processor's cache. On 1024 x 1024
-   !> points 16 and 8 took 1.03 and 1.10 times as long. It changes no digit.
+   !> Number of rows of the spectrum that are copied at a time, so that copies use whole lines of the processor's cache.
+   !> On 1024 x 1024 points 16 and 8 rows took 1.03 and 1.10 times as long. The number changes no digit.
    integer, parameter :: block_rows = 32
-   !> Numbers between these rows: elements of rows of a power of two would have the same place in the cache, and the
-   !> transform of 1024 x 1024 points takes 1.4 times as long.
+   !> Unused numbers between these rows in memory. Without them elements of rows whose length is a power of two would
+   !> compete for the same place in the cache, and the transform of 1024 x 1024 points takes 1.4 times as long.
    integer, parameter :: row_space = 8
 
 contains
 
+   !> Sets the points of the grid and distributes it.
    subroutine start(self, points, even, whole)
       class(grid_transform), intent(out) :: self
       integer, intent(in) :: points(2)         !! M, N >= 1
-      logical, intent(in) :: even
-      logical, intent(in), optional :: whole   !! whether no grid, however large, is distributed; .false. if absent
+      logical, intent(in) :: even              !! whether the points are those of a quarter of an even field's cell
+      logical, intent(in), optional :: whole   !! whether the grid stays whole, however large it is; default: .false.
 
       self%points = points
       self%even = even
-      self%waves = merge(points(1), points(1)/2 + 1, even)
-      self%numbers = merge(1, 2, even)
+      self%waves = points(1)
+      if (.not. even) self%waves = points(1)/2 + 1
+      self%numbers = 1
+      if (.not. even) self%numbers = 2
       call self%slab%start(points, whole)
    end subroutine start
 
-   !> A series of zeros with the coefficients that the points determine, of the own wave numbers.
+   !> Makes a series of zeros with the coefficients that the points determine, on this rank those of its own wave
+   !> numbers.
    subroutine new_series(self, answer)
       class(grid_transform), intent(in) :: self
       type(fourier_series), intent(out) :: answer    !! distributed if the grid is
 
       call answer%rows%start([1, self%waves], whole=.true.)
       if (self%slab%is_distributed) call answer%rows%divide([1, self%waves])
-      associate (first => answer%rows%first - 1, last => answer%rows%last - 1, &
-                 last_y => merge(self%points(2) - 1, self%points(2)/2, self%even))
+      associate (first => answer%rows%first - 1, last => answer%rows%last - 1, n => self%points(2))
          if (self%even) then
-            allocate (answer%c(first:last, 0:last_y), source=0.0_dp)
+            allocate (answer%c(first:last, 0:n - 1), source=0.0_dp)
          else
-            allocate (answer%wave(first:last, -last_y:last_y), source=(0.0_dp, 0.0_dp))
+            allocate (answer%wave(first:last, -(n/2):n/2), source=(0.0_dp, 0.0_dp))
          end if
       end associate
    end subroutine new_series
 
-   !> The series that interpolates a field at the points.
+   !> Computes the series that interpolates a field at the points: transforms own columns, exchanges them for own rows
+   !> if the grid is distributed, transforms rows, and scales the coefficients.
    subroutine series(self, field, answer)
       class(grid_transform), intent(in) :: self
       real(dp), intent(in) :: field(:, :)            !! shape (M, slab%columns())
@@ -99,22 +105,24 @@ contains
       end if
    end subroutine series
 
-   !> The values of a series at the points. Waves beyond the grid's highest wave number are left out.
+   !> Computes the values of a series at the points. Waves whose wave numbers exceed those of the grid are left out.
    subroutine sample(self, from, field)
       class(grid_transform), intent(in) :: self
-      type(fourier_series), intent(in) :: from                !! even, if the points are those of a quarter
+      type(fourier_series), intent(in) :: from                !! must be even if the points are those of a quarter
       real(dp), intent(out), contiguous :: field(:, :)        !! shape (M, slab%columns())
 
       real(dp), allocatable :: own_columns(:, :, :), own_values(:, :)
       real(dp), allocatable, target :: spectrum(:, :, :)
       complex(c_double_complex), pointer :: waves(:, :)
-      type(grid_slab) :: kept   ! columns after the exchange
-      integer :: carried
+      type(grid_slab) :: kept   ! columns that this rank has after the exchange
+      integer :: carried, rows  ! own wave numbers in X that the grid has too; rows of the own spectrum
 
       call assert(all(shape(field) == [self%points(1), self%slab%columns()]), 'the field has the columns of the slab')
       carried = max(min(self%waves - 1, from%last(1)) - from%first() + 1, 0)
-      allocate (spectrum(self%numbers, merge(from%last(1) - from%first() + 1, carried, from%is_distributed()), &
-                         self%points(2)))
+      rows = carried
+      ! For the exchange the rows must be all own wave numbers of the series.
+      if (from%is_distributed()) rows = from%last(1) - from%first() + 1
+      allocate (spectrum(self%numbers, rows, self%points(2)))
       spectrum(:, carried + 1:, :) = 0.0_dp
       if (self%even) then
          call give_cosines(self%points, from, spectrum(:, :carried, :))
@@ -140,10 +148,10 @@ contains
       end if
    end subroutine sample
 
-   !> The values of waves at the points of a whole cell, in a grid that is not distributed:
+   !> Computes the values of a spectrum at the points of a whole cell, on a grid that is not distributed:
    !> f = sum_kl w_kl e^(i(kX + lY)), k = -M/2 .. M/2, l = 0 .. N - 1, where w_-k,N-l is the conjugate of w_kl.
    subroutine sample_waves(self, waves, field)
-      class(grid_transform), intent(in) :: self                 !! even is .false.
+      class(grid_transform), intent(in) :: self                 !! self%even is .false.
       !> w_kl, k = 0 .. M/2, shape (M/2 + 1, N); overwritten.
       complex(c_double_complex), intent(inout), contiguous, target :: waves(:, :)
       real(dp), intent(out), contiguous :: field(:, :)          !! shape (M, N)
@@ -157,10 +165,10 @@ contains
       end do
    end subroutine sample_waves
 
-   !> The sums over l of these values, in place of the waves: sum_l w_kl e^(ilY_j).
+   !> First half of `sample_waves`: replaces the waves by the sums over l, sum_l w_kl e^(ilY_j).
    subroutine sum_along_y(self, waves)
       class(grid_transform), intent(in) :: self
-      !> Of the first wave numbers k, shape (:, N).
+      !> On entry w_kl of some wave numbers k, on return their sums at Y_j, shape (any, N).
       complex(c_double_complex), intent(inout), contiguous, target :: waves(:, :)
 
       real(dp), pointer :: spectrum(:, :, :)
@@ -170,11 +178,11 @@ contains
       call transform_rows(.false., spectrum, forwards=.false.)
    end subroutine sum_along_y
 
-   !> The values in one column, from these sums.
+   !> Second half of `sample_waves`: computes the values in one column from the sums of that column.
    subroutine sample_column(self, sums, values)
       class(grid_transform), intent(in) :: self
-      complex(c_double_complex), intent(in) :: sums(:)   !! of k = 0 .. M/2
-      real(dp), intent(out) :: values(:)                 !! shape (M)
+      complex(c_double_complex), intent(in) :: sums(:)   !! sums over l, k = 0 .. M/2, shape (M/2 + 1)
+      real(dp), intent(out) :: values(:)                 !! values in the column, shape (M)
 
       complex(c_double_complex), allocatable :: column(:)
       real(dp), allocatable :: aligned(:)
@@ -190,10 +198,11 @@ contains
    !> Transforms columns along x: sum_i f_i e^(-ikX_i), k = 0 .. M/2, or twice sum_i f_i cos kX_i, k = 0 .. M - 1.
    subroutine columns_to_waves(self, field, spectrum)
       type(grid_transform), intent(in) :: self
-      real(dp), intent(in) :: field(:, :)
+      real(dp), intent(in) :: field(:, :)   !! own columns, shape (M, slab%columns())
+      !> Each column has the real numbers of the waves, real and imaginary parts of complex ones one after the other.
       real(dp), intent(inout) :: spectrum(self%numbers*self%waves, size(field, 2))
 
-      ! FFTW's vectors must be aligned, here and below.
+      ! Columns are copied to arrays of their own, here and below, because FFTW's arrays must be aligned.
       real(dp), allocatable :: values(:), waves(:)
       type(line_plan) :: plan
       integer :: j
@@ -207,12 +216,12 @@ contains
       end do
    end subroutine columns_to_waves
 
-   !> The inverse, times M or 2M. Wave numbers that the spectrum does not have are zero, those beyond the grid's are
-   !> left out.
+   !> Transforms waves back to columns along x, the inverse of `columns_to_waves` times M, or times 2M for cosines. Wave
+   !> numbers that the spectrum does not have count as zero, and those that the grid does not have are left out.
    subroutine waves_to_columns(self, waves_of_column, spectrum, field)
       type(grid_transform), intent(in) :: self
-      integer, intent(in) :: waves_of_column   !! of the spectrum
-      real(dp), intent(out) :: field(:, :)
+      integer, intent(in) :: waves_of_column   !! number of wave numbers in X of the spectrum
+      real(dp), intent(out) :: field(:, :)     !! columns, shape (M, any)
       real(dp), intent(in) :: spectrum(self%numbers*waves_of_column, size(field, 2))
 
       real(dp), allocatable :: values(:), waves(:)
@@ -230,11 +239,13 @@ contains
       end do
    end subroutine waves_to_columns
 
-   !> Transforms rows of the spectrum along y, in place.
+   !> Transforms the rows of the spectrum along y, in place: from points to waves or back. A block of rows at a time is
+   !> copied into an array in which each row is contiguous.
    subroutine transform_rows(even, spectrum, forwards)
-      logical, intent(in) :: even
-      real(dp), intent(inout) :: spectrum(:, :, :)   !! numbers of an element, wave numbers in X, points or waves
-      logical, intent(in) :: forwards
+      logical, intent(in) :: even                    !! whether the rows are sums of cosines, otherwise of waves
+      !> Shape (1 or 2 real numbers for an element, wave numbers in X, points or wave numbers in Y).
+      real(dp), intent(inout) :: spectrum(:, :, :)
+      logical, intent(in) :: forwards                !! whether from points to waves
 
       real(dp), allocatable :: block(:, :), line(:)
       type(line_plan) :: plan

@@ -1,7 +1,8 @@
-!> FFTW's transforms of lines, in both precisions. Each plan is made once and kept until the program ends.
+!> FFTW's transforms of one-dimensional arrays, in both precisions. Each plan is made once and kept until the program
+!> ends.
 !>
-!> N.B. FFTW_ESTIMATE, not FFTW_MEASURE: which plan is measured to be the fastest, and with it the last digits of the
-!> results, differs from run to run.
+!> N.B. Plans are made with FFTW_ESTIMATE. With FFTW_MEASURE the plan that is found to be the fastest would differ from
+!> run to run, and so would the last digits of the results.
 module wavycon_line_plans
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_f_procpointer, c_float, c_float_complex, &
       c_funloc, c_funptr, c_int, c_null_funptr, c_null_ptr, c_ptr
@@ -15,35 +16,36 @@ module wavycon_line_plans
 
    public :: line_plan, plan_of_line
 
-   !> The transforms: of real numbers to complex waves and back, of complex numbers to complex waves and back.
+   !> Transforms of real numbers to complex waves and back, and of complex numbers to complex waves and back.
    integer, parameter, public :: real_to_waves = 1, waves_to_real = 2, waves_forward = 3, waves_backward = 4
-   !> In double precision only: of the values of an even field to its cosines (DCT-II), and back (DCT-III).
+   !> Transforms of the values of an even field to its cosines (DCT-II) and back (DCT-III), in double precision only.
    integer, parameter, public :: values_to_cosines = 5, cosines_to_values = 6
 
    type :: line_plan
-      integer, private :: key(3) = 0     !! transform, length and precision
-      type(c_ptr) :: plan = c_null_ptr
-      procedure(execute_plan), pointer, nopass :: execute => null()
+      integer, private :: key(3) = 0     !! transform, length and precision, as in plan_of_line
+      type(c_ptr) :: plan = c_null_ptr   !! FFTW's plan
+      procedure(execute_plan), pointer, nopass :: execute => null()   !! FFTW's procedure for this kind of plan
    end type line_plan
 
    abstract interface
-      !> Transforms one array to another, both aligned as `allocate` does it and of the kind that the plan is for. The
-      !> input is overwritten.
+      !> `execute`: transforms one array to another. Both must be of the type and kind that the plan is for, and aligned
+      !> in memory as `allocate` aligns arrays. The input is overwritten.
       subroutine execute_plan(plan, from, to) bind(c)
          import :: c_ptr
-         type(c_ptr), value :: plan               !! the component of the same line_plan
-         type(*), intent(inout) :: from(*), to(*)
+         type(c_ptr), value :: plan               !! component `plan` of the same line_plan
+         type(*), intent(inout) :: from(*), to(*) !! input and output
       end subroutine execute_plan
    end interface
 
-   type(line_plan), allocatable :: kept(:)
+   type(line_plan), allocatable :: kept(:)   !! all plans made so far
 
 contains
 
-   !> The plan of a transform. It may be executed by several threads at a time, and is never destroyed.
+   !> The plan of a transform, which is made if there is none yet. Several threads may execute a plan at the same time.
+   !> A plan is never destroyed.
    type(line_plan) function plan_of_line(transform, length, precision) result(plan)
-      integer, intent(in) :: transform   !! one of the six above
-      integer, intent(in) :: length      !! number of real values, or of complex ones, >= 1
+      integer, intent(in) :: transform   !! one of the six transforms above
+      integer, intent(in) :: length      !! number of real values, for complex transforms of complex ones, >= 1
       integer, intent(in) :: precision   !! kind of the numbers: dp or sp
 
       type(line_plan), allocatable :: more(:)
@@ -65,8 +67,9 @@ contains
       !$omp end critical (wavycon_fftw_planner)
    end function plan_of_line
 
+   !> Makes a plan.
    type(line_plan) function new_plan(transform, length, precision) result(new)
-      integer, intent(in) :: transform, precision
+      integer, intent(in) :: transform, precision   !! as in plan_of_line, and `length`
       integer(c_int), intent(in) :: length
 
       integer(c_int), parameter :: flags = ior(FFTW_ESTIMATE, FFTW_DESTROY_INPUT)
@@ -74,15 +77,20 @@ contains
       complex(c_float_complex), allocatable :: more_single_waves(:), single_waves(:)
       real(c_double), allocatable :: more_values(:), values(:)
       real(c_float), allocatable :: single_values(:)
+      integer(c_int) :: kind_of_cosines, sign_of_waves
       type(c_funptr) :: execute
 
-      ! FFTW looks at the alignment of these arrays only.
+      ! FFTW uses only the alignment of these arrays, not their values.
       allocate (values(length), more_values(length), waves(length), more_waves(length))
       allocate (single_values(length), single_waves(length), more_single_waves(length))
       new%key = [transform, int(length), precision]
       execute = c_null_funptr
-      associate (plan => new%plan, sign_of_waves => merge(FFTW_FORWARD, FFTW_BACKWARD, transform == waves_forward), &
-                 kind_of_cosines => merge(FFTW_REDFT10, FFTW_REDFT01, transform == values_to_cosines))
+      sign_of_waves = FFTW_BACKWARD
+      if (transform == waves_forward) sign_of_waves = FFTW_FORWARD
+      kind_of_cosines = FFTW_REDFT01
+      if (transform == values_to_cosines) kind_of_cosines = FFTW_REDFT10
+      associate (plan => new%plan)
+         ! The cases of single precision have negative numbers.
          select case (merge(transform, -transform, precision == dp))
          case (real_to_waves)
             plan = fftw_plan_dft_r2c_1d(length, values, waves, flags)

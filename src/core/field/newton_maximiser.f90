@@ -6,6 +6,7 @@ module wavycon_newton_maximiser
 
    public :: newton_maximiser
 
+   !> A field whose maximum is searched; an extension has the field and its derivatives.
    type, abstract :: newton_maximiser
       real(dp) :: least = -huge(1.0_dp), most = huge(1.0_dp)   !! limits of both variables in the search
    contains
@@ -14,41 +15,44 @@ module wavycon_newton_maximiser
    end type newton_maximiser
 
    abstract interface
+      !> `expand`: value and derivatives of the field at a point.
       pure subroutine expand_at_point(self, place, height, gradient, hessian)
          import :: dp, newton_maximiser
          class(newton_maximiser), intent(in) :: self
-         real(dp), intent(in) :: place(2)
-         real(dp), intent(out) :: height
-         real(dp), intent(out) :: gradient(2)   !! by X, Y
-         real(dp), intent(out) :: hessian(3)    !! by XX, XY, YY; of one variable by XX, 0, by XX
+         real(dp), intent(in) :: place(2)       !! the point (X, Y)
+         real(dp), intent(out) :: height        !! value of the field
+         real(dp), intent(out) :: gradient(2)   !! first derivatives with respect to X, Y
+         !> Second derivatives with respect to XX, XY, YY. For a field of X alone: that of XX, 0, that of XX again.
+         real(dp), intent(out) :: hessian(3)
       end subroutine expand_at_point
    end interface
 
 contains
 
-   !> Climbs from a place to the maximum near it, until a step gains nothing more.
+   !> Climbs from a point to a maximum near it. The search ends when a step does not increase the value any more.
    !>
-   !> The Hessian is shifted by its largest eigenvalue, where that is positive, and by a little more, so that each step
-   !> goes uphill also near a saddle or on a ridge of constant height. The extra shift shortens the steps: convergence
-   !> is linear, by a factor of a thousand a step.
+   !> Newton's step leads uphill only if both eigenvalues of the Hessian are negative. So the Hessian is shifted by its
+   !> largest eigenvalue, if that is positive, and by a little more. Then each step goes uphill, also near a saddle or
+   !> on a ridge of constant height. The additional shift shortens the steps: convergence is linear, and each step
+   !> reduces the distance by a factor of about a thousand.
    pure subroutine maximise(self, place, height)
       class(newton_maximiser), intent(in) :: self
-      real(dp), intent(inout) :: place(2)
-      real(dp), intent(out) :: height     !! there
+      real(dp), intent(inout) :: place(2)   !! (X, Y), on entry the start, on return the maximum
+      real(dp), intent(out) :: height       !! value of the field at the maximum
 
       integer, parameter :: most_steps = 20
-      real(dp), parameter :: shift = 1e-3_dp   ! over the largest second derivative
-      real(dp) :: determinant, g(2), h(3), largest, next(2), next_height, scale, step(2)
+      real(dp), parameter :: shift = 1e-3_dp   ! additional shift over the largest second derivative
+      real(dp) :: determinant, g(2), h(3), largest, next(2), next_height, step(2), unit
       integer :: i
 
       call self%expand(place, height, g, h)
       do i = 1, most_steps
-         ! Squares of curvatures may overflow in some units.
-         scale = maxval(abs(h))
-         if (.not. scale > 0.0_dp) return
-         g = g/scale
-         h = h/scale
-         ! The larger eigenvalue: along a line of equal height it is zero but for rounding.
+         ! All derivatives are divided by the largest second one: otherwise squares might overflow in some units.
+         unit = maxval(abs(h))
+         if (.not. unit > 0.0_dp) return
+         g = g/unit
+         h = h/unit
+         ! The larger eigenvalue. On a ridge of constant height it is zero but for rounding.
          largest = 0.5_dp*(h(1) + h(3)) + hypot(0.5_dp*(h(1) - h(3)), h(2))
          h([1, 3]) = h([1, 3]) - max(largest, 0.0_dp) - shift
          determinant = h(1)*h(3) - h(2)**2

@@ -1,4 +1,5 @@
-!> Even fields of a square lattice in axes rotated by 45 degrees: X = phi + theta, Y = phi - theta.
+!> Converts Fourier series between axes that are rotated by 45 degrees, X = phi + theta, Y = phi - theta, for even
+!> fields on a square lattice.
 !>
 !> A field that is even in both pairs of angles, and does not change when the two angles of a pair are exchanged, is a
 !> sum of cos iX cos jY + cos jX cos iY = cos(i+j)phi cos(i-j)theta + cos(i-j)phi cos(i+j)theta.
@@ -12,26 +13,28 @@ module wavycon_rotated_series
 
 contains
 
-   !> Converts a series in phi and theta to one in X and Y. The field also has the period (pi, pi). A term (i, j)
-   !> becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with half its coefficient.
+   !> Converts a series in phi and theta to a series in X and Y. The field also has the period (pi, pi), so that i + j
+   !> is even in all its terms. A term (i, j) becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with
+   !> half the coefficient.
    pure type(fourier_series) function to_sum_angles(series) result(rotated)
       type(fourier_series), intent(in) :: series   !! in phi and theta; terms with odd i + j are zero but for rounding
 
       rotated = in_other_angles(series, 2)
    end function to_sum_angles
 
-   !> The inverse, from X and Y to phi and theta. The terms (i, j) and (j, i) become the terms (i + j, |i - j|) and (|i
-   !> - j|, i + j).
+   !> Converts a series in X and Y to a series in phi and theta, the inverse of to_sum_angles. The terms (i, j) and (j,
+   !> i) become the terms (i + j, |i - j|) and (|i - j|, i + j).
    pure type(fourier_series) function to_difference_angles(series) result(rotated)
-      type(fourier_series), intent(in) :: series   !! in X and Y; does not change when these are exchanged
+      type(fourier_series), intent(in) :: series   !! in X and Y; does not change if X and Y are exchanged
 
       rotated = in_other_angles(series, 1)
    end function to_difference_angles
 
-   !> Both: the wave numbers are the sum and the difference over a divisor, which divides those of all terms.
+   !> Converts in either direction. The new wave numbers are (i + j)/divisor and |i - j|/divisor; terms whose i + j the
+   !> divisor does not divide are left out.
    pure type(fourier_series) function in_other_angles(series, divisor) result(rotated)
       type(fourier_series), intent(in) :: series
-      integer, intent(in) :: divisor
+      integer, intent(in) :: divisor   !! 2 from phi, theta to X, Y; 1 back
 
       integer :: i, j, last
 

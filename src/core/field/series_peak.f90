@@ -11,15 +11,15 @@ module wavycon_series_peak
 
    public :: find_peak
 
-   !> Points to the shortest wave. Newton's method climbs from the highest.
+   !> Grid points to the shortest wave of the series. Newton's method starts from the highest of these points.
    integer, parameter :: points_per_wave = 16
-   !> Crests are tried until no other can be higher: between the points the largest modulus of a series of two variables
-   !> may be larger by this factor (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). If many crests are equal, as along a
-   !> line, at most so many are tried.
+   !> The largest modulus of a series of two variables is at most this factor times that at the points of the grid
+   !> (Ehlich & Zeller, Math. Z. 86 (1964) 41-44). So crests are tried until no other crest can be higher.
    real(dp), parameter :: most_between = 1.0_dp/cos(pi/points_per_wave)**2
+   !> Largest number of crests that are tried. It matters if many crests are equally high, as along a line.
    integer, parameter :: most_crests = 10
 
-   !> A series as the field in which Newton's method climbs.
+   !> A series as the field whose maximum Newton's method finds.
    type, extends(newton_maximiser) :: series_maximiser
       type(fourier_series) :: series
    contains
@@ -28,20 +28,23 @@ module wavycon_series_peak
 
 contains
 
-   !> Finds the largest value and its place.
+   !> Finds the largest value of a series and a point that has this value. The series is sampled on a grid; the
+   !> maximiser climbs from the highest point, then from the highest point outside the neighbourhood of this crest, and
+   !> so on.
    subroutine find_peak(series, peak, place)
-      type(fourier_series), intent(in) :: series
-      real(dp), intent(out) :: peak
-      real(dp), intent(out) :: place(2)   !! X, Y [rad]; the origin, if the field is largest there too
+      type(fourier_series), intent(in) :: series   !! series, not distributed
+      real(dp), intent(out) :: peak                !! largest value
+      real(dp), intent(out) :: place(2)            !! X, Y [rad]; the origin if the value there is as large
 
-      !> Values that differ by less than this fraction of the largest are equal: sums of up to thousands of waves.
+      !> Values whose difference is below this part of the largest are taken as equal: a value is a sum of up to
+      !> thousands of waves, and is rounded.
       real(dp), parameter :: rounding = 1e-12_dp
-      integer, parameter :: half_width = points_per_wave/2 - 1
+      integer, parameter :: half_width = points_per_wave/2 - 1   ! of the neighbourhood of a crest, in points
 
       type(grid_transform) :: transform
       type(series_maximiser) :: field
       real(dp), allocatable :: values(:, :)
-      real(dp) :: crest(2), found, hidden, largest
+      real(dp) :: crest(2), found, hidden, largest   ! hidden: by how much a crest may exceed the points about it
       integer :: best(2), i, k, l, points(2)
 
       points = points_per_wave*max(1, series%last([1, 2]))
@@ -63,7 +66,7 @@ contains
             peak = found
             place = crest
          end if
-         ! Removes the points about the crest, less than half the shortest wave away.
+         ! Removes the points about this crest whose distance along x and y is below half of the shortest wave.
          do l = best(2) - half_width, best(2) + half_width
             do k = best(1) - half_width, best(1) + half_width
                values(modulo(k - 1, points(1)) + 1, modulo(l - 1, points(2)) + 1) = -huge(1.0_dp)
@@ -74,6 +77,7 @@ contains
       end do
    end subroutine find_peak
 
+   !> Value, gradient and Hessian of the series.
    pure subroutine expand(self, place, height, gradient, hessian)
       class(series_maximiser), intent(in) :: self
       real(dp), intent(in) :: place(2)

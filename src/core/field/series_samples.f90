@@ -1,4 +1,4 @@
-!> A series at the points of a grid of its cell, by one transform.
+!> Evaluates a Fourier series at the points of a grid on its cell, by one fast Fourier transform.
 module wavycon_series_samples
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series, turn
@@ -12,19 +12,20 @@ module wavycon_series_samples
 
 contains
 
-   !> The values at X = 2 pi (k + offset_x)/(parts_x N_x), k = 0 .. N_x - 1, and the same in Y. They are exact for any
-   !> number of points: waves that the points cannot tell from slower ones are added to those.
+   !> The values of a series at X = 2 pi (k + offset_x)/(parts_x N_x), k = 0 .. N_x - 1, and the same in Y. The values
+   !> are exact for any number of points: a wave that is too short for the points has the same values there as a longer
+   !> wave, its alias, and is added to the alias.
    subroutine sample_series(series, points, offset, values, parts)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: points(2)                     !! N_x, N_y >= 1; N_y = 1 in 1-D
-      real(dp), intent(in) :: offset(2)                    !! of the first point, in steps
+      real(dp), intent(in) :: offset(2)                    !! distance of the first point from the origin, in steps
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
       integer, intent(in) :: parts(2)   !! how often the points fit into the cell along x and y, 1 or 2
 
       complex(dp) :: turn_x(0:series%last(1))
       complex(dp), allocatable :: waves(:, :)
       type(grid_transform) :: transform
-      integer :: k, l, whole(2)   ! whole: points of the cell
+      integer :: k, l, whole(2)   ! whole: points of the grid on the whole cell
 
       whole = parts*points
       allocate (values(whole(1), whole(2)))

@@ -1,5 +1,5 @@
-!> Converts between the coefficients of a Fourier series and the spectrum of its values on a grid of
-!> wavycon_grid_points. The rows of the spectrum are cosines for an even field, waves for any other.
+!> Converts between the coefficients of a Fourier series and the spectrum that FFTW computes from the field's values on
+!> a grid of wavycon_grid_points. The spectrum consists of cosines for an even field, and of waves for any other field.
 module wavycon_wave_packing
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
@@ -10,42 +10,48 @@ module wavycon_wave_packing
 
 contains
 
-   !> The coefficients of an even field from its spectrum.
+   !> Computes the coefficients of an even field from its spectrum.
    pure subroutine take_cosines(points, spectrum, answer)
-      integer, intent(in) :: points(2)                  !! M, N
-      real(dp), intent(in) :: spectrum(:, :, :)         !! shape (1, wave numbers of the series in X, N)
-      type(fourier_series), intent(inout) :: answer     !! its arrays are those of own wave numbers
+      integer, intent(in) :: points(2)                  !! M, N, points of the grid
+      real(dp), intent(in) :: spectrum(:, :, :)         !! shape (1, number of wave numbers of the series in X, N)
+      type(fourier_series), intent(inout) :: answer     !! its array has been allocated by `new_series`
 
       integer :: l
 
       do l = 0, points(2) - 1
-         answer%c(:, l) = merge(0.5_dp, 1.0_dp, l == 0)*(spectrum(1, :, l + 1)/(real(points(1), dp)*points(2)))
+         answer%c(:, l) = spectrum(1, :, l + 1)/(real(points(1), dp)*points(2))
       end do
+      ! A cosine of wave number zero has half the factor of the others.
+      answer%c(:, 0) = 0.5_dp*answer%c(:, 0)
       if (answer%first() == 0) answer%c(0, :) = 0.5_dp*answer%c(0, :)
    end subroutine take_cosines
 
-   !> The waves of any other field. At the points those of 2l = N are equal for l and -l.
+   !> Computes the waves of a field that is not even from its spectrum. The wave k > 0 of the series stands for the
+   !> waves k and -k of the spectrum, which are complex conjugates; this doubles its weight. If 2k = M or 2l = N the
+   !> waves k and -k, or l and -l, have the same values at the points. They share one number of the spectrum.
    pure subroutine take_waves(points, spectrum, answer)
-      integer, intent(in) :: points(2)                  !! M, N
-      real(dp), intent(in) :: spectrum(:, :, :)         !! real and imaginary part, shape (2, wave numbers, N)
-      type(fourier_series), intent(inout) :: answer
+      integer, intent(in) :: points(2)                  !! M, N, points of the grid
+      real(dp), intent(in) :: spectrum(:, :, :)         !! real and imaginary parts, shape (2, wave numbers in X, N)
+      type(fourier_series), intent(inout) :: answer     !! its array has been allocated by `new_series`
 
       real(dp) :: weight(answer%first():answer%last(1))
-      integer :: k, l, place
+      integer :: k, l, row
 
       do l = -answer%last(2), answer%last(2)
          weight = [(merge(1.0_dp, 2.0_dp, k == 0 .or. 2*k == points(1)), k=answer%first(), answer%last(1))] &
-                  *merge(0.5_dp, 1.0_dp, 2*abs(l) == points(2))/(real(points(1), dp)*points(2))
-         place = modulo(l, points(2)) + 1
-         answer%wave(:, l) = weight*cmplx(spectrum(1, :, place), spectrum(2, :, place), dp)
+                  /(real(points(1), dp)*points(2))
+         if (2*abs(l) == points(2)) weight = 0.5_dp*weight
+         row = modulo(l, points(2)) + 1
+         answer%wave(:, l) = weight*cmplx(spectrum(1, :, row), spectrum(2, :, row), dp)
       end do
    end subroutine take_waves
 
-   !> The inverse of `take_cosines`; the number of points may differ.
+   !> Computes the spectrum of an even field from its coefficients, the inverse of `take_cosines` but for a factor. The
+   !> grid may have another number of points than that of the series; waves with l >= N are left out.
    pure subroutine give_cosines(points, from, spectrum)
-      integer, intent(in) :: points(2)                    !! M, N
-      type(fourier_series), intent(in) :: from
-      real(dp), intent(inout) :: spectrum(:, :, :)        !! of the first wave numbers of the series in X
+      integer, intent(in) :: points(2)                    !! M, N, points of the grid
+      type(fourier_series), intent(in) :: from            !! series of the field
+      real(dp), intent(inout) :: spectrum(:, :, :)        !! first wave numbers of the series in X, (1, any, N)
 
       integer :: l
 
@@ -56,11 +62,12 @@ contains
       end do
    end subroutine give_cosines
 
-   !> The inverse of `take_waves`; the number of points may differ.
+   !> Computes the spectrum of a field that is not even from its waves, the inverse of `take_waves` but for a factor.
+   !> The grid may have another number of points than that of the series; waves with |l| > N/2 are left out.
    pure subroutine give_waves(points, from, spectrum)
-      integer, intent(in) :: points(2)                    !! M, N
-      type(fourier_series), intent(in) :: from
-      complex(dp), intent(inout) :: spectrum(:, :)        !! of the first wave numbers of the series in X
+      integer, intent(in) :: points(2)                    !! M, N, points of the grid
+      type(fourier_series), intent(in) :: from            !! series of the field
+      complex(dp), intent(inout) :: spectrum(:, :)        !! the first wave numbers of the series in X, shape (any, N)
 
       integer :: l, last
 
@@ -71,26 +78,27 @@ contains
       end do
    end subroutine give_waves
 
-   !> Adds the waves of one wave number in Y to a spectrum as of `grid_transform%sample_waves`. Waves that the points
-   !> cannot tell from slower ones are added to those.
+   !> Adds the waves of one wave number in Y to a spectrum as in `grid_transform%sample_waves`. A wave that is too short
+   !> for the points has the same values there as a longer wave, its alias, and is added to the alias.
    pure subroutine fold_waves(points, l, first, waves, spectrum)
-      integer, intent(in) :: points(2)                      !! M, N
-      integer, intent(in) :: l
-      integer, intent(in) :: first                          !! wave number in X, > 0 if only waves up to M/2 are given
+      integer, intent(in) :: points(2)                      !! M, N, points of the grid
+      integer, intent(in) :: l                              !! wave number in Y
+      integer, intent(in) :: first                          !! first wave number in X; if > 0, waves end at k = M/2
       complex(dp), intent(in) :: waves(first:)              !! half of W_kl, k = first..m
       complex(dp), intent(inout) :: spectrum(first:, 0:)    !! shape (first:M/2, 0:N - 1)
 
-      integer :: half, k, place, opposite, r
+      integer :: half, k, opposite, r, row   ! indices in the spectrum of l and -l
 
       half = min(ubound(waves, 1), points(1)/2)
-      place = modulo(l, points(2))
+      row = modulo(l, points(2))
       opposite = modulo(-l, points(2))
-      spectrum(:half, place) = spectrum(:half, place) + waves(:half)
-      ! The transform takes the waves -k from the others, unless they are the same ones.
+      spectrum(:half, row) = spectrum(:half, row) + waves(:half)
+      ! The transform takes the waves -k as the conjugates of the waves k. For k = 0 and k = M/2 both are in the
+      ! spectrum.
       if (first == 0) spectrum(0, opposite) = spectrum(0, opposite) + conjg(waves(0))
       do k = max(first, (points(1) + 1)/2), ubound(waves, 1)
          r = modulo(k, points(1))
-         if (k > half .and. 2*r <= points(1)) spectrum(r, place) = spectrum(r, place) + waves(k)
+         if (k > half .and. 2*r <= points(1)) spectrum(r, row) = spectrum(r, row) + waves(k)
          r = modulo(-k, points(1))
          if (2*r <= points(1)) spectrum(r, opposite) = spectrum(r, opposite) + conjg(waves(k))
       end do

@@ -1,5 +1,5 @@
-!> The kernel: how stiffly the bodies under a surface hold a wave of its displacement. Series and grids ask the
-!> surface's kernel for it, and nothing else knows it.
+!> The kernel of the bodies below a surface: the stiffness of each wave of the displacement. Series and grids ask the
+!> surface's kernel for this stiffness; no other code contains it.
 module wavycon_wave_stiffness
    use wavycon_kinds, only: dp, sp
    implicit none (type, external)

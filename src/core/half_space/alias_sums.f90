@@ -1,5 +1,6 @@
-!> Sums over all waves that a grid cannot tell apart, its aliases: compliance and stiffness of a field that is bilinear
-!> between the points of the grid, bounded from above: (E20) and (E21) of README.md in this directory.
+!> Sums over the aliases of each wave of a grid, which are the waves that have the same values at its points. The sums
+!> are the compliance and the stiffness of a field that is bilinear between the points, bounded from above: (E20) and
+!> (E21) of README.md in this directory.
 module wavycon_alias_sums
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -9,39 +10,43 @@ module wavycon_alias_sums
 
    public :: alias_sums
 
-   !> Aliases on each side of a wave that are summed one by one, along x and y. The rest is bounded by integrals. With 2
-   !> and 4 the bounds of the wave on 2048 x 2048 points are .43 and .49 % closer, those of a rough map on 256 x 256 .63
-   !> and .73 %; the wave's take a tenth and twice as long.
+   !> Number of aliases on each side of a wave, along x and y, that are summed one by one, A of (E22). The others are
+   !> bounded by integrals. With 2 and 4 in place of 1 the bounds of the wave on 2048 x 2048 points are .43 and .49 %
+   !> closer, those of a rough map on 256 x 256 points .63 and .73 %; the wave's bounds then take 1.1 and 2 times as
+   !> long.
    integer, parameter :: aliases = 1
 
-   !> Of the waves k = first .. last in X, l = 0 .. last in Y, in the unit of `wave_stiffness`.
+   !> Sums for the waves k = 0 .. last(1) in X and l = 0 .. last(2) in Y, in units of `wave_stiffness`.
    type :: alias_sums
-      real(dp), allocatable :: frequency(:, :)    !! stiffness of the wave itself
-      real(dp), allocatable :: weight(:, :)       !! of the wave itself: its part of the bilinear field, (E19)
-      real(dp), allocatable :: compliance(:, :)   !! sum of weight^2/stiffness over the wave and its aliases
-      real(dp), allocatable :: stiffness(:, :)    !! sum of weight^2*stiffness over the aliases alone
+      real(dp), allocatable :: frequency(:, :)    !! f of (E20), the stiffness of the wave itself
+      real(dp), allocatable :: weight(:, :)       !! w of (E19), the part of the wave itself in the bilinear field
+      real(dp), allocatable :: compliance(:, :)   !! C of (E20), sum of w^2/stiffness over the wave and its aliases
+      real(dp), allocatable :: stiffness(:, :)    !! D of (E21), sum of w^2*stiffness over the aliases alone
    contains
       procedure :: start
    end type alias_sums
 
-   !> What the sums need of one direction: sinc^2 and frequencies of the waves k and their aliases k + a n.
+   !> The data of one axis: the waves k of a line of n points and their aliases k + a n.
    type :: alias_line
-      real(dp), allocatable :: weight(:, :)       !! sinc^2, shape (0:last, -aliases:aliases)
-      real(dp), allocatable :: frequency(:, :)    !! one over the wavelength [1/length]
-      !> Bounds of sums over the aliases beyond those: weight^2/frequency, weight^2*frequency and weight^2.
+      real(dp), allocatable :: weight(:, :)       !! sinc^2 of (E19), shape (0:last, -aliases:aliases)
+      real(dp), allocatable :: frequency(:, :)    !! one over the wavelength [1/length], same shape
+      !> Bounds of sums over the aliases with |a| > aliases, shape (0:last): of weight^2/frequency, weight^2*frequency
+      !> and weight^2.
       real(dp), allocatable, dimension(:) :: far_compliance, far_stiffness, far_weight
-      !> Bounds of sums over all aliases: weight^2*frequency and weight^2.
+      !> Bounds of sums over the wave and all aliases, shape (0:last): of weight^2*frequency and weight^2.
       real(dp), allocatable, dimension(:) :: all_stiffness, all_weight
    end type alias_line
 
 contains
 
+   !> Computes the sums. The far aliases are bounded first, by f >= f_x and f >= f_y in the compliance and by
+   !> f <= f_x + f_y in the stiffness; the near ones are then added one by one.
    subroutine start(self, points, length, last, kernel)
       class(alias_sums), intent(out) :: self
-      integer, intent(in) :: points(2)      !! of the whole cell, >= 1; 1 along y in 1-D
-      real(dp), intent(in) :: length(2)     !! sides of the cell, > 0
-      integer, intent(in) :: last(2)        !! highest wave numbers, at most half of the points
-      type(wave_stiffness), intent(in) :: kernel
+      integer, intent(in) :: points(2)      !! points of the grid on the whole cell, >= 1; 1 along y in 1-D
+      real(dp), intent(in) :: length(2)     !! sides of the cell [length], > 0
+      integer, intent(in) :: last(2)        !! highest wave numbers in X and Y, at most half of the points
+      type(wave_stiffness), intent(in) :: kernel   !! stiffness of the waves
 
       integer :: a, b, l
       real(dp), allocatable :: stiffness(:), weight(:)
@@ -75,15 +80,15 @@ contains
       !$omp end parallel do
    end subroutine start
 
-   !> Of one direction. In units of the grid the wave k has the frequency x = k/n, its aliases x + a, and sinc^2 of them
-   !> is (sin(pi x)/pi)^2/(x + a)^2.
+   !> Computes the data of one axis. In units of n/length the wave k has the frequency x = k/n and its aliases have x +
+   !> a. Then sinc^2 is (sin(pi x)/pi)^2/(x + a)^2.
    pure type(alias_line) function line_of(points, length, last) result(line)
-      integer, intent(in) :: points     !! n
-      real(dp), intent(in) :: length
-      integer, intent(in) :: last
+      integer, intent(in) :: points     !! n, number of points along the axis
+      real(dp), intent(in) :: length    !! side of the cell [length]
+      integer, intent(in) :: last       !! highest wave number
 
       integer :: a, k
-      real(dp) :: unit   ! of the frequencies
+      real(dp) :: unit   ! unit of the frequencies [1/length]
       real(dp) :: s(0:last), x(0:last)
 
       unit = points/length
@@ -106,8 +111,8 @@ contains
 
    contains
 
-      !> A bound of the sum of |x + a|^(-m) over |a| > aliases: as the function is convex, its integral from a - 1/2 to
-      !> a + 1/2 exceeds it.
+      !> The bound (E22) of the sum of |x + a|^(-m) over |a| > aliases. The function is convex, so that its integral
+      !> from a - 1/2 to a + 1/2 exceeds its value at a.
       pure function rest(m)
          integer, intent(in) :: m   !! > 1
          real(dp) :: rest(0:last)

@@ -1,9 +1,9 @@
-!> The elastic half-space on a grid: displacement from pressure and pressure from displacement, eq. (E9) of README.md in
-!> this directory.
+!> The elastic half-space on a grid: the operator S from pressure to displacement and its inverse, eq. (E9) of README.md
+!> in this directory.
 !>
-!> Where it is periodic a harmonic of wavelength w satisfies  p = stiffness u/w  (Johnson, Greenwood & Higginson 1985,
-!> App. 1). Where its surface has free edges the displacement is that of (E15), and the pressure of a displacement that
-!> of the mirror images, as a preconditioner needs it.
+!> On a periodic surface a harmonic of wavelength w satisfies  p = stiffness u/w  (Johnson, Greenwood & Higginson 1985,
+!> App. 1). On a surface with free edges the displacement is that of (E15). There the inverse is not exact: it is that
+!> of the periodic mirror images, which is good enough for a preconditioner.
 module wavycon_compliance_operator
    use wavycon_free_kernel, only: free_kernel, transform_of_kernel
    use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
@@ -18,20 +18,20 @@ module wavycon_compliance_operator
    public :: compliance_operator
 
    type :: compliance_operator
-      integer :: transform_pairs = 0               !! number of applications so far
-      integer :: points(2) = 0                     !! of the grid that it was started on
+      integer :: transform_pairs = 0               !! number of applications so far; each takes a pair of transforms
+      integer :: points(2) = 0                     !! M, N, points of the grid
       !> Whether the points are those of a quarter of an even surface's cell.
       logical :: even = .true.
-      type(wave_stiffness) :: kernel               !! of the surface
-      !> Stiffness of a harmonic of the half-space whose wavelength is a step in x or y [p*/Delta].
+      type(wave_stiffness) :: kernel               !! kernel of the surface
+      !> Stiffness of a harmonic of the half-space whose wavelength is one step along x or along y [p*/Delta].
       real(dp) :: stiffness_per_step(2) = 0.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
-      type(convolution_dp), private :: in_double
-      type(convolution_sp), private :: in_single
-      type(convolution_sp), private :: with_images   !! of a surface with free edges, in single precision
+      type(convolution_dp), private :: in_double     !! S in double precision
+      type(convolution_sp), private :: in_single     !! S, on periodic surfaces also its inverse, in single precision
+      type(convolution_sp), private :: with_images   !! inverse with mirror images, for free edges only
    contains
       procedure :: start
-      !> From a pressure [p*] to its displacement [Delta], in place: u - ubar, with free edges u.
+      !> S: replaces a pressure [p*] by its displacement [Delta], u - ubar on a periodic surface, u with free edges.
       generic :: displacement => displacement_dp, displacement_sp
       procedure :: pressure
       procedure, private :: displacement_dp
@@ -40,13 +40,14 @@ module wavycon_compliance_operator
 
 contains
 
+   !> Starts the operator on a grid of the surface or, with free edges, on a rectangle of the grid.
    subroutine start(self, surface, points, part)
       class(compliance_operator), intent(out) :: self
       type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)   !! M, N >= 1, of the whole cell, or of a quarter of an even surface's cell
-      integer, intent(in), optional :: part(2)   !! points of the part of this grid that it is for, of free edges
+      integer, intent(in) :: points(2)   !! M, N >= 1, on the whole cell, or on a quarter of an even surface's cell
+      integer, intent(in), optional :: part(2)   !! points of the rectangle, for free edges only; default: `points`
 
-      real(dp), allocatable :: love(:, :)
+      real(dp), allocatable :: love(:, :)   ! Love's coefficients (E15), then their transform
       real(dp) :: per_wave(2), step(2)
 
       self%even = surface%shape%is_even()
@@ -57,7 +58,8 @@ contains
       step = surface%length/(merge(2, 1, self%even)*points)
       if (points(2) == 1) step(2) = surface%length(2)
       self%stiffness_per_step = surface%stiffness/step
-      ! Stiffness over wavelength: of the order of one in any unit of length.
+      ! Frequencies are multiplied by the stiffness sigma: then they are p*/Delta, of the order of one in any unit of
+      ! length.
       per_wave = surface%stiffness/(merge(2, 1, self%even .and. self%points > 1)*self%points*step)
       if (self%is_free) then
          call free_kernel(self%points, step, love)
@@ -72,17 +74,18 @@ contains
       end if
    end subroutine start
 
+   !> S in double precision.
    subroutine displacement_dp(self, field, nonzero, wanted)
       class(compliance_operator), intent(inout) :: self
-      real(dp), intent(inout), contiguous :: field(:, :)   !! the own columns of the slab
-      logical, intent(in), optional :: nonzero(:)   !! own columns that may not be zero; default: all
-      logical, intent(in), optional :: wanted(:)    !! own columns of the result that are needed, others are undefined
+      real(dp), intent(inout), contiguous :: field(:, :)   !! pressure, then displacement; columns of this process
+      logical, intent(in), optional :: nonzero(:)   !! columns that may differ from zero; default: all
+      logical, intent(in), optional :: wanted(:)    !! columns in which the result is needed, others are undefined
 
       call self%in_double%apply(field, -1, threads_for(size(field)), nonzero, wanted)
       self%transform_pairs = self%transform_pairs + 1
    end subroutine displacement_dp
 
-   !> As `displacement_dp`.
+   !> S in single precision; arguments as in `displacement_dp`.
    subroutine displacement_sp(self, field, nonzero, wanted)
       class(compliance_operator), intent(inout) :: self
       real(sp), intent(inout), contiguous :: field(:, :)
@@ -92,11 +95,11 @@ contains
       self%transform_pairs = self%transform_pairs + 1
    end subroutine displacement_sp
 
-   !> From a displacement [Delta] to its pressure p - pbar [p*] on a periodic surface, in place. Free edges have that of
-   !> the mirror images.
+   !> The inverse of S: replaces a displacement [Delta] by its pressure p - pbar [p*]. With free edges it is the
+   !> pressure of the periodic mirror images.
    subroutine pressure(self, field)
       class(compliance_operator), intent(inout) :: self
-      real(sp), intent(inout), contiguous :: field(:, :)   !! the own columns of the slab
+      real(sp), intent(inout), contiguous :: field(:, :)   !! displacement, then pressure; columns of this process
 
       if (self%is_free) then
          call self%with_images%apply(field, 1, threads_for(size(field)))

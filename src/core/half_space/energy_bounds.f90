@@ -1,6 +1,7 @@
-!> Guaranteed bounds of the complementary energy and of the approach, from any pressure and any gap on the points of a
-!> grid, (E18) to (E26) of README.md in this directory. They are bounds of the contact of the surface itself, not of
-!> that on the grid, and hold for every pressure and gap: those of no solution make them wide, never false.
+!> Guaranteed bounds of the complementary energy, of the approach and of the mean gap, from any pressure and any gap at
+!> the points of a grid: (E18) to (E26) of README.md in this directory. They bound the contact of the surface itself,
+!> not that on the grid. They hold for every pressure and gap; if these are far from a solution the bounds are wide, but
+!> never false.
 module wavycon_energy_bounds
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use wavycon_alias_sums, only: alias_sums
@@ -14,17 +15,17 @@ module wavycon_energy_bounds
 
    public :: bounding_grid, energy_bounds
 
-   !> The least and the largest value that they can have.
+   !> Lower and upper bound of each value; NaN if there is no bound. The defaults are the values without load.
    type :: energy_bounds
-      real(dp) :: energy(2) = 0.0_dp     !! complementary energy F per area [p* Delta]; NaN: no bound
-      real(dp) :: approach(2) = 0.0_dp   !! delta = F'(P) [Delta]; NaN: no bound
-      real(dp) :: mean_gap(2) = 1.0_dp   !! [Delta]; NaN: no bound
+      real(dp) :: energy(2) = 0.0_dp     !! complementary energy F per area [p* Delta]
+      real(dp) :: approach(2) = 0.0_dp   !! delta = F'(P) [Delta]
+      real(dp) :: mean_gap(2) = 1.0_dp   !! G [Delta]
    end type energy_bounds
 
-   !> One grid of a periodic surface.
+   !> The tables of one grid of a periodic surface.
    type :: bounding_grid
-      integer :: points(2) = 0          !! as given to `start`
-      integer :: cell(2) = 0            !! points of the whole cell
+      integer :: points(2) = 0          !! points of the grid, as in `start`
+      integer :: cell(2) = 0            !! points of the grid on the whole cell
       type(grid_transform), private :: transform
       type(alias_sums), private :: sums
    contains
@@ -32,21 +33,23 @@ module wavycon_energy_bounds
       procedure :: bound
    end type bounding_grid
 
-   !> Rounding of the sums of `alias_sums`, relative: each is a sum of positive terms of less than 200 operations.
+   !> Bound of the relative rounding error of the sums of `alias_sums`. Each is a sum of positive terms and takes less
+   !> than 200 operations.
    real(dp), parameter :: table_rounding = 400*epsilon(1.0_dp)
-   !> Rounding of a Fourier transform, relative to its norm, over the logarithm to base 2 of its length: (E26).
+   !> Factor of (E25): the rounding error of a Fourier transform of n numbers, relative to the norm, is at most this
+   !> times 2 + log2 n.
    real(dp), parameter :: transform_rounding = 16*epsilon(1.0_dp)
 
 contains
 
-   !> Makes the tables of a grid, if it is fine enough.
+   !> Makes the tables of a grid, if the grid is fine enough.
    subroutine start(self, surface, points, even, is_fine_enough)
       class(bounding_grid), intent(out) :: self
-      type(surface_type), intent(in) :: surface   !! periodic or mirrored, whole
-      !> Points M, N of the whole cell, the first at X = Y = 0, N = 1 in 1-D; or of a quarter of an even surface's cell,
+      type(surface_type), intent(in) :: surface   !! periodic or mirrored, not distributed
+      !> Points M, N on the whole cell, the first at X = Y = 0, N = 1 in 1-D; or on a quarter of an even surface's cell,
       !> see wavycon_grid_points.
       integer, intent(in) :: points(2)
-      logical, intent(in) :: even                 !! whether of a quarter
+      logical, intent(in) :: even                 !! whether the points are those of a quarter
       logical, intent(out) :: is_fine_enough      !! whether the grid has all waves of the surface
 
       type(fourier_series) :: series
@@ -56,23 +59,26 @@ contains
       call self%transform%start(points, even, whole=.true.)
       call self%transform%new_series(series)
       self%points = points
-      self%cell = merge(2*points, points, even .and. points > 1)
+      self%cell = points
+      where (even .and. points > 1) self%cell = 2*points
       is_fine_enough = all(surface%shape%last([1, 2]) <= series%last([1, 2]))
       if (is_fine_enough) call self%sums%start(self%cell, surface%length, series%last([1, 2]), surface%kernel)
    end subroutine start
 
-   !> The bounds at a mean pressure, from any pressure and gap. Negative pressures, and gaps where there is no hardness,
-   !> are set to zero, and the pressure is scaled to its mean.
+   !> Computes the bounds at a mean pressure P, from any pressure and gap. Negative pressures are first set to zero, and
+   !> so are negative gaps without a hardness; the pressure is then changed so that its mean is P. Without a finite
+   !> pressure and gap, or with no pressure at all, the bounds are NaN.
    subroutine bound(self, surface, pressure, gap, pbar_over_pstar, answer)
       class(bounding_grid), intent(in) :: self
-      type(surface_type), intent(in) :: surface       !! as of `start`
+      type(surface_type), intent(in) :: surface       !! surface of `start`
       real(dp), intent(in) :: pressure(:, :)          !! p/p* at the points, shape of the grid
       !> gap/Delta at the points. With a hardness H it is negative, h + u - delta, where the pressure is H.
       real(dp), intent(in) :: gap(:, :)
       real(dp), intent(in) :: pbar_over_pstar         !! P >= 0, below the hardness
       type(energy_bounds), intent(out) :: answer
 
-      real(dp) :: dual, half_pu, mean_p, overlap, ph, primal, rounding, scale, share, width
+      ! The lower bound (first its energy <u S^-1 u>/2) and the upper bound of F; U and V; H <max(-g, 0)>; eta.
+      real(dp) :: dual, factor, half_pu, mean_p, overlap, ph, primal, rounding, share, width
       real(dp), allocatable :: g(:, :), p(:, :)
 
       if (pbar_over_pstar <= 0.0_dp) return
@@ -86,28 +92,30 @@ contains
       rounding = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
       mean_p = mean(p)
       call energies(self, surface, p, g, rounding, half_pu, ph, dual)
-      ! Of mean P: what is missing up to a hardness is a share of the hardness itself.
-      scale = pbar_over_pstar/mean_p
+      ! The pressure is multiplied by a factor that gives it the mean P. With a hardness a factor above 1 might exceed H;
+      ! then the uniform pressure share*H is added instead, which has no elastic energy, and factor + share = 1.
+      factor = pbar_over_pstar/mean_p
       share = 0.0_dp
-      if (surface%has_hardness() .and. scale > 1.0_dp) then
+      if (surface%has_hardness() .and. factor > 1.0_dp) then
          share = (pbar_over_pstar - mean_p)/(surface%hardness - mean_p)
-         scale = 1.0_dp - share
+         factor = 1.0_dp - share
       end if
-      half_pu = max(half_pu*scale**2*(1.0_dp + 4*rounding), tiny(1.0_dp))
-      ph = ph*scale + share*surface%hardness + 4*rounding*(abs(ph*scale) + share*surface%hardness)
+      half_pu = max(half_pu*factor**2*(1.0_dp + 4*rounding), tiny(1.0_dp))
+      ph = ph*factor + share*surface%hardness + 4*rounding*(abs(ph*factor) + share*surface%hardness)
       overlap = 0.0_dp
       if (surface%has_hardness()) overlap = surface%hardness*mean(max(-g, 0.0_dp))
       primal = half_pu + ph
       dual = pbar_over_pstar*(1.0_dp - mean(g) - rounding*(1.0_dp + mean(abs(g)))) - overlap*(1.0_dp + rounding) - dual
       answer%energy = [dual - rounding*abs(dual), primal + rounding*abs(primal)]
-      ! The chords of the parabola F((1 + e)P) from the line of the lower bound that are the steepest.
+      ! (E23): the chords from the lower bound at P to the upper bounds at (1 - e) P and (1 + e) P, with the best e.
       width = max(answer%energy(2) - answer%energy(1), tiny(1.0_dp))
       associate (e => sqrt(width/half_pu), middle => 2*half_pu + ph)
          answer%approach(1) = middle - width/min(e, 1.0_dp) - min(e, 1.0_dp)*half_pu
          answer%approach(2) = middle + width/e + e*half_pu
          answer%approach = (answer%approach + [-rounding, rounding]*(middle + width/e))/pbar_over_pstar
       end associate
-      ! With a hardness more pressure is not admissible everywhere. Without, the mean gap 1 - delta is not negative.
+      ! With a hardness (1 + e) p is not admissible: there is no upper bound of the approach. Without a hardness the
+      ! mean gap 1 - delta is not negative.
       if (surface%has_hardness()) then
          answer%approach(2) = ieee_value(1.0_dp, ieee_quiet_nan)
       else
@@ -117,7 +125,7 @@ contains
 
    contains
 
-      !> The mean of a field, whose rounding is below `rounding` of that of its absolute values.
+      !> The mean of a field. Its rounding error is below `rounding` times the mean of the absolute values.
       real(dp) function mean(field)
          real(dp), intent(in) :: field(:, :)
 
@@ -126,19 +134,21 @@ contains
 
    end subroutine bound
 
-   !> Bounds of the three energies that the bounds consist of, (E18) and (E22).
+   !> Upper bounds of the three energies in (E18a), by the sums over waves (E20) and (E21) and with the rounding (E26).
    subroutine energies(self, surface, p, g, rounding, half_pu, ph, half_uq)
       type(bounding_grid), intent(in) :: self
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p(:, :), g(:, :)    !! pressure [p*] and gap [Delta] at the points
-      real(dp), intent(in) :: rounding            !! relative, of transforms and sums
-      real(dp), intent(out) :: half_pu            !! above <p Sp>/2 [p* Delta]
-      real(dp), intent(out) :: ph                 !! above <p h>
-      real(dp), intent(out) :: half_uq            !! above <u S^-1 u>/2, u the gap less h less its mean
+      real(dp), intent(in) :: rounding            !! eta and the rounding of sums, relative
+      real(dp), intent(out) :: half_pu            !! bound of <p S p>/2 [p* Delta]
+      real(dp), intent(out) :: ph                 !! bound of <p h> [p* Delta]
+      real(dp), intent(out) :: half_uq            !! bound of <u S^-1 u>/2 [p* Delta], u = g - h less its mean
 
       complex(dp), allocatable, dimension(:) :: of_g, of_p, of_shape
       integer :: k, l, last(2), with_shape
-      real(dp), allocatable :: folded(:), half(:)   ! how often a wave is its own alias; weights of mean squares
+      ! `folded` is 2 for a wave that is its own alias along one axis, 4 along both, otherwise 1. `half` has the weights
+      ! with which squared amplitudes give mean squares.
+      real(dp), allocatable :: folded(:), half(:)
       real(dp) :: largest(2), norm(3), sums(4)
       type(fourier_series) :: gap, pressure
 

@@ -1,5 +1,5 @@
-!> The kernel of the elastic half-space in free space on a grid: the displacement that a uniform pressure on one cell
-!> causes at the centres of all cells, (E15) of README.md in this directory, and its transform (E17).
+!> The kernel of a half-space with free edges on a grid: the displacements at the centres of all cells that a uniform
+!> pressure on one cell causes, (E15) of README.md in this directory, and the kernel's transform (E17).
 module wavycon_free_kernel
    use, intrinsic :: iso_c_binding, only: c_int, c_ptr
    use wavycon_assertion, only: assert
@@ -10,21 +10,22 @@ module wavycon_free_kernel
 
    public :: free_kernel, integral_to_corner, transform_of_kernel
 
-   !> Cells farther away than this, in steps, have their integral by Taylor's series of fourth order about the centre
-   !> (E15a): the relative error is below 1e-13, and differences of the closed form would lose digits there.
+   !> If a cell is farther away than this, in steps, the integral over the cell is Taylor's series of fourth order about
+   !> its centre (E15a). The relative error of the series is below 1e-13 there, and the closed form would lose digits,
+   !> because it is a difference of large numbers.
    real(dp), parameter :: far = 64.0_dp
 
 contains
 
-   !> The displacement over stiffness at the centre of cell (i, j) from a unit pressure on cell (0, 0), times sigma: in
-   !> 2-D the integral of 1/r over the cell, in 1-D that of -2 ln(r/L), L the length of the profile.
+   !> sigma K_ij of (E15): sigma times the displacement at the centre of cell (i, j) under a unit pressure on cell (0,
+   !> 0). In 2-D this is the integral of 1/r over the cell, in 1-D that of -2 ln(r/L), L the length of the profile.
    pure subroutine free_kernel(points, step, kernel)
-      integer, intent(in) :: points(2)     !! M, N; N = 1 in 1-D
-      real(dp), intent(in) :: step(2)      !! of the grid [length], > 0
-      real(dp), allocatable, intent(out) :: kernel(:, :)   !! shape (0:M, 0:N), (0:M, 0:0) in 1-D
+      integer, intent(in) :: points(2)     !! M, N, points of the map; N = 1 in 1-D
+      real(dp), intent(in) :: step(2)      !! steps of the grid along x and y [length], > 0
+      real(dp), allocatable, intent(out) :: kernel(:, :)   !! [length], shape (0:M, 0:N), (0:M, 0:0) in 1-D
 
       integer :: i, j
-      real(dp) :: c2, mean(2), nearest, r2, s2, x, y   ! squares of r and of its cosines with x and y
+      real(dp) :: c2, mean(2), nearest, r2, s2, x, y   ! r2, c2, s2: squares of r and of its cosines with x and y
 
       if (points(2) == 1) then
          allocate (kernel(0:points(1), 0:0))
@@ -35,7 +36,7 @@ contains
       end if
       allocate (kernel(0:points(1), 0:points(2)))
       nearest = (far*maxval(step))**2
-      ! Mean squares of the places in a cell about its centre, along x and y.
+      ! a and b of (E15a): mean squares of x and y in a cell, measured from its centre.
       mean = step**2/12
       do j = 0, points(2)
          y = j*step(2)
@@ -60,7 +61,7 @@ contains
 
    contains
 
-      !> The integral of ln|x|.
+      !> The integral of ln|x| from 0 to x.
       pure real(dp) function line(x)
          real(dp), intent(in) :: x   !! /= 0
 
@@ -69,30 +70,32 @@ contains
 
    end subroutine free_kernel
 
-   !> The integral of 1/r over the rectangle between the origin and a corner.
+   !> The integral of 1/r over the rectangle between the origin and the corner (x, y). Its sign is that of x y, so that
+   !> four of these make any rectangle.
    elemental real(dp) function integral_to_corner(x, y) result(integral)
-      real(dp), intent(in) :: x, y   !! /= 0
+      real(dp), intent(in) :: x, y   !! coordinates of the corner [length], /= 0
 
       integral = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
    end function integral_to_corner
 
-   !> The transform (E17) of a kernel that is even both ways, in place: that of its 2M x 2N values, which repeat.
+   !> Replaces a kernel by its transform (E17). The kernel is even along both axes and has 2M x 2N values, which repeat
+   !> periodically; the values 0..M and 0..N determine it, and a DCT-I gives the transform.
    subroutine transform_of_kernel(kernel)
-      real(dp), intent(inout), allocatable :: kernel(:, :)   !! shape (0:M, 0:N)
+      real(dp), intent(inout), allocatable :: kernel(:, :)   !! shape (0:M, 0:N), (0:M, 0:0) in 1-D
 
-      integer(c_int) :: kinds(2), lengths(2), rank
+      integer(c_int) :: dimensions, kinds(2), lengths(2)
       real(dp), allocatable :: transform(:, :)
       type(c_ptr) :: plan
 
       call assert(all(lbound(kernel) == 0), 'the kernel begins at 0')
-      rank = merge(1, 2, ubound(kernel, 2) == 0)
+      dimensions = min(size(kernel, 2), 2)
       kinds = FFTW_REDFT00
       lengths = shape(kernel)
-      if (rank == 2) lengths = lengths(2:1:-1)
+      if (dimensions == 2) lengths = lengths(2:1:-1)
       allocate (transform, mold=kernel)
       ! FFTW's planner is not thread-safe.
       !$omp critical (wavycon_fftw_planner)
-      plan = fftw_plan_r2r(rank, lengths, kernel, transform, kinds, FFTW_ESTIMATE)
+      plan = fftw_plan_r2r(dimensions, lengths, kernel, transform, kinds, FFTW_ESTIMATE)
       !$omp end critical (wavycon_fftw_planner)
       call fftw_execute_r2r(plan, kernel, transform)
       !$omp critical (wavycon_fftw_planner)

@@ -1,4 +1,4 @@
-!> What --check says of a deck without running it.
+!> What --check writes about a deck, without a run.
 module wavycon_check_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_grid_plan, only: bytes_of_grid
@@ -22,10 +22,11 @@ module wavycon_check_scene
 
 contains
 
-   !> Says what a run would do: the scene as at the start of a run, why its solver is taken, memory, tables.
+   !> Writes what a run would do: the scene as at the start of a run, why solver = 'auto' chooses its solvers, memory,
+   !> time and tables.
    subroutine check_scene(scene, quiet)
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards
-      logical, intent(in) :: quiet                            !! whether to say nothing
+      logical, intent(in) :: quiet                            !! whether to write nothing
 
       character(:), allocatable :: reason
       type(results_type) :: results
@@ -36,7 +37,7 @@ contains
       call start_results(scene, results, tables)
       call show_scene(results, log)
       reason = why_chosen(results%traits)
-      ! The default is 'auto', which has a reason.
+      ! The default solver is 'auto', for which `reason` is not empty.
       associate (solver => results%scene%method%solver)
          if (.not. solver%is_given) reason = clauses("'"//solver%text//"' is the default", reason)
       end associate
@@ -52,7 +53,7 @@ contains
       call log%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene
 
-   !> The memory that the finest grid takes, and what is available.
+   !> The memory that the finest grid takes and the memory that is available, in words.
    function memory(results) result(words)
       type(results_type), intent(in) :: results
       character(:), allocatable :: words
@@ -86,11 +87,12 @@ contains
       if (results%sharing%is_shared) words = words//' to each'
    end function memory
 
-   !> The time that a load takes on a grid [s], from that of transforms of a grid of at most `most` points a side.
+   !> An estimate of the time that a load takes on a grid [s]. A pair of transforms, on a grid of at most `most` points
+   !> along each side, is timed; the time is taken as proportional to the number of points.
    real(dp) function seconds_of_load(points) result(seconds)
-      integer, intent(in) :: points(2)
+      integer, intent(in) :: points(2)   !! numbers of points along x and y of the part of the cell that is solved
 
-      !> Pairs of transforms a load: loads of self-affine surfaces take 15 to 60 of them on 512 x 512 points.
+      !> Number of pairs of transforms of a load. Loads of self-affine surfaces take 15 to 60 pairs on 512 x 512 points.
       real(dp), parameter :: pairs = 40.0_dp
       integer, parameter :: most = 512
       integer(int64) :: begun, ended, rate
@@ -102,7 +104,7 @@ contains
       part = min(points, most)
       call transform%start(part, even=.false.)
       allocate (field(part(1), transform%slab%columns()), source=0.0_dp)
-      call transform%series(field, series)   ! plans the transforms
+      call transform%series(field, series)   ! not timed: the first call plans the transforms
       call system_clock(begun, rate)
       call transform%series(field, series)
       call transform%sample(series, field)
@@ -110,7 +112,7 @@ contains
       seconds = pairs*(ended - begun)/rate*product(real(points, dp)/part)
    end function seconds_of_load
 
-   !> Bytes as a number of MB, rounded up.
+   !> A number of bytes in MB, rounded up, in words.
    function megabytes(bytes) result(words)
       integer(int64), intent(in) :: bytes
       character(:), allocatable :: words

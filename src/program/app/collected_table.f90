@@ -1,5 +1,5 @@
-!> The table of --table: a row for each load of each deck, with the columns of the summary. Its rows are read from the
-!> summaries that the runs have written.
+!> The collected table that --table asks for: a row for each load of each deck, with the columns of the summary. The
+!> rows are read from the summaries that the runs have written.
 module wavycon_collected_table
    use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_deck_groups, only: list_deck_keys => list_keys, number_of_groups
@@ -24,38 +24,41 @@ module wavycon_collected_table
    !> Width of the narrowest column, as in other tables.
    integer, parameter :: narrowest = 25
 
+   !> Most bytes of 'group_key': two names of at most name_length bytes of wavycon_key_table.
    integer, parameter :: longest_key_name = 49
 
-   !> How the table begins, as others do.
+   !> The first words of the table, as of all tables.
    character(*), parameter :: table_mark = '# wavycon '
 
    !> A key of a deck and its value.
    type :: deck_key
       character(longest_key_name) :: name = ''   !! 'group_key'
-      !> The value in effect, without blanks; '-' for an empty text. Without an effect 'NaN' of a number, '-' of a word.
+      !> The value in effect, without blanks; '-' for an empty text. If the key has no effect: 'NaN' in place of a
+      !> number, '-' in place of a word.
       character(:), allocatable :: word
       logical :: in_effect = .false.
-      logical :: given = .false.          !! whether the deck or the command line gives it
+      logical :: given = .false.          !! whether the deck or the command line gives the key
    end type deck_key
 
-   !> What the table has of a deck.
+   !> The data of a deck for the table.
    type :: collected_deck
-      character(:), allocatable :: path, case    !! of the deck; its name
-      !> The absolute path of its results without '.summary.dat' and the like; not allocated for a bad deck.
+      character(:), allocatable :: path, case    !! path of the deck; name of the case
+      !> The absolute path of the deck's results without '.summary.dat' and other endings; not allocated for a bad deck.
       character(:), allocatable :: stem
-      logical :: is_written = .false.            !! whether that has been written by this run
-      type(deck_key), allocatable :: keys(:)     !! the same of each deck
-      character(:), allocatable :: units, names  !! lines of the summary
-      character(:), allocatable :: rows          !! the others, each with a newline
+      logical :: is_written = .false.            !! whether this run has written the summary
+      type(deck_key), allocatable :: keys(:)     !! all keys, in the same order for each deck
+      character(:), allocatable :: units, names  !! lines of the summary with the units and the names of the columns
+      character(:), allocatable :: rows          !! the summary's rows, each with a newline
    end type collected_deck
 
 contains
 
-   !> Makes the directory of a table, so that a bad name is reported before decks are run. A file that is no table, such
-   !> as a deck, is not replaced, nor is a result of the run. Errors: exit_file_trouble.
+   !> Makes the directory of the table and checks whether the table can be written, so that a bad name is reported
+   !> before decks are run. The table must not replace a file that is no table, such as a deck, nor a result of a deck.
+   !> Errors: exit_file_trouble.
    subroutine check_table_file(path, decks, error)
-      character(*), intent(in) :: path
-      class(collected_deck), intent(in) :: decks(:)   !! those that are run have a stem
+      character(*), intent(in) :: path                !! path of the table
+      class(collected_deck), intent(in) :: decks(:)   !! decks that are run have a stem
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: full, trouble
@@ -84,10 +87,10 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(path)//': the table cannot be written: '//trouble)
    end subroutine check_table_file
 
-   !> Lists all keys, the same for all decks. Here those of &scene, &interface and &output and lists of loads have no
-   !> effect: a table has a row for each load.
+   !> Lists all keys with their values, in the same order for all decks. Keys of &scene, &interface and &output, and
+   !> lists of loads, which have a row for each load, are marked as without effect: they get no columns.
    subroutine list_keys(scene, keys)
-      type(scene_type), intent(in), target :: scene
+      type(scene_type), intent(in), target :: scene   !! the scene of a deck
       type(deck_key), allocatable, intent(out) :: keys(:)
 
       integer :: i, k, number
@@ -113,7 +116,7 @@ contains
       end do
    end subroutine list_keys
 
-   !> The value of a key: the numbers of a list with commas between them, one number if they are equal.
+   !> The value of a key as one word: a list has commas between its numbers; if all numbers are equal, one is shown.
    pure function word_of(list, k) result(word)
       type(key_list), intent(in) :: list
       integer, intent(in) :: k   !! number of the key
@@ -129,7 +132,7 @@ contains
       if (word == '') word = '-'
    end function word_of
 
-   !> A text as one word of a table.
+   !> A text as one word of a table: blanks become '_'.
    pure function without_blanks(text) result(word)
       character(*), intent(in) :: text
       character(:), allocatable :: word
@@ -142,20 +145,20 @@ contains
       end do
    end function without_blanks
 
-   !> Writes the table. Columns of keys are those that are set on the command line, and those that a deck gives and that
-   !> differ between decks. A deck without such a key has NaN there, or '-' in place of a word. Units are those of the
-   !> summaries if these agree, otherwise 'length' or the like.
+   !> Writes the table. A key has a column if the command line sets the key, or if a deck gives it and its value differs
+   !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. Units are
+   !> those of the summaries if all summaries have the same units, otherwise general names such as 'length'.
    !>
    !> Errors: exit_file_trouble, also for a summary that cannot be read.
    subroutine write_collected_table(path, decks, settings, error)
-      character(*), intent(in) :: path                !! of the file
+      character(*), intent(in) :: path                !! path of the table
       type(collected_deck), intent(in) :: decks(:)
-      type(setting_type), intent(in) :: settings(:)   !! of the command line
+      type(setting_type), intent(in) :: settings(:)   !! settings of the command line
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: line, names, units
       integer, allocatable :: columns(:), width(:)
-      type(collected_deck), allocatable :: solved(:)   ! decks with a summary
+      type(collected_deck), allocatable :: solved(:)   ! the decks that have a summary
       type(output_file) :: file
       integer :: d, k
 
@@ -205,7 +208,7 @@ contains
          do k = 1, size(columns)
             line = line//cell(2 + k, solved(d)%keys(columns(k))%word)
          end do
-         ! The rows of a summary are as long as its line of names.
+         ! All rows of a summary are as long as its line of names.
          associate (rows => solved(d)%rows, length => len(solved(d)%names))
             do k = 1, len(rows), length + 1
                call file%put(line//rows(k:k + length - 1))
@@ -227,13 +230,13 @@ contains
 
    end subroutine write_collected_table
 
-   !> Reads a summary: a head, whose last line has the units, a line of names, and rows. Errors: exit_file_trouble.
+   !> Reads a summary: a head whose last line has the units, a line of names, and rows. Errors: exit_file_trouble.
    subroutine read_summary(deck, error)
-      type(collected_deck), intent(inout) :: deck
+      type(collected_deck), intent(inout) :: deck   !! gets `units`, `names` and `rows`
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: text
-      integer :: names, rows, units   ! where they begin
+      integer :: names, rows, units   ! first byte of these lines in the text
 
       call read_file(deck%stem//'.summary.dat', huge(names), text, error)
       if (allocated(error)) return
@@ -245,14 +248,14 @@ contains
       deck%rows = text(rows:)
    end subroutine read_summary
 
-   !> The keys that have a column, in the order of the first deck in which they have an effect.
+   !> Chooses the keys that have a column. A key that has an effect in an earlier deck comes first.
    subroutine choose_columns(decks, settings, columns)
-      type(collected_deck), intent(in) :: decks(:)    !! those in the table
-      type(setting_type), intent(in) :: settings(:)
-      integer, allocatable, intent(out) :: columns(:)
+      type(collected_deck), intent(in) :: decks(:)      !! the decks in the table
+      type(setting_type), intent(in) :: settings(:)     !! settings of the command line
+      integer, allocatable, intent(out) :: columns(:)   !! numbers of the keys
 
       integer :: d, i, k
-      logical, allocatable :: differs(:)   ! of each key
+      logical, allocatable :: differs(:)   ! whether the value of each key differs between decks
       logical :: is_set
 
       allocate (columns(0))
@@ -275,7 +278,8 @@ contains
       character(:), allocatable :: directory
 
       directory = path(:max(index(path, '/', back=.true.) - 1, 0))
-      if (directory == '') directory = trim(merge('/', '.', index(path, '/') == 1))
+      if (directory == '' .and. index(path, '/') == 1) directory = '/'
+      if (directory == '') directory = '.'
    end function directory_of
 
 end module wavycon_collected_table

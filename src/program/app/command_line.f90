@@ -1,4 +1,4 @@
-!> Reads the command line; the texts of --help.
+!> Reads the command line, and makes the text of --help.
 module wavycon_command_line
    use wavycon_deck_text, only: at_end, is_comma, next_token, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
@@ -16,33 +16,35 @@ module wavycon_command_line
 
    public :: command_line_type, read_command_line, help_text
 
-   !> A deck, with keys set in place of its own.
+   !> A run of a deck, with settings that replace keys of the deck.
    type :: run_type
       character(:), allocatable :: path
       type(setting_type), allocatable :: settings(:)
    end type run_type
 
-   !> The values of a key: one of --set, all of --sweep.
+   !> The settings of one option: one setting of --set, or one for each value of --sweep.
    type :: sweep_type
       type(setting_type), allocatable :: values(:)
    end type sweep_type
 
+   !> The options as a group of keys, so that the procedures for keys of decks read and describe them.
    type, extends(key_group) :: option_group
       type(key_value) :: check, set, sweep, output, table, keep_going, resume, jobs, threads, quiet, version, help
    end type option_group
 
    type :: command_line_type
-      type(run_type), allocatable :: runs(:)   !! the decks, each with all combinations of the values of its sweeps
+      type(run_type), allocatable :: runs(:)   !! each deck with each combination of the values of all sweeps
       type(option_group) :: options
    end type command_line_type
 
+   !> Most runs of a command, and most processes or threads of an option.
    integer, parameter :: most_runs = 100000, most_processes = 1024
 
 contains
 
-   !> The options as keys: the unit of a key is what follows the option in the usage.
+   !> The options as keys. The unit of a key is the word that follows the option in the usage, such as DIR.
    subroutine list_options(options, keys)
-      type(option_group), intent(in), target :: options
+      type(option_group), intent(in), target :: options   !! the record to which the list points
       type(key_list), intent(out) :: keys
 
       keys = key_list('options', '', options%key_group)
@@ -74,7 +76,8 @@ contains
       call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', 'show this and stop'))
    end subroutine list_options
 
-   !> Reads the command line. Errors: exit_bad_input for an unknown option, a bad value of one, or no deck.
+   !> Reads the command line. Words that do not begin with '-', and all words behind '--', are decks. Errors:
+   !> exit_bad_input for an unknown option, a bad value of an option, or a command without a deck.
    subroutine read_command_line(command_line, error)
       type(command_line_type), intent(out), target :: command_line
       type(error_type), allocatable, intent(out) :: error
@@ -84,7 +87,7 @@ contains
       type(sweep_type) :: sweep(size(deck))
       type(key_list) :: keys
       type(key_type) :: key
-      type(word_value) :: read
+      type(word_value) :: parsed
       integer :: decks, equals, i, k, sweeps
       logical :: options_over
 
@@ -133,9 +136,9 @@ contains
             call read_sweep(trim(key%name), value, sweep(sweeps)%values, trouble)
          else
             if (key%kind == text_value) value = quoted(value)
-            call read_value(key, value, read, trouble)
-            if (read%repeats > 1) trouble = must_be(key, value)
-            if (.not. allocated(trouble)) call keys%take(k, 1, [read%number], read%text)
+            call read_value(key, value, parsed, trouble)
+            if (parsed%repeats > 1) trouble = must_be(key, value)
+            if (.not. allocated(trouble)) call keys%take(k, 1, [parsed%number], parsed%text)
          end if
       end do
       associate (options => command_line%options)
@@ -153,10 +156,11 @@ contains
       call make_runs(deck(:decks), sweep(:sweeps), command_line%runs, error)
    end subroutine read_command_line
 
-   !> Reads the value of --set or --sweep: a setting for each value of a sweep, which commas outside of quotes separate.
+   !> Reads the word behind --set or --sweep. The values of a sweep are separated by commas outside of quotes.
    subroutine read_sweep(option, word, values, trouble)
-      character(*), intent(in) :: option, word   !! '--set' or '--sweep'; group.key=value or group.key=value,value,...
-      type(setting_type), allocatable, intent(out) :: values(:)
+      character(*), intent(in) :: option   !! '--set' or '--sweep'
+      character(*), intent(in) :: word     !! 'group.key=value', of --sweep 'group.key=value,value,...'
+      type(setting_type), allocatable, intent(out) :: values(:)   !! a setting for each value
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
       integer :: i
@@ -183,8 +187,8 @@ contains
       end do
    end subroutine read_sweep
 
-   !> Each deck with all combinations of the values of all sweeps; the values of the last sweep change fastest. Errors:
-   !> exit_bad_input if these are too many.
+   !> Makes the runs: each deck with each combination of the values of all sweeps. The values of the last sweep change
+   !> fastest. Errors: exit_bad_input for more than `most_runs` runs.
    subroutine make_runs(decks, sweeps, runs, error)
       type(run_type), intent(in) :: decks(:)           !! without settings
       type(sweep_type), intent(in) :: sweeps(:)
@@ -222,9 +226,9 @@ contains
       character(:), allocatable :: head, usage
       integer :: i
       type(key_list) :: keys
-      type(option_group), target :: none
+      type(option_group), target :: no_options   ! values without use, to which the list points
 
-      call list_options(none, keys)
+      call list_options(no_options, keys)
       text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline//newline
       usage = 'DECK...'
       do i = 1, size(keys%rows)
@@ -258,7 +262,7 @@ contains
 
    !> A word of the command line, of any length.
    function argument(i) result(word)
-      integer, intent(in) :: i
+      integer, intent(in) :: i   !! number of the word, from 1
       character(:), allocatable :: word
 
       integer :: length

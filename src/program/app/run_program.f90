@@ -1,6 +1,6 @@
-!> What the program does: reads all decks, then checks or runs them one after the other.
+!> The program from its command line to its exit status: reads all decks, then checks or runs them one after the other.
 !>
-!> The processes of the parallel program all do the same; only the first one writes. Errors are those of all.
+!> In the parallel program all processes do the same, and only the first one writes. An error of one process ends all.
 module wavycon_run_program
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
@@ -25,32 +25,37 @@ module wavycon_run_program
 
    !> The stack that the program needs [byte]. The tables of keys take 100 kB of it, solvers less.
    integer(int64), parameter :: least_stack = 256*1024
-   !> A status from here on less this number is that of the signal that ended a process.
+   !> A status of at least this number says that a signal ended the process: the number of the signal is the status less
+   !> this number.
    integer, parameter :: signal_status = 128
-   !> Jobs that may be begun beyond the first one that was not shown: each has open files, and a place in jobs.c.
+   !> Most jobs that may be begun beyond the first one whose output is not shown yet. Each of them has open files, and
+   !> an element of the array in jobs.c.
    integer, parameter :: most_waiting = 100
 
-   !> The processes of the option --jobs, each of which runs a deck: see jobs.c. They are numbered from 1. What Fortran
-   !> has in its buffers must be flushed before a job is begun or shown.
+   !> The jobs of the option --jobs: processes that run a deck each, numbered from 1 (jobs.c). The buffers of Fortran's
+   !> units must be flushed before a job is begun or shown, or their content would be printed twice or too late.
    interface
-      !> Starts a process, a copy of this one, for a job: 1 in it, 0 in this one, -1 if there is none.
+      !> Starts a process for a job, a copy of this process. Returns 1 in the new process, 0 in this one, and -1 if no
+      !> process could be made.
       integer(c_int) function begin_job(job) bind(c, name='wavycon_begin_job')
          import :: c_int
          integer(c_int), value :: job
       end function begin_job
 
-      !> Waits for any process to end: the number of its job, 0 if it is none.
+      !> Waits until any process of a job ends, and returns the number of the job; 0 if the process was none of a job.
       integer(c_int) function await_job() bind(c, name='wavycon_await_job')
          import :: c_int
       end function await_job
 
-      !> Prints what a job that has ended has printed: its exit status, or signal_status and more.
+      !> Prints the output of a job that has ended. Returns the job's exit status, or signal_status plus a signal's
+      !> number.
       integer(c_int) function show_job(job) bind(c, name='wavycon_show_job')
          import :: c_int
          integer(c_int), value :: job
       end function show_job
    end interface
 
+   !> A deck with its scene.
    type, extends(collected_deck) :: scene_item
       type(scene_type), allocatable :: scene      !! not allocated for a bad deck
    end type scene_item
@@ -100,11 +105,11 @@ contains
       call finish(worst)
    end subroutine run_program
 
-   !> Reads all decks before any is run. Shows the problems of all of them and ends the program if there are any, unless
-   !> it is to keep going without the bad decks.
+   !> Reads all decks before any is run, and shows the problems of all. If there are problems the program ends, unless
+   !> --keep-going says that the good decks are to be run.
    subroutine read_decks(command_line, scenes, worst)
       type(command_line_type), intent(in) :: command_line
-      type(scene_item), allocatable, intent(out) :: scenes(:)
+      type(scene_item), allocatable, intent(out) :: scenes(:)   !! one for each run of the command line
       integer, intent(out) :: worst   !! the worst exit status
 
       type(error_type), allocatable :: error
@@ -127,7 +132,7 @@ contains
          end if
       end do
       if (worst /= exit_fine .and. .not. command_line%options%keep_going%is_true) call finish(worst)
-      ! Scenes that would write the same files.
+      ! Report scenes that would write the same files.
       do i = 2, size(scenes)
          if (.not. allocated(scenes(i)%scene)) cycle
          do j = 1, i - 1
@@ -147,7 +152,7 @@ contains
       end do
    end subroutine read_decks
 
-   !> Runs all scenes and writes the collected table.
+   !> Runs all scenes, and writes the collected table if --table asks for it.
    subroutine run_scenes(command_line, quiet, scenes, worst)
       type(command_line_type), intent(in) :: command_line
       logical, intent(in) :: quiet      !! whether to write nothing but problems
@@ -156,7 +161,7 @@ contains
 
       type(error_type), allocatable :: error
       integer :: begun, i, jobs, running, status(size(scenes))
-      logical :: has_ended(0:size(scenes))   ! of each job
+      logical :: has_ended(0:size(scenes))   ! whether each job has ended; job 0 stands for other processes
       logical :: keep_going, with_table
 
       jobs = nint(command_line%options%jobs%number)
@@ -200,8 +205,8 @@ contains
 
       !> Runs a scene. Errors: those of run_scene.
       subroutine run_one(i, status, error)
-         integer, intent(in) :: i
-         integer, intent(out) :: status   !! exit_fine, exit_not_converged, or that of the error
+         integer, intent(in) :: i         !! number of the scene
+         integer, intent(out) :: status   !! exit_fine, exit_not_converged, or the status of the error
          type(error_type), allocatable, intent(out) :: error
 
          type(results_type) :: results
@@ -209,31 +214,31 @@ contains
          call separate(i, quiet)
          call run_scene(scenes(i)%scene, quiet, command_line%options%resume%is_true, results, status, error)
          if (allocated(error)) status = error%status
-         ! What the log says otherwise.
+         ! Without --quiet the log says so.
          if (status == exit_not_converged .and. quiet .and. is_first_rank()) &
             write (error_unit, '(a)') 'wavycon: '//outcome(results)
       end subroutine run_one
 
-      !> Takes the outcome of a scene that runs in a process of its own; meanwhile those of the scenes behind it are
-      !> begun. As outcomes are taken in the order of the scenes, all is printed and written as if they were run one
-      !> after the other.
+      !> Waits for the job of a scene, a process of its own, and prints its output. Meanwhile jobs of the following
+      !> scenes are begun, at most `jobs` at a time. As jobs are taken in the order of the scenes, the output is the
+      !> same as if the scenes were run one after the other.
       subroutine take_job(i, status)
-         integer, intent(in) :: i
-         integer, intent(out) :: status
+         integer, intent(in) :: i         !! number of the scene and of its job
+         integer, intent(out) :: status   !! as in run_one
 
          type(error_type), allocatable :: error
-         integer :: here   ! as of begin_job
+         integer :: side   ! result of begin_job: whether this is the new process
 
          do
             do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
                begun = begun + 1
                if (.not. allocated(scenes(begun)%stem)) cycle
                flush (error_unit)
-               here = begin_job(begun)
-               if (here < 0) call fatal_error(error, exit_file_trouble, &
+               side = begin_job(begun)
+               if (side < 0) call fatal_error(error, exit_file_trouble, &
                                               'a process or a temporary file for it cannot be made')
                call stop_on(error)
-               if (here > 0) then
+               if (side > 0) then
                   call run_one(begun, status, error)
                   call show(error)
                   call finish(status)
@@ -257,7 +262,7 @@ contains
 
    !> Writes an empty line between two decks.
    subroutine separate(deck, quiet)
-      integer, intent(in) :: deck   !! number of the one that follows
+      integer, intent(in) :: deck   !! number of the deck that follows
       logical, intent(in) :: quiet
 
       if (deck > 1 .and. .not. quiet) call say('')
@@ -280,7 +285,7 @@ contains
       if (is_first_rank()) write (error_unit, '(a)') 'wavycon: '//error%message
    end subroutine show
 
-   !> Ends the program with an exit status, that of file trouble if not all could be written to standard output.
+   !> Ends the program with an exit status, which is exit_file_trouble if writing to standard output has failed.
    subroutine finish(status)
       integer, intent(in) :: status
 

@@ -1,4 +1,4 @@
-!> The groups of a deck: their tables of keys, and their values, which are read from its text.
+!> The groups of a deck: the tables of their keys, and the values of the keys, which are read from the deck's text.
 module wavycon_deck_groups
    use wavycon_deck_text, only: at_end, deck_text_type, has_curly_quote, is_broken_word, is_comma, is_equals, &
       is_group, is_slash, is_word, next_token, quotes, starts_entry, token_type
@@ -30,7 +30,7 @@ contains
 
    !> The keys of all groups, in the order in which they are documented and written.
    subroutine list_keys(scene, lists)
-      type(scene_type), intent(in), target :: scene
+      type(scene_type), intent(in), target :: scene            !! the records of the groups, to which the lists point
       type(key_list), intent(out) :: lists(number_of_groups)
 
       call list_scene_keys(scene%scene_values, lists(1))
@@ -43,22 +43,28 @@ contains
       call list_output_keys(scene%output, lists(8))
    end subroutine list_keys
 
-   !> Reads the values of all groups, in one pass over the text, and checks them against the grammar and the tables:
-   !> names, types, bounds. Checks of keys against each other follow in the modules of the groups. What does not fit is
-   !> reported and ignored. The time is proportional to the length of the text, for any bytes.
+   !> Reads the values of all groups, in one pass over the text, and checks them against the grammar and the tables of
+   !> keys: names, types, bounds. Checks of keys against each other follow in the modules of the groups. Text that does
+   !> not fit the grammar is reported and ignored. The time is proportional to the length of the text, for any bytes.
+   !>
+   !> Settings of the command line come first, so that the same keys of the deck are skipped. Then the tokens of the
+   !> deck are read one by one: names of groups, entries `key = values` and '/'. After a token that does not fit, others
+   !> are skipped without a report up to the next group, entry or '/'.
    subroutine take_groups(text, lists, problems, settings)
-      type(deck_text_type), intent(inout) :: text              !! each setting is added as a line
-      type(key_list), intent(inout) :: lists(:)                !! of all groups
-      type(problem_list_type), intent(inout) :: problems
+      type(deck_text_type), intent(inout) :: text              !! each setting is added as a line behind the deck
+      type(key_list), intent(inout) :: lists(:)                !! the keys of all groups; their records get the values
+      type(problem_list_type), intent(inout) :: problems       !! problems are added
       type(setting_type), intent(in), optional :: settings(:)  !! keys set in place of those of the deck
 
-      integer :: g, s                       ! the number of the open group's table, 0: it has none; that of a setting
-      logical :: is_guessed(size(lists))   ! of a misspelt name
-      logical :: is_unknown                 ! a group, which may be any that is missing
-      logical :: is_lost                    ! since a token that does not fit, which was reported
-      logical :: quote_is_open              ! a quote in the open group is not closed
+      integer :: g                          ! number of the open group in `lists`; 0: not a known group
+      integer :: s                          ! number of a setting
+      logical :: is_guessed(size(lists))    ! whether the deck has a misspelt name that is near to this group's
+      logical :: is_unknown                 ! whether the deck has an unknown group: it may be any that is missing
+      logical :: is_lost                    ! whether tokens are skipped since one that does not fit
+      logical :: quote_is_open              ! whether the open group has a quote that is not closed
       type(setting_type), allocatable :: own_settings(:)
-      type(token_type) :: group, token      ! the name of the open group, at_end: there is none; the next token
+      type(token_type) :: group             ! name of the open group; its kind is at_end if no group is open
+      type(token_type) :: token             ! the next token
 
       allocate (own_settings(0))
       if (present(settings)) own_settings = settings
@@ -113,6 +119,7 @@ contains
 
    contains
 
+      !> The text of a token for a message.
       pure function shown(token) result(words)
          type(token_type), intent(in) :: token
          character(:), allocatable :: words
@@ -120,11 +127,12 @@ contains
          words = excerpt(text%content(token%first:token%last))
       end function shown
 
-      !> Sets g to the number of a group's table; to 0 for an unknown group and for one that is given twice. The keys of
-      !> a group whose name is misspelt are checked too, unless the deck has given the one that is meant.
+      !> Sets g to the number of a group in `lists`, or to 0 for an unknown group and for one that is given twice. A
+      !> misspelt name counts as the nearest known one, so that the keys of the group are checked too, unless the deck
+      !> has given that group before.
       subroutine open_group(name, place)
-         character(*), intent(in) :: name
-         integer, intent(in) :: place
+         character(*), intent(in) :: name   !! in lower case, without '&'
+         integer, intent(in) :: place       !! position of the '&' in the text
 
          logical :: is_known
 
@@ -148,7 +156,7 @@ contains
          is_guessed(g) = .not. is_known
       end subroutine open_group
 
-      !> Takes a key that the command line sets.
+      !> Adds a setting of the command line to the text, as a line '--set group.key=value', and takes its key.
       subroutine take_setting(setting)
          type(setting_type), intent(in) :: setting
 
@@ -159,7 +167,7 @@ contains
          value = setting%value
          if (g > 0) then
             associate (keys => lists(g)%rows)
-               ! A text without quotes, which shells remove, gets them.
+               ! Shells remove the quotes around a text: add them.
                if (any(keys%name == setting%key .and. (keys%kind == text_value .or. keys%kind == choice_value)) .and. &
                    scan(value, quotes) /= 1) value = quoted(value)
             end associate
@@ -178,23 +186,25 @@ contains
                                                      shown(token)//"' behind them")
       end subroutine take_setting
 
-      !> Takes the key that is the next token and its values, up to the token that is then the next one.
+      !> Takes an entry `key = values`. On entry the next token is the key, on exit it is the first one behind the
+      !> values. Values are bad as a whole if one of them is.
       subroutine take_entry(last)
-         integer, intent(in) :: last           !! of the text
+         integer, intent(in) :: last           !! last byte of the text that may be read
 
          character(:), allocatable :: name, trouble
-         integer :: k, most, place, used
-         logical :: is_bad, is_read   ! is_read: whether words are read as values
+         integer :: k, most_values, place, used
+         logical :: is_bad     ! whether a value cannot be used
+         logical :: is_read    ! whether words are read as values; if not they are skipped
          real(dp), allocatable :: numbers(:)
-         type(token_type) :: before, equals
+         type(token_type) :: before, equals   ! the token before the next one; the '=' of the entry
          type(word_value) :: value
 
          place = token%first
          name = lower_case(text%content(place:token%last))
          call find_key(name, place, k)
-         most = 0
-         if (k > 0) most = lists(g)%rows(k)%most_values
-         allocate (numbers(most))
+         most_values = 0
+         if (k > 0) most_values = lists(g)%rows(k)%most_values
+         allocate (numbers(most_values))
          used = 0
          is_read = k > 0
          is_bad = .false.
@@ -217,7 +227,7 @@ contains
                                     'this quote is not closed on its line; within a text a quote is doubled')
                end if
                quote_is_open = .true.
-               ! Keys may stand behind it.
+               ! The broken word may hide keys behind it, so that no key of the group counts as missing.
                if (g > 0) lists(g)%group%has_unknown = .true.
                is_bad = .true.
             case (is_word)
@@ -235,19 +245,22 @@ contains
             end select
          end do
          if (k == 0) return
-         call lists(g)%take(k, place, numbers(:merge(0, used, is_bad)), value%text)
+         if (is_bad) used = 0
+         call lists(g)%take(k, place, numbers(:used), value%text)
          if (before%last == equals%last) call problems%add(place, &
             name//' has no value: it must be '//allowed_values(lists(g)%rows(k)))
       end subroutine take_entry
 
-      !> Sets k to the number of a key whose values are to be read; reports unknown keys and those given twice.
+      !> Finds a key of the open group. Unknown keys and keys given twice are reported.
       subroutine find_key(name, place, k)
          character(*), intent(in) :: name   !! in lower case
-         integer, intent(in) :: place       !! in the text
-         integer, intent(out) :: k          !! 0: they are not, as where the group is unknown or an option sets the key
+         integer, intent(in) :: place       !! position of the key in the text
+         !> Number of the key; 0 if its values are not to be read: it was reported, the group is unknown, or a setting
+         !> of the command line replaces the key.
+         integer, intent(out) :: k
 
          character(:), allocatable :: before
-         integer :: first, i, last, nearest
+         integer :: candidate, first, i, last
          logical, allocatable :: is_given(:)
 
          k = 0
@@ -257,11 +270,12 @@ contains
          if (k == 0) then
             lists(g)%group%has_unknown = .true.
             call problems%add(place, unknown_key(name, lists(g), lists))
-            ! A key that is misspelt in the deck is not reported as missing too, and the right one may follow.
+            ! A misspelt key of the deck counts as the nearest one, without a value: that is not reported as missing
+            ! too. The deck may still give the right key behind it.
             is_given = [(lists(g)%keys(i)%value%is_given, i=1, size(lists(g)%keys))]
-            nearest = nearest_name(name, lists(g)%rows%name, is_given)
-            if (nearest == 0 .or. place > text%own) return
-            if (.not. is_given(nearest)) call lists(g)%take(nearest, place)
+            candidate = nearest_name(name, lists(g)%rows%name, is_given)
+            if (candidate == 0 .or. place > text%own) return
+            if (.not. is_given(candidate)) call lists(g)%take(candidate, place)
             return
          end if
          associate (given => lists(g)%keys(k)%value)
@@ -278,14 +292,14 @@ contains
 
    end subroutine take_groups
 
-   !> Reads a word of a deck as the next value of a key, or the next ones.
+   !> Reads a word of a deck as the next value of a key or, if it is 'r*value', as the next r values.
    subroutine read_word(word, rows, k, numbers, used, value, trouble)
       character(*), intent(in) :: word
-      type(key_type), intent(in) :: rows(:)               !! of the group
+      type(key_type), intent(in) :: rows(:)               !! table of the group's keys
       integer, intent(in) :: k                            !! number of the key
-      real(dp), intent(inout) :: numbers(:)               !! of all values that the key may have
-      integer, intent(inout) :: used                      !! how many are given; more than may be: there are too many
-      type(word_value), intent(out) :: value
+      real(dp), intent(inout) :: numbers(:)               !! the values; its size is the most that the key may have
+      integer, intent(inout) :: used                      !! number of values so far; size(numbers) + 1: too many
+      type(word_value), intent(out) :: value              !! the value of this word
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
       integer :: left
@@ -314,7 +328,7 @@ contains
 
    !> The message for an unknown group.
    pure function unknown_group(name, lists) result(words)
-      character(*), intent(in) :: name  !! without '&'
+      character(*), intent(in) :: name  !! in lower case, without '&'
       type(key_list), intent(in) :: lists(:)
       character(:), allocatable :: words
 
@@ -325,8 +339,8 @@ contains
 
    !> The message for a key that the group does not have.
    pure function unknown_key(key, list, lists) result(words)
-      character(*), intent(in) :: key
-      type(key_list), intent(in) :: list, lists(:)   !! of the group; of all groups
+      character(*), intent(in) :: key                !! in lower case
+      type(key_list), intent(in) :: list, lists(:)   !! keys of the group; keys of all groups
       character(:), allocatable :: words
 
       integer :: bracket, i
@@ -349,33 +363,37 @@ contains
       end if
    end function unknown_key
 
-   !> Words for a key that no name is near: which keys it may mean, namely those whose name is a part of it, or else
-   !> those whose meaning has its longest part; all keys if that says little.
+   !> Words for an unknown key that has no similar name: which keys may be meant. The words of a name are what stands
+   !> between its underscores. Related are keys whose whole name is among the words of the unknown key; if there are
+   !> none, keys whose meaning contains the longest of these words. If no key or too many keys are related, all keys are
+   !> listed.
    pure function related_keys(key, keys) result(words)
-      character(*), intent(in) :: key
-      type(key_type), intent(in) :: keys(:)
+      character(*), intent(in) :: key       !! in lower case
+      type(key_type), intent(in) :: keys(:)   !! table of the group's keys
       character(:), allocatable :: words
 
-      integer, parameter :: longest = 40, most_related = 4, shortest = 4   ! letters of a key, keys, letters of a part
-      character(:), allocatable :: part
-      character(longest) :: parts
+      !> Most letters of an unknown key, most related keys that are named, fewest letters of a word that is compared.
+      integer, parameter :: longest = 40, most_related = 4, shortest = 4
+      character(:), allocatable :: longest_word
+      character(longest) :: name_words   ! the words of the unknown key with blanks between them
       character(name_length), allocatable :: split(:)
       integer :: i
       logical :: is_related(size(keys))
 
       words = '; its keys are '//listed(keys%name)
       if (len(key) > longest) return
-      parts = key
+      name_words = key
       do i = 1, len(key)
-         if (key(i:i) == '_') parts(i:i) = ' '
+         if (key(i:i) == '_') name_words(i:i) = ' '
       end do
-      if (parts == '') return
-      allocate (split, source=words_of(parts))
-      part = trim(split(maxloc(len_trim(split), dim=1)))
+      if (name_words == '') return
+      allocate (split, source=words_of(name_words))
+      longest_word = trim(split(maxloc(len_trim(split), dim=1)))
       is_related = [(len_trim(keys(i)%name) >= shortest .and. &
-                     index(' '//trim(parts)//' ', ' '//trim(keys(i)%name)//' ') > 0, i=1, size(keys))]
+                     index(' '//trim(name_words)//' ', ' '//trim(keys(i)%name)//' ') > 0, i=1, size(keys))]
       if (.not. any(is_related)) &
-         is_related = [(len(part) >= shortest .and. index(lower_case(keys(i)%meaning), part) > 0, i=1, size(keys))]
+         is_related = [(len(longest_word) >= shortest .and. index(lower_case(keys(i)%meaning), longest_word) > 0, &
+                        i=1, size(keys))]
       if (any(is_related) .and. count(is_related) <= most_related) &
          words = '; did you mean '//listed(in_quotes(pack(keys%name, is_related)), ' or ')//'?'
    end function related_keys

@@ -1,6 +1,7 @@
-!> The text of a deck file: its lines; its tokens, which are words, names of groups, and what separates them; and the
-!> report of problems in it. Any bytes are tokens. Options of the command line that set keys of the deck stand behind
-!> it, each as a line, so that problems with them have a place too.
+!> The text of a deck file: its lines; its tokens, which are words, names of groups and separators; and the report of
+!> problems in it. Any sequence of bytes can be split into tokens. Options of the command line that set keys of the deck
+!> are added behind the deck's own text, each as a line, so that a problem with an option has a position in the text
+!> too.
 module wavycon_deck_text
    use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_error, only: error_type
@@ -15,11 +16,11 @@ module wavycon_deck_text
    public :: deck_text_type, problem_report, read_deck_text
    public :: token_type, has_curly_quote, next_token, starts_entry
 
-   !> A place is the number of a byte of the text, counted from 1.
+   !> The text. A place is the position of a byte in the text, counted from 1.
    type :: deck_text_type
-      character(:), allocatable :: path        !! as the user named the file
+      character(:), allocatable :: path        !! path of the file as the user gave it
       character(:), allocatable :: content     !! lines that end in LF, CR LF or CR, and a line for each option
-      integer :: own = 0                       !! place of the last byte of the file; options are behind it
+      integer :: own = 0                       !! place of the last byte of the file's own text; options are behind it
    contains
       procedure :: line_of
       procedure :: line_bounds
@@ -34,7 +35,7 @@ module wavycon_deck_text
    integer, parameter, public :: at_end = 0, is_word = 1, is_broken_word = 2, is_equals = 3, is_comma = 4, &
       is_slash = 5, is_group = 6
 
-   !> The bytes `first` to `last` of the deck's text; behind the last byte at its end.
+   !> A token: the bytes `first` to `last` of the text. At the end of the text, `first` is behind the last byte.
    type :: token_type
       integer :: kind = at_end, first = 1, last = 0
    end type token_type
@@ -42,18 +43,19 @@ module wavycon_deck_text
    character(*), parameter :: carriage_return = achar(13), line_ends = newline//carriage_return
    character(*), parameter :: blanks = ' '//achar(9)//line_ends
    character(*), parameter, public :: quotes = '"'''
-   !> In the order of their kinds, which follow that of the broken word.
+   !> The separators, in the order of their kinds is_equals, is_comma, is_slash, is_group: the first follows
+   !> is_broken_word.
    character(*), parameter :: separators = '=,/&'
    character(*), parameter :: word_ends = blanks//separators//'!'
 
    !> Most bytes of a deck. The longest list of loads takes a tenth of this.
-   integer, parameter :: largest = 64*1024*1024
+   integer, parameter :: most_bytes = 64*1024*1024
 
 contains
 
-   !> A text from memory. A byte order mark is left out.
+   !> The text of a deck in memory. A byte order mark at its start is left out.
    pure type(deck_text_type) function new_deck_text(path, content) result(text)
-      character(*), intent(in) :: path, content
+      character(*), intent(in) :: path, content   !! name of the deck for messages, and its bytes
 
       text%path = path
       text%content = content
@@ -61,7 +63,7 @@ contains
       text%own = len(text%content)
    end function new_deck_text
 
-   !> The number of the line that a place is in.
+   !> The number of the line in which a place is, from 1.
    pure integer function line_of(self, place)
       class(deck_text_type), intent(in) :: self
       integer, intent(in) :: place  !! >= 1
@@ -70,23 +72,23 @@ contains
 
       line_of = 1
       do i = 1, place - 1
-         ! Of CR LF the LF ends the line.
+         ! A line ends at its LF or, if no LF follows, at its CR.
          if (self%content(i:i) == newline .or. (self%content(i:i) == carriage_return .and. &
                                                 self%content(i + 1:i + 1) /= newline)) line_of = line_of + 1
       end do
    end function line_of
 
-   !> First and last place, without its line end, of the line that a place is in.
+   !> The first and the last byte of the line in which a place is.
    pure subroutine line_bounds(self, place, first, last)
       class(deck_text_type), intent(in) :: self
-      integer, intent(in) :: place   !! not of a line end
-      integer, intent(out) :: first, last
+      integer, intent(in) :: place          !! place of a byte that is not CR or LF
+      integer, intent(out) :: first, last   !! places of these bytes; the line end is left out
 
       first = scan(self%content(:place - 1), line_ends, back=.true.) + 1
       last = end_before(self%content, place, line_ends)
    end subroutine line_bounds
 
-   !> Reads the text of a deck file. Errors: exit_file_trouble.
+   !> Reads the text of a deck file: the first rank reads the file, and all get the text. Errors: exit_file_trouble.
    subroutine read_deck_text(path, text, error)
       character(*), intent(in) :: path
       type(deck_text_type), intent(out) :: text
@@ -94,7 +96,7 @@ contains
 
       character(:), allocatable :: content
 
-      if (is_first_rank()) call read_file(path, largest, content, error)
+      if (is_first_rank()) call read_file(path, most_bytes, content, error)
       call note_input(path//c_null_char)
       call share_error(error)
       if (allocated(error)) return
@@ -103,7 +105,7 @@ contains
       text = deck_text_type(path, content)
    end subroutine read_deck_text
 
-   !> The first token from a place on.
+   !> The first token from a place on. Blanks, line ends and comments before it are skipped.
    pure type(token_type) function next_token(content, place) result(token)
       character(*), intent(in) :: content
       integer, intent(in) :: place
@@ -132,20 +134,21 @@ contains
       end if
    end function next_token
 
-   !> The place before the first byte of a set at or after `place`; the last place if there is none.
+   !> The place before the first byte that is in a set, searched from `place` on; the last place of the text if no byte
+   !> is.
    pure integer function end_before(content, place, set)
-      character(*), intent(in) :: content, set
+      character(*), intent(in) :: content, set   !! the text; the bytes of the set
       integer, intent(in) :: place
 
       end_before = scan(content(place:), set) + place - 2
       if (end_before < place - 1) end_before = len(content)
    end function end_before
 
-   !> Finds the end of a word: the closing quote, or the byte before the next separator. If a quote is not closed on its
-   !> line, the word is broken. So is one that begins with a curly quote: it ends with its line.
+   !> Finds the end of a word: its closing quote, or the byte before the next blank or separator. A word whose quote is
+   !> not closed on its line is broken. A word that begins with a curly quote is broken too and ends with its line.
    pure subroutine find_word_end(content, token)
       character(*), intent(in) :: content
-      type(token_type), intent(inout) :: token
+      type(token_type), intent(inout) :: token   !! on entry its first byte and kind; on exit its last byte and kind
 
       character(1) :: quote
 
@@ -179,7 +182,7 @@ contains
                               text(i + 2:i + 2) <= char(159), i=1, len(text) - 2)])
    end function has_curly_quote
 
-   !> Whether a token begins an entry `key = values`: a word followed by '='.
+   !> Whether a token begins an entry `key = values`: it is a word, and '=' follows.
    pure logical function starts_entry(content, token)
       character(*), intent(in) :: content
       type(token_type), intent(in) :: token
@@ -190,12 +193,12 @@ contains
       starts_entry = token%kind == is_word .and. next%kind == is_equals
    end function starts_entry
 
-   !> The report of all problems in a deck, as the message of one error: in the order of their places, numbered, each
-   !> with its line and a caret.
+   !> The report of all problems in a deck, as the message of one error. Problems are numbered in the order of their
+   !> places. Each has its line of the deck with a caret below the place.
    pure function problem_report(problems, text) result(report)
-      type(problem_list_type), intent(in) :: problems  !! at least one
+      type(problem_list_type), intent(in) :: problems  !! at least one problem
       type(deck_text_type), intent(in) :: text
-      character(:), allocatable :: report  !! lines, the last without a newline
+      character(:), allocatable :: report              !! lines; the last has no newline
 
       character(:), allocatable :: total, words
       integer :: first, i, last
@@ -225,10 +228,10 @@ contains
       if (problems%number > most_kept) report = report//newline//'and more'
    end function problem_report
 
-   !> The line with a caret below the place. A long line is cut around the place.
+   !> A line of the deck, with a caret below a place in a second line. A long line is cut on both sides of the place.
    pure function line_and_caret(text, place, first, last) result(words)
       type(deck_text_type), intent(in) :: text
-      integer, intent(in) :: place, first, last   !! in the text: of the problem and of its line
+      integer, intent(in) :: place, first, last   !! places of the problem and of the first and last byte of its line
       character(:), allocatable :: words
 
       integer, parameter :: longest_line = 100, most_before = 60, most_after = 40, narrowest_number = 4

@@ -1,4 +1,5 @@
-!> The &interface group: what follows from the contact for the interface. Without it nothing of this is computed.
+!> The &interface group: stiffness and resistance of the contact, partial slip and adhesion. They are computed only if
+!> the deck has this group.
 module wavycon_interface_group
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_free_edges, only: ball_radii, is_ball
@@ -23,7 +24,7 @@ contains
 
    !> The keys of &interface.
    subroutine list_interface_keys(values, keys)
-      type(interface_group), intent(in), target :: values
+      type(interface_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
       keys = key_list('interface', 'stiffness and resistance of the contact, partial slip, adhesion', values%key_group)
@@ -59,14 +60,15 @@ contains
          'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0))
    end subroutine list_interface_keys
 
-   !> Reports what is missing, contradicts, or does not exist on the surface; if there is nothing of this, makes what
-   !> the group asks for.
+   !> Checks the keys and makes the setting that the group asks for. Keys that are missing, that contradict each other
+   !> or &material, and that the surface cannot have are reported; the setting is then not made.
    subroutine check_interface_group(values, material, surface, p_star, setting)
       type(interface_group), intent(inout) :: values
       type(material_group), intent(in) :: material
-      type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
+      type(surface_type), intent(in), optional :: surface   !! absent if it could not be made
       real(dp), intent(in) :: p_star                !! p* [pressure]; 0 if the surface is flat or &material is bad
-      type(interface_setting), allocatable, intent(out) :: setting   !! not allocated without the group
+      !> Not allocated if the deck does not have the group, and after problems.
+      type(interface_setting), allocatable, intent(out) :: setting
 
       real(dp) :: kappa(3)
       real(dp), allocatable :: e(:), nu(:)
@@ -118,10 +120,14 @@ contains
       kappa = shear_factors(e, nu)
       if (material%nu1%is_given) setting%beta = dundurs_beta(e, nu)
       setting%kappa = [kappa(3), minval(kappa), maxval(kappa)]
-      if (surface%dimension == 1) setting%kappa = kappa(merge(2, 1, values%shear_direction%text == 'y'))
+      ! On a profile the tangential load has one direction: across its ridges (1) or along them (2). In 2-D the
+      ! direction 'y' was reported.
+      if (surface%dimension == 1) setting%kappa = kappa(1)
+      if (values%shear_direction%text == 'y') setting%kappa = kappa(2)
    end subroutine check_interface_group
 
-   !> Whether a surface has exact solutions with adhesion: in closed form, or by expansions of spots of one shape.
+   !> Whether adhesion is computed for a surface: a round ball and the 1-D wave of the paper by closed forms, 2-D waves
+   !> that solver = 'fitted' takes by collocation.
    logical function has_adhesion(surface)
       type(surface_type), intent(in) :: surface
 

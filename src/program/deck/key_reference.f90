@@ -1,4 +1,5 @@
-!> The reference of all groups and keys, as text for --help and as JSON, from the lists that decks are checked against.
+!> The reference of all groups and keys, as text for --help and as JSON. It is made from the same tables by which decks
+!> are checked.
 module wavycon_key_reference
    use wavycon_deck_groups, only: list_keys, number_of_groups
    use wavycon_key_group, only: key_list
@@ -14,30 +15,31 @@ module wavycon_key_reference
 
    integer, parameter, public :: widest_line = 100
 
-   !> In the order of the kinds of wavycon_key_table.
+   !> Names of the types of values in JSON, in the order of the kinds of wavycon_key_table.
    character(*), parameter :: type_names(*) = ['real   ', 'integer', 'logical', 'text   ', 'choice ']
 
 contains
 
-   !> The reference: lines, each with a newline and none longer than `widest_line`.
+   !> The reference as text: lines of at most `widest_line` characters, each with a newline.
    function key_reference() result(reference)
       character(:), allocatable :: reference
 
       type(key_list) :: lists(number_of_groups)
-      type(scene_type), target :: none
-      character(:), allocatable :: line   ! allowed values, unit, default
+      type(scene_type), target :: no_scene   ! records without values, to which the lists point
+      character(:), allocatable :: line      ! heading of a group; allowed values, unit and default of a key
       integer :: i, k
 
       reference = ''
-      call list_keys(none, lists)
+      call list_keys(no_scene, lists)
       call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
          "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
       do i = 1, size(lists)
          reference = reference//newline
-         call add_wrapped(reference, 0, '&'//trim(lists(i)%name)//'   '//trim(lists(i)%meaning)// &
-            trim(merge(' (required)', '           ', lists(i)%required)))
+         line = '&'//trim(lists(i)%name)//'   '//trim(lists(i)%meaning)
+         if (lists(i)%required) line = line//' (required)'
+         call add_wrapped(reference, 0, line)
          do k = 1, size(lists(i)%rows)
             associate (key => lists(i)%rows(k))
                line = allowed_values(key)
@@ -52,12 +54,12 @@ contains
       end do
    end function key_reference
 
-   !> Adds a text as lines that begin with blanks and break between words.
+   !> Adds a text, broken between words into lines of at most `widest_line` characters.
    subroutine add_wrapped(reference, indent, text, head)
-      character(:), allocatable, intent(inout) :: reference
-      integer, intent(in) :: indent                !! blanks
+      character(:), allocatable, intent(inout) :: reference   !! gets the lines at its end
+      integer, intent(in) :: indent                !! number of blanks at the start of each line
       character(*), intent(in) :: text
-      character(*), intent(in), optional :: head   !! of the first line, in place of its blanks
+      character(*), intent(in), optional :: head   !! text in place of the blanks of the first line
 
       character(:), allocatable :: start
       integer :: first, last
@@ -75,18 +77,18 @@ contains
       end do
    end subroutine add_wrapped
 
-   !> A list of groups, each with name, meaning, required and keys; a key has name, type, unit, default, required, least
-   !> and most (null: no bound), above and below (whether the bounds themselves are excluded), most_values, longest
-   !> (bytes of a text), choices, read_by (for which values of the key that selects a kind or a solver it is read) and
-   !> meaning. A default is written as in a deck.
+   !> The reference as JSON: a list of groups, each with name, meaning, required and keys. A key has name, type, unit,
+   !> default, required, least and most (null: no bound), above and below (whether the bounds themselves are excluded),
+   !> most_values, longest (most bytes of a text), choices, read_by (the kinds of surface or the solvers that read the
+   !> key) and meaning. A default is written as in a deck.
    function key_json() result(json)
       character(:), allocatable :: json
 
       type(key_list) :: lists(number_of_groups)
-      type(scene_type), target :: none
+      type(scene_type), target :: no_scene   ! records without values, to which the lists point
       integer :: i, k
 
-      call list_keys(none, lists)
+      call list_keys(no_scene, lists)
       json = '['
       do i = 1, size(lists)
          if (i > 1) json = json//','
@@ -101,6 +103,7 @@ contains
       json = json//newline//']'
    end function key_json
 
+   !> A key as an object of JSON.
    function key_object(key) result(json)
       type(key_type), intent(in) :: key
       character(:), allocatable :: json
@@ -116,7 +119,7 @@ contains
       json = json//', "meaning": '//text(full_meaning(key))//'}'
    end function key_object
 
-   !> A list of texts.
+   !> A list of texts in JSON.
    pure function list(names) result(json)
       character(*), intent(in) :: names(:)
       character(:), allocatable :: json
@@ -130,6 +133,7 @@ contains
       json = '['//json(3:)//']'
    end function list
 
+   !> A bound in JSON; null if there is none.
    pure function bound(number) result(json)
       real(dp), intent(in) :: number
       character(:), allocatable :: json
@@ -138,14 +142,16 @@ contains
       if (abs(number) < no_bound) json = exact_number(number)
    end function bound
 
+   !> A logical value in JSON.
    pure function truth(value) result(json)
       logical, intent(in) :: value
       character(:), allocatable :: json
 
-      json = trim(merge('true ', 'false', value))
+      json = 'false'
+      if (value) json = 'true'
    end function truth
 
-   !> A text in quotes. The lists have no control characters.
+   !> A text in JSON. Texts of the tables of keys have no control characters, which JSON would have to escape.
    pure function text(words) result(json)
       character(*), intent(in) :: words
       character(:), allocatable :: json

@@ -13,18 +13,20 @@ module wavycon_load_group
 
    public :: check_load_group, given_loads, list_load_keys, take_loads
 
-   !> Largest load accepted. Contact is full from 1 on: a load far above it is most likely a mistake of units.
+   !> Largest mean pressure over p* that is accepted. Contact is full from 1 on, and a load far above 1 is most likely a
+   !> mistake of units.
    real(dp), parameter :: largest_pbar_over_pstar = 1.0e6_dp
 
    integer, parameter :: most_loads = 100000
 
-   !> Numbers of six digits, as those of the log, may be rounded up by this part of themselves.
+   !> Relative excess over a limit that is allowed: a user may copy a number of six digits from the log, and rounding
+   !> may have raised it by this part.
    real(dp), parameter :: rounding = 5e-6_dp
 
-   !> What the keys of loads give, which are the first of the table.
+   !> The quantity that each key of loads gives. These keys are the first of the table, in this order.
    integer, parameter :: list_is(*) = [by_pressure, by_pressure, by_mean_gap, by_mean_gap, by_contact_area, by_yield, &
                                        by_pressure, by_approach, by_contact_area, by_pressure]
-   !> The loads that need p*, full contact or the mean gap of a surface that is repeated.
+   !> Keys whose loads refer to p* or to the mean gap, which only a surface without free edges has.
    character(23), parameter :: periodic_lists(*) = [character(23) :: 'pbar_over_pstar', 'sweep_from', 'mean_gap', &
                                                     'mean_gap_over_amplitude']
 
@@ -32,7 +34,7 @@ contains
 
    !> The keys of &load.
    subroutine list_load_keys(values, keys)
-      type(load_group), intent(in), target :: values
+      type(load_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
       keys = key_list('load', 'the loads to solve for: a list of one kind, or a sweep', values%key_group, &
@@ -73,20 +75,21 @@ contains
          needs='sweep_from'))
    end subroutine list_load_keys
 
-   !> Checks the keys, and reports tensions and separations without adhesion.
+   !> Checks the keys. Tensions and separations without adhesion, and contradictions, are reported.
    subroutine check_load_group(values, with_adhesion)
       type(load_group), intent(inout) :: values
       logical, intent(in) :: with_adhesion   !! whether loads may be tensions, and approaches separations
 
-      character(:), allocatable :: key
+      character(:), allocatable :: key, kind
       integer :: loads_by, place
       real(dp), allocatable :: loads(:)
 
       if (values%problems%number > 0 .or. values%place == 0 .or. values%any_bad) return
       call given_loads(values, key, place, loads_by, loads)
+      kind = 'tension'
+      if (loads_by == by_approach) kind = 'separation'
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(place, &
-         key//' = '//short_number(minval(loads))// &
-         ' is a '//trim(merge('separation', 'tension   ', loads_by == by_approach))// &
+         key//' = '//short_number(minval(loads))//' is a '//kind// &
          ': without work_of_adhesion of &interface it is >= 0')
       if (with_adhesion .and. loads_by == by_yield) call values%problems%add(place, &
          'the load of yield is found without adhesion: leave yield or work_of_adhesion of &interface out')
@@ -95,21 +98,22 @@ contains
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
    end subroutine check_load_group
 
-   !> Converts loads to the program's normalisation, and reports those that the surface cannot have: a mean gap above
-   !> that before load, an area above the nominal one, a pressure of more than largest_pbar_over_pstar p*, a gap or an
-   !> area on a flat surface, with free edges what needs p*. The largest gap, approach or area may be rounded up.
+   !> Converts loads to the program's normalisation. Loads that the surface cannot have are reported: a mean gap above
+   !> that before load, an area above the nominal area, a pressure above largest_pbar_over_pstar p*, a gap or an area on
+   !> a flat surface, and on a surface with free edges loads that refer to p*. A gap, approach or area may exceed its
+   !> limit by rounding.
    subroutine take_loads(values, surface, p_star, with_adhesion, loads_by, target, mean_pressure)
-      type(load_group), intent(inout) :: values                  !! without problems
+      type(load_group), intent(inout) :: values                  !! without problems before
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
-      logical, intent(in) :: with_adhesion                       !! as of check_load_group
-      integer, intent(out) :: loads_by                           !! a name of wavycon_scene
-      real(dp), allocatable, intent(out) :: target(:)            !! as of scene_type
+      logical, intent(in) :: with_adhesion                       !! as in check_load_group
+      integer, intent(out) :: loads_by                           !! by_pressure or another name of wavycon_scene
+      real(dp), allocatable, intent(out) :: target(:)            !! the component of scene_type
       real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
 
-      character(:), allocatable :: key, limit
+      character(:), allocatable :: key, limit   ! limit: the limit in words; empty: there is none to check
       integer :: place
-      real(dp) :: area, most   ! most: in the unit of the key
+      real(dp) :: area, most   ! most: largest value allowed, and unit of the target, in the unit of the key
 
       call given_loads(values, key, place, loads_by, target)
       limit = ''
@@ -125,7 +129,7 @@ contains
          call values%problems%add(place, 'the surface is flat: give its loads by pressure, not by gap, area or yield')
          return
       end if
-      ! The bounds of the other keys are in the table.
+      ! The limits of the other keys are bounds in the table of keys.
       select case (key)
       case ('pbar_over_pstar', 'sweep_from')
          mean_pressure = p_star*target
@@ -135,7 +139,7 @@ contains
          mean_pressure = target/area
          most = largest_pbar_over_pstar*p_star*area
          limit = short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)
-         ! There p* is a modulus times a slope.
+         ! With free edges p_star is only a unit, a modulus times a slope: do not call it p*.
          if (surface%has_free_edges) limit = short_number(largest_pbar_over_pstar)//' times what presses the map flat'
       case ('mean_gap', 'approach')
          most = surface%amplitude
@@ -148,8 +152,9 @@ contains
          limit = 'the nominal area, '//short_number(most)
       end select
       if (p_star <= 0.0_dp) then
-         ! On a flat surface contact is full at every load.
-         target = merge(ieee_value(1.0_dp, ieee_positive_inf), 1.0_dp, mean_pressure > 0.0_dp)
+         ! On a flat surface, whose p* is 0, contact is full at every load: P is infinite, and 1 without load.
+         target = 1.0_dp
+         where (mean_pressure > 0.0_dp) target = ieee_value(1.0_dp, ieee_positive_inf)
          return
       end if
       if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges)) then
@@ -167,12 +172,12 @@ contains
       end if
    end subroutine take_loads
 
-   !> The loads in the deck's order. None if the group does not give them.
+   !> The loads in the deck's order; none if the group does not give loads.
    subroutine given_loads(values, key, place, loads_by, loads)
       type(load_group), intent(in), target :: values        !! without bad values
-      character(:), allocatable, intent(out) :: key         !! that gives them; sweep_from for a sweep, of p*
-      integer, intent(out) :: place                         !! of the key in the deck's text
-      integer, intent(out) :: loads_by                      !! a name of wavycon_scene
+      character(:), allocatable, intent(out) :: key         !! key that gives the loads; 'sweep_from' for a sweep
+      integer, intent(out) :: place                         !! position of the key in the deck's text
+      integer, intent(out) :: loads_by                      !! by_pressure or another name of wavycon_scene
       real(dp), allocatable, intent(out) :: loads(:)        !! [unit of the key]
 
       integer :: k
@@ -190,7 +195,7 @@ contains
       associate (from => values%sweep_from%number, to => values%sweep_to%number, &
                  last => nint(values%sweep_steps%number) - 1)
          loads = [((from*(last - k) + to*k)/max(1, last), k=0, last)]
-         ! Both ends are exact.
+         ! Set both ends exactly: the formula rounds them.
          loads(last + 1) = to
          loads(1) = from
       end associate

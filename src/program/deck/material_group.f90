@@ -11,14 +11,14 @@ module wavycon_material_group
 
    public :: check_material_group, list_material_keys, plane_strain_modulus, take_ratios
 
-   !> Largest ratio of hardness and p*: a hardness farther away is most likely a mistake of units.
+   !> Largest ratio of the hardness to p*, and of p* to the hardness. A larger ratio is most likely a mistake of units.
    real(dp), parameter :: most_hardness = 1.0e6_dp
 
 contains
 
    !> The keys of &material.
    subroutine list_material_keys(values, keys)
-      type(material_group), intent(in), target :: values
+      type(material_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
       keys = key_list('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', values%key_group)
@@ -37,11 +37,11 @@ contains
          'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', above=0))
    end subroutine list_material_keys
 
-   !> Checks the keys. Finds E* and, where there is a surface, p*
-   !> and its hardness: not one of a flat surface, nor one so far from p* that its unit is most likely wrong.
+   !> Checks the keys, finds E* and p*, and sets the hardness of the surface. A hardness of a flat surface is reported,
+   !> and one that is not within `most_hardness` of p*.
    subroutine check_material_group(values, surface, e_star, p_star)
       type(material_group), intent(inout) :: values
-      type(surface_type), allocatable, intent(inout) :: surface   !! not allocated if it has problems
+      type(surface_type), allocatable, intent(inout) :: surface   !! not allocated if it could not be made
       real(dp), intent(out) :: e_star, p_star                      !! E*, p* [pressure]; 0 if there are problems
 
       real(dp) :: hardness
@@ -65,10 +65,10 @@ contains
       end if
    end subroutine check_material_group
 
-   !> E* of the pair [pressure]: as given, or from 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, without the second term if
-   !> the second body is rigid.
+   !> The modulus E* of the pair of bodies [pressure]: the deck's e_star, or 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. If
+   !> the deck gives no E2 the second body is rigid, and the second term is left out.
    pure real(dp) function plane_strain_modulus(values) result(e_star)
-      type(material_group), intent(in) :: values   !! of a &material group without problems
+      type(material_group), intent(in) :: values   !! without problems
 
       real(dp) :: compliance
 
@@ -81,15 +81,16 @@ contains
       end if
    end function plane_strain_modulus
 
-   !> Sets the key nu of another group, Poisson's ratios, to those of &material. Reports that both or none give them.
+   !> Sets the key nu of another group, Poisson's ratios, to the ratios of &material. If both groups give ratios, or
+   !> neither, a problem is reported.
    subroutine take_ratios(group, name, nu, material)
-      class(key_group), intent(inout) :: group       !! which the deck gives
-      character(*), intent(in) :: name               !! of the group
-      type(key_value), intent(inout) :: nu           !! its key
+      class(key_group), intent(inout) :: group       !! the other group, which the deck has
+      character(*), intent(in) :: name               !! its name
+      type(key_value), intent(inout) :: nu           !! its key nu
       type(material_group), intent(in) :: material
 
       if (material%any_bad .or. group%has_unknown .or. nu%is_bad) return
-      ! Then &material lacks nu1, which has been reported.
+      ! Here &material lacks nu1, which has been reported.
       if (material%e1%is_given .and. .not. material%nu1%is_given) return
       if (material%nu1%is_given) then
          if (nu%is_given) call group%complain(nu, 'nu contradicts nu1 of &material: leave it out')

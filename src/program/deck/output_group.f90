@@ -15,23 +15,23 @@ module wavycon_output_group
 
    public :: check_output_group, list_output_keys, plain_directory
 
-   !> Points of lines and maps along a side of the cell: as many as a height map may have.
+   !> Most points of lines and maps along a side of the cell.
    integer, parameter :: most_points = 8192
-   !> Points of maps along a side of the cell where the deck, the surface and the method give none; fewest intervals of
-   !> lines by default.
+   !> Points of maps along a side of the cell if neither deck nor surface nor method give a number; by default lines
+   !> have at least as many intervals.
    integer, parameter :: usual_points = 128
 
-   !> Bins of histograms: the table is a text.
+   !> Most bins of histograms, whose table is a text.
    integer, parameter :: most_bins = 10000
 
-   !> Bytes of a directory's name. The default, 'outputs/' and the name of the case, must fit.
+   !> Most bytes of a directory's name. The default, 'outputs/' and the name of the case, must fit.
    integer, parameter, public :: longest_directory = 250
 
 contains
 
    !> The keys of &output: the directory, and a logical key for each table that can be requested.
    subroutine list_output_keys(values, keys)
-      type(output_group), intent(in), target :: values
+      type(output_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
       type(table_type), allocatable :: tables(:)
@@ -60,18 +60,19 @@ contains
          'bins of the histograms of pressure and of gap, of equal width.', 4, most_bins))
    end subroutine list_output_keys
 
-   !> Sets the directory and the points of lines and maps, and checks the tables against the solver and the surface.
-   subroutine check_output_group(values, case, method, surface)
+   !> Sets the directory and the points of lines and maps. Tables that the solver or the surface cannot have are
+   !> reported.
+   subroutine check_output_group(values, case_name, method, surface)
       type(output_group), intent(inout) :: values
-      character(*), intent(in) :: case     !! name of the case; the default directory is outputs/<case>
-      type(method_group), intent(in) :: method   !! after its check
-      type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it has problems
+      character(*), intent(in) :: case_name     !! the default directory is outputs/<case>
+      type(method_group), intent(in) :: method   !! the values of &method after check_method_group
+      type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it could not be made
 
       type(table_type), allocatable :: tables(:)
       character(:), allocatable :: refusal
       integer :: i
 
-      call values%directory%set_default(text='outputs/'//case)
+      call values%directory%set_default(text='outputs/'//case_name)
       call values%directory%set(text=plain_directory(values%directory%text))
       if (.not. allocated(surface)) return
       if (.not. method%grid_points%is_bad) call set_points(values, method, surface)
@@ -84,11 +85,12 @@ contains
       end do
    end subroutine check_output_group
 
-   !> Sets the points of maps in full and those of lines: as given or, by default, from those of the grid to solve or,
-   !> if the deck gives none, of the height map, on the part of the cell that decks refer to.
+   !> Sets the numbers of points of maps along x and y, and the intervals of lines. Defaults follow from the grid that
+   !> the deck gives or, without one, from the height map. On a mirrored surface they count the map without its mirror
+   !> images, not the cell.
    subroutine set_points(values, method, surface)
       type(output_group), intent(inout) :: values
-      type(method_group), intent(in) :: method   !! &method, after its check
+      type(method_group), intent(in) :: method   !! the values of &method after check_method_group
       type(surface_type), intent(in) :: surface
 
       integer :: finest, grid(2)
@@ -97,7 +99,8 @@ contains
       grid = points_of_grid(method, surface)
       if (all(grid == 0)) grid = surface%points
       grid = grid/surface%parts()
-      ! A multiple of the grid's points: lines on a square height map pass through its points and do not cut peaks.
+      ! Lines take a multiple of the grid's points: on a square height map they then pass through the map's points and
+      ! do not miss peaks.
       finest = max(1, maxval(grid))
       call values%line_points%set_default([real(finest*((max(usual_points, finest) + finest - 1)/finest), dp)])
       if (values%map_points%is_bad) return
@@ -107,12 +110,12 @@ contains
       call values%map_points%set(points(:surface%dimension))
    end subroutine set_points
 
-   !> The path of a directory without superfluous './' and '/', so that equal paths are equal texts.
+   !> The path of a directory without superfluous './' and '/', so that two ways to write a path give the same text.
    pure function plain_directory(name) result(plain)
       character(*), intent(in) :: name
       character(:), allocatable :: plain
 
-      character(*), parameter :: superfluous(*) = ['// ', '/./']   ! each is a '/'
+      character(*), parameter :: superfluous(*) = ['// ', '/./']   ! each means the same as '/'
       integer :: i, k
 
       plain = trim(name)//'/'

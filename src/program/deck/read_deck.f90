@@ -1,4 +1,4 @@
-!> Reads a deck file and reports all problems in it at once.
+!> Reads a deck and reports all its problems at once.
 !>
 !> The text is scanned here rather than by Fortran's NAMELIST, whose errors mislead: gfortran 12 reports a misspelt
 !> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is a
@@ -31,7 +31,7 @@ module wavycon_read_deck
 
 contains
 
-   !> Reads a deck file.
+   !> Reads a deck file: all that the deck describes becomes the scene.
    !>
    !> Errors: exit_file_trouble if the deck or its height map cannot be read; exit_bad_input, with a report of all
    !> problems, for a bad deck; exit_bad_input for a bad height map.
@@ -48,17 +48,20 @@ contains
       call parse_deck(text, scene, error, settings)
    end subroutine read_deck
 
-   !> Reads a deck from its text. Errors: as of `read_deck`, and exit_bad_input for heights of a kind that has no file.
+   !> Reads a deck from its text. Each group's values are taken first, then the surface is made, then each group is
+   !> checked against it; all problems of these steps are reported together. Errors: those of `read_deck`, and
+   !> exit_bad_input for `heights` beside a kind of surface that is not 'file'.
    subroutine parse_deck(deck_text, scene, error, settings, heights, in_memory)
       type(deck_text_type), intent(in) :: deck_text
       type(scene_type), intent(out), target :: scene  !! to be used only if there is no error
       type(error_type), allocatable, intent(out) :: error
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
-      !> Heights of the surface in place of those of its file: upwards to the other body, NaN where they are missing, x
-      !> first, one column or row of a profile.
+      !> Heights of the surface in place of those of its file, shape (points along x, points along y); upwards to the
+      !> other body, NaN where a height is missing. A profile has one column or one row.
       real(dp), intent(in), optional :: heights(:, :)
-      !> Whether the deck is no file: it may have no group &load, and its name need not serve as that of a case.
+      !> Whether the deck is text in memory, not a file. It then may have no group &load, and its path does not give the
+      !> name of the case.
       logical, intent(in), optional :: in_memory
 
       type(key_list) :: lists(number_of_groups)
@@ -113,19 +116,19 @@ contains
       if (.not. allocated(error)) call complete(scene, lists)
    end subroutine parse_deck
 
-   !> Checks &surface and, if it has no problems, makes the surface. A unit that its file names becomes the deck's label
-   !> if the deck gives none. Errors: as of `make_surface`.
+   !> Checks &surface and, if it has no problems, makes the surface. If the deck does not label its unit of lengths, the
+   !> unit that a height map's file names becomes the label. Errors: those of `make_surface`.
    subroutine read_surface(scene, error, heights)
       type(scene_type), intent(inout) :: scene
       type(error_type), allocatable, intent(out) :: error
-      real(dp), intent(in), optional :: heights(:, :)   !! as of parse_deck
+      real(dp), intent(in), optional :: heights(:, :)   !! as in parse_deck
 
       associate (values => scene%surface_values, labels => scene%scene_values)
          call check_surface_group(values)
          if (values%problems%number > 0 .or. values%any_bad) return
          if (values%kind%text == 'ball') then
             call set_ball_sides(scene)
-            ! Without sides checks of the surface would report problems that are not there.
+            ! A ball without sides cannot be made: the problem that left them unknown is reported elsewhere.
             if (values%problems%number + scene%load%problems%number > 0 .or. .not. values%length_y%in_effect) return
          end if
          values%deck_unit = ''
@@ -138,12 +141,14 @@ contains
       end associate
    end subroutine read_surface
 
-   !> Sets the default sides of a ball: some half axes of Hertz's contact at the largest load, or what carries it at the
-   !> hardness. If &material or &load has problems, which are reported later, they stay unknown.
+   !> Sets the default sides of a ball: a multiple of the half axes of Hertz's contact at the largest load. With a
+   !> hardness the contact is enlarged until the hardness, as a uniform pressure, carries the load. If &material or
+   !> &load has problems, which are reported elsewhere, the sides stay unknown.
    subroutine set_ball_sides(scene)
       type(scene_type), intent(inout) :: scene
 
-      !> Twice the contact, so that a hardness or a rough estimate of the load does not bring its edge to the border.
+      !> Sides of the cell over the half axes of the contact: the cell is twice as long as the contact. So the edge
+      !> stays off the border even if a hardness or a rough estimate of the load makes the contact larger.
       real(dp), parameter :: sides_over_half_axes = 4.0_dp
       character(:), allocatable :: key
       integer :: loads_by, place
@@ -159,7 +164,7 @@ contains
          if (any(key == ['mean_pressure        ', 'contact_area_fraction'])) call scene%load%problems%add(place, &
             key//' needs the sides of the ball, length_x and length_y: give them, or force, approach or contact_area')
          largest = max(0.0_dp, maxval(abs(loads)))
-         ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress.
+         ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress: take 2 times.
          if (key == 'yield' .and. .not. scene%stress%any_bad) &
             largest = 2*largest*max(0.0_dp, scene%stress%yield_stress%number)
          e_star = plane_strain_modulus(scene%material)
@@ -175,7 +180,7 @@ contains
             contact = hertz_contact(radii, e_star, peak_pressure=largest)
          end select
          half_axis = contact%half_axis
-         ! Without load any rectangle will do.
+         ! Without load there is no contact, and the sides are arbitrary.
          if (.not. minval(half_axis) > 0.0_dp) then
             half_axis = minval(radii)/10
          else if (scene%material%hardness%is_given) then
@@ -187,10 +192,11 @@ contains
       end associate
    end subroutine set_ball_sides
 
-   !> Sets what follows from the values of a deck without problems: loads, labels, settings, the resolved deck.
+   !> Sets the components of the scene that follow from the values of a deck without problems: roughness, units, names,
+   !> the resolved deck, and what the deck asks for.
    subroutine complete(scene, lists)
       type(scene_type), intent(inout), target :: scene
-      type(key_list), intent(in) :: lists(:)   !! of its keys
+      type(key_list), intent(in) :: lists(:)   !! keys of all groups
 
       character(:), allocatable :: file
       integer :: i
@@ -208,10 +214,11 @@ contains
          scene%directory = scene%output%directory%text
          call scene%output%directory%set(text='')
          scene%fingerprint = resolved_deck_text(scene)
-         ! The first line has the path of the deck.
+         ! Leave out the first line, which has the path of the deck.
          scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
          call scene%output%directory%set(text=scene%directory)
-         ! A copy of the resolved deck in another directory must find the map. A map that was made has no file.
+         ! The resolved deck names the map's file by its absolute path, so that a copy of the deck in another directory
+         ! finds the file. A map that was made, not read, has no file.
          file = surface%file%text
          if (allocated(scene%map)) then
             if (scene%map%path /= '') call surface%file%set(text=scene%map%path)
@@ -226,8 +233,8 @@ contains
       end do
    end subroutine complete
 
-   !> The resolved deck: every key that applies, with the value in effect; to run it repeats the run. Lines, the last
-   !> without a newline.
+   !> The resolved deck: every key that applies, with the value in effect. A run of the resolved deck gives the same
+   !> results. The last line has no newline.
    function resolved_deck_text(scene) result(text)
       type(scene_type), intent(in), target :: scene
       character(:), allocatable :: text
@@ -238,16 +245,17 @@ contains
       call list_keys(scene, lists)
       text = '! '//escaped(scene%deck_path)//' with the value in effect of every key that applies.'
       do i = 1, size(lists)
-         ! The groups themselves ask for stresses and for what the interface does.
+         ! A group &load, &stress or &interface that the deck does not have is left out: the group alone would ask for
+         ! computations.
          if (lists(i)%group%place > 0 .or. all(lists(i)%name /= ['load     ', 'stress   ', 'interface'])) &
             text = text//group_text(lists(i))
       end do
    end function resolved_deck_text
 
-   !> A group, each line with a newline before it: "key = value   ! [unit] allowed values", and a line for each further
-   !> value.
+   !> The text of a group in the resolved deck. A key has a line "key = value   ! [unit] allowed values", and a line for
+   !> each further value. Each line has a newline before it.
    !>
-   !> N.B. Without commas between the values: gfortran's NAMELIST reads a comma before a comment as an omitted value.
+   !> N.B. Values are not separated by commas: gfortran's NAMELIST reads a comma before a comment as an omitted value.
    function group_text(list) result(text)
       type(key_list), intent(in) :: list
       character(:), allocatable :: text

@@ -1,4 +1,5 @@
-!> Keys that the command line sets: `--set surface.amplitude=2e-6`. They are read and checked as if the deck gave them.
+!> Keys that the command line sets: `--set surface.amplitude=2e-6`. Their values are read and checked as if the deck
+!> gave them.
 module wavycon_settings
    use wavycon_deck_text, only: quotes
    use wavycon_key_group, only: key_list
@@ -11,17 +12,17 @@ module wavycon_settings
 
    public :: setting_type, read_setting, replaces, name_case
 
-   !> group.key=value
+   !> A setting, 'group.key=value' on the command line.
    type :: setting_type
       character(:), allocatable :: group, key   !! lower case
-      character(:), allocatable :: value        !! as given; texts with or without quotes
+      character(:), allocatable :: value        !! value as on the command line; texts with or without quotes
    end type setting_type
 
 contains
 
-   !> Reads 'group.key=value'. Names and value are checked later, with each deck.
+   !> Reads a setting. Names and value are checked later, with each deck.
    pure subroutine read_setting(word, setting, trouble)
-      character(*), intent(in) :: word
+      character(*), intent(in) :: word                    !! 'group.key=value'
       type(setting_type), intent(out) :: setting
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
@@ -40,13 +41,13 @@ contains
       end if
    end subroutine read_setting
 
-   !> Whether a setting takes the place of a key of a deck: of itself; of a key that gives the same in another way;
-   !> where it selects a kind of surface or a solver, of the keys that others read. Misspelt keys of the deck stay and
-   !> are reported.
+   !> Whether a setting replaces a key of a deck. A setting replaces three kinds of keys: the same key; keys that give
+   !> the same quantity in another way; if the setting selects a kind of surface or a solver, the keys that this kind or
+   !> solver does not read. Misspelt keys of the deck are not replaced, so that they are reported.
    pure logical function replaces(setting, table, key)
       type(setting_type), intent(in) :: setting
-      type(key_list), intent(in) :: table         !! of the group that the key stands in
-      character(*), intent(in) :: key
+      type(key_list), intent(in) :: table         !! keys of the group in which the key of the deck stands
+      character(*), intent(in) :: key             !! name of the key of the deck
 
       integer :: k, own
 
@@ -62,7 +63,7 @@ contains
       end associate
    end function replaces
 
-   !> The value without quotes.
+   !> The value of a setting without quotes.
    pure function plain_value(setting) result(value)
       type(setting_type), intent(in) :: setting
       character(:), allocatable :: value
@@ -71,11 +72,11 @@ contains
       if (len(value) > 1 .and. scan(value, quotes) == 1) value = unquoted(value)
    end function plain_value
 
-   !> Adds the keys and values that are set to the name of the case, so that runs of a deck with different values do not
-   !> replace each other's files. Not if the name itself is set; keys of &scene and &output are left out, which change
-   !> no number.
+   !> Adds the keys and values of settings to the name of the case, so that runs of a deck with different values do not
+   !> replace each other's files. If a setting gives the name itself, nothing is added. Settings of &scene and &output
+   !> are left out, because they change no number.
    subroutine name_case(scene, settings)
-      type(scene_group), intent(inout) :: scene   !! the group &scene, checked
+      type(scene_group), intent(inout) :: scene   !! the values of &scene after check_scene_group
       type(setting_type), intent(in) :: settings(:)
 
       character(:), allocatable :: name, value

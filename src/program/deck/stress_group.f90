@@ -1,4 +1,4 @@
-!> The &stress group: stresses below the surface. Without it nothing of this is computed.
+!> The &stress group: stresses below the surface. They are computed only if the deck has this group.
 module wavycon_stress_group
    use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_key_group, only: key_list
@@ -20,7 +20,7 @@ contains
 
    !> The keys of &stress.
    subroutine list_stress_keys(values, keys)
-      type(stress_group), intent(in), target :: values
+      type(stress_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
       keys = key_list('stress', 'stresses below the surface, and when it yields', values%key_group)
@@ -60,13 +60,14 @@ contains
          'shear stress.', choices='von_mises tresca', needs='yield_stress'))
    end subroutine list_stress_keys
 
-   !> Sets the defaults that depend on &material, reports what is missing or contradicts, and makes what the group asks
-   !> for. A rigid body has no stresses, and a body that is like the other is left out.
+   !> Sets the defaults that depend on &material, checks the keys, and makes the setting that the group asks for. The
+   !> setting has one body instead of two if the second body is rigid, and so has no stresses, or if both bodies have
+   !> the same Poisson's ratio and yield stress.
    subroutine check_stress_group(values, material, load, surface, p_star, setting)
       type(stress_group), intent(inout) :: values
       type(material_group), intent(in) :: material
       type(load_group), intent(inout) :: load
-      type(surface_type), intent(in), optional :: surface   !! absent if it is not known, or its keys are bad
+      type(surface_type), intent(in), optional :: surface   !! absent if it could not be made
       real(dp), intent(in) :: p_star                        !! p* [pressure]; 0 if the surface is flat
       type(stress_setting), allocatable, intent(out) :: setting   !! not allocated if the deck has no group &stress
 
@@ -103,14 +104,15 @@ contains
       bodies = 2
       associate (nu => values%nu%pair, yield => values%yield_stress%pair)
          if (maxval(nu) <= minval(nu) .and. maxval(yield) <= minval(yield)) bodies = 1
-         ! Without e2 the second body is rigid.
+         ! The second body is rigid if the deck gives e1 without e2.
          if (material%e1%is_given .and. .not. material%e2%is_given) bodies = 1
          allocate (setting%body, source=[(elastic_body(nu(i), lateral_of(values)), i=1, bodies)])
          if (values%yield_stress%is_given .and. p_star > 0.0_dp) setting%yield_stress = yield(:bodies)/p_star
       end associate
    end subroutine check_stress_group
 
-   !> The lateral stresses of the mean pressure: a name of wavycon_elastic_body.
+   !> How the mean pressure loads the bodies laterally: laterally_constrained, laterally_free or hydrostatic of
+   !> wavycon_elastic_body.
    pure integer function lateral_of(values) result(lateral)
       type(stress_group), intent(in) :: values
 

@@ -19,18 +19,19 @@ module wavycon_surface_group
 
    public :: check_sides, check_surface_group, list_surface_keys, make_surface
 
+   !> Most bytes of a file's path; most waves of a sum, and most periods of such a wave in the cell.
    integer, parameter :: longest_path = 1000, most_waves = 1000, highest_wave = 128
 
-   !> Largest ratio of the sides of a cell. The iterations on a grid grow as the square root of the longer side over the
-   !> shortest step. Up to this ratio waves, sums of waves and random maps of up to 128 x 128 points were all solved,
-   !> with at most 1700 iterations a load; not all maps at ten times the ratio.
+   !> Largest ratio of the sides of a cell. The number of iterations on a grid grows as the square root of the longer
+   !> side over the shortest step. Up to this ratio waves, sums of waves and random maps of up to 128 x 128 points were
+   !> all solved, with at most 1700 iterations for a load. At ten times this ratio some maps were not solved.
    real(dp), parameter :: largest_ratio = 1000.0_dp
 
 contains
 
    !> The keys of &surface.
    subroutine list_surface_keys(values, keys)
-      type(surface_group), intent(in), target :: values
+      type(surface_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
       character(*), parameter :: on_a_ball = "a ball that the map or the surface lies on, with edges = 'free'."
@@ -158,7 +159,7 @@ contains
          'radius of curvature along y.', above=0, way=21, needs='radius_x'))
    end subroutine list_surface_keys
 
-   !> Checks the keys against the kind and sets the defaults that depend on it.
+   !> Checks the keys against the kind of surface and sets the defaults that depend on the kind.
    subroutine check_surface_group(values)
       type(surface_group), intent(inout) :: values
 
@@ -176,9 +177,10 @@ contains
 
    contains
 
+      !> Reports two radii of curvature whose ratio is too large.
       subroutine check_radii(x, y, name)
          type(key_value), intent(in) :: x, y
-         character(*), intent(in) :: name
+         character(*), intent(in) :: name   !! name of both keys, without '_x' and '_y'
 
          real(dp), parameter :: largest_ratio = 1e4_dp
 
@@ -191,9 +193,10 @@ contains
 
    end subroutine check_surface_group
 
-   !> Reports a cell that is so long that loads would take too many iterations.
+   !> Reports a cell whose sides have so large a ratio that loads would take too many iterations. The report names the
+   !> keys, or the file, that give the sides.
    subroutine check_sides(values, surface)
-      type(surface_group), intent(inout) :: values      !! with which the surface was made
+      type(surface_group), intent(inout) :: values      !! values from which the surface was made
       type(surface_type), intent(in) :: surface
 
       character(:), allocatable :: keys
@@ -219,6 +222,7 @@ contains
 
    contains
 
+      !> Sets `keys` and `place` to two keys, if at least one of them is in effect.
       subroutine name_sides(x, y, names)
          type(key_value), intent(in) :: x, y
          character(*), intent(in) :: names
@@ -231,15 +235,17 @@ contains
 
    end subroutine check_sides
 
-   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read, exit_bad_input for a bad one
-   !> and for heights of a kind that has no file.
+   !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read; exit_bad_input for a bad height
+   !> map, and for `heights` beside a kind that is not 'file'.
    subroutine make_surface(values, surface, map, error, heights)
-      !> Without problems. Keys that have no effect beside what a file says are left out of the resolved deck.
+      !> The values of the keys, without problems. Keys that have no effect because the file gives the same are marked,
+      !> so that the resolved deck does not show them.
       type(surface_group), intent(inout) :: values
       type(surface_type), allocatable, intent(out) :: surface   !! not allocated in case of an error
       type(map_statistics), allocatable, intent(out) :: map     !! allocated for a height map
       type(error_type), allocatable, intent(out) :: error
-      real(dp), intent(in), optional :: heights(:, :)   !! in place of those of the file, as of surface_of_heights
+      !> Heights in place of those of the file, as in surface_of_heights.
+      real(dp), intent(in), optional :: heights(:, :)
 
       if (values%kind%text == '') return
       allocate (surface)

@@ -1,5 +1,6 @@
-!> A group of a deck: the values of its keys, which are components of a record, and the table that describes them. A
-!> list of keys connects both: what is read, checked and written for all keys alike goes through it.
+!> A group of a deck, such as &surface. The values of its keys are components of a record, which extends `key_group`; a
+!> table of rows describes the keys. A `key_list` connects both: procedures that read, check or write all keys alike go
+!> through the list.
 module wavycon_key_group
    use wavycon_key_table, only: allowed_values, integer_value, is_read, key_index, key_type, logical_value, &
       name_length, real_value, ways_in_words, words_of
@@ -15,49 +16,53 @@ module wavycon_key_group
 
    !> The value of one key and how it was given.
    type :: key_value
-      integer :: place = 0                     !! byte of the deck's text where the key stands; 0 if it is absent
-      logical :: is_given = .false.            !! by the deck
-      logical :: is_bad = .false.              !! given, but its value cannot be used: omit checks that depend on it
-      !> Whether the resolved deck shows it: it has a value, which has an effect beside those of other keys.
+      integer :: place = 0                     !! position of the key in the deck's text, from 1; 0 if it is absent
+      logical :: is_given = .false.            !! whether the deck gives the key
+      !> Whether the key is given but its value cannot be used: checks that depend on the value are then left out.
+      logical :: is_bad = .false.
+      !> Whether the key has a value and other keys do not make the value irrelevant. The resolved deck shows such keys.
       logical :: in_effect = .false.
-      real(dp), allocatable :: numbers(:)      !! of reals and integers; of logicals 1 for .true. and 0 for .false.
-      real(dp) :: number = 0.0_dp              !! the first of them; 0 if there is none
-      real(dp) :: pair(2) = 0.0_dp             !! the first and the last of them
-      logical :: is_true = .false.             !! of a logical; of a number whether it is > 0
-      character(:), allocatable :: text        !! of texts and choices, without blanks at its end; empty: it has none
+      real(dp), allocatable :: numbers(:)      !! values of reals and integers; of logicals 1 for .true., 0 for .false.
+      real(dp) :: number = 0.0_dp              !! the first of `numbers`; 0 if there is none
+      real(dp) :: pair(2) = 0.0_dp             !! the first and the last of `numbers`
+      logical :: is_true = .false.             !! whether `number` is > 0: the value of a logical key
+      character(:), allocatable :: text        !! value of texts and choices, without blanks at its end; or empty
    contains
       procedure :: set
       procedure :: set_default
    end type key_value
 
-   !> What all groups have. Each extends it by its keys.
+   !> The components that the records of all groups have. The record of a group extends this type by its keys.
    type :: key_group
-      character(:), allocatable :: deck_path   !! the deck's file, as the caller named it
-      integer :: place = 0                     !! byte of the deck's text where '&name' stands; 0 if it is absent
-      !> Whether the group, or a group in its place, has a key that the table has not: any other may have been meant.
+      character(:), allocatable :: deck_path   !! path of the deck's file as the caller gave it
+      integer :: place = 0                     !! position of '&name' in the deck's text, from 1; 0 if it is absent
+      !> Whether the deck has an unknown key in this group or, if the group is missing, an unknown group. The unknown
+      !> key may mean any key that is missing, so that missing keys are not reported.
       logical :: has_unknown = .false.
       logical :: any_bad = .false.             !! whether any key is bad or unknown
-      type(problem_list_type) :: problems      !! with its keys
+      type(problem_list_type) :: problems      !! the problems that checks of the group have found
    contains
       procedure :: complain
    end type key_group
 
+   !> An element of an array of pointers.
    type :: key_pointer
       type(key_value), pointer :: value => null()
    end type key_pointer
 
-   !> The table of a group, a row for each key, and where their values are. It begins as
-   !> `key_list(name, meaning, values%key_group)`.
+   !> The table of a group, with a row for each key, and pointers to the values of the keys. The constructor
+   !> `key_list(name, meaning, values%key_group)` makes an empty list, and `add` adds the keys.
    type :: key_list
-      character(name_length) :: name = ''      !! of the group
-      character(80) :: meaning = ''
-      type(key_group), pointer :: group => null()   !! the record; it stays as long as the list
-      logical :: required = .false.
-      !> The key that selects an alternative, as a kind of surface or a solver, by its name; empty: there are none.
+      character(name_length) :: name = ''      !! name of the group, without '&'
+      character(80) :: meaning = ''            !! for --help
+      type(key_group), pointer :: group => null()   !! the record, which must exist as long as the list
+      logical :: required = .false.            !! whether a deck must have the group
+      !> Name of the key that selects an alternative, a kind of surface or a solver; empty: the group has no
+      !> alternatives.
       character(name_length) :: selector = ''
-      character(48) :: of = ''                 !! with which choices of the selector the keys added next are read
+      character(48) :: of = ''                 !! choices of the selector that read the keys added next; empty: all
       type(key_type), allocatable :: rows(:)
-      type(key_pointer), allocatable :: keys(:)
+      type(key_pointer), allocatable :: keys(:)   !! the values, in the order of `rows`
    contains
       procedure :: add
       procedure :: start
@@ -70,11 +75,11 @@ module wavycon_key_group
 
 contains
 
-   !> Sets a value, which is then in effect.
+   !> Sets the value of a key, which is then in effect.
    pure subroutine set(self, numbers, text)
       class(key_value), intent(inout) :: self
-      real(dp), intent(in), optional :: numbers(:)
-      character(*), intent(in), optional :: text
+      real(dp), intent(in), optional :: numbers(:)   !! values of reals, integers and logicals, as in the component
+      character(*), intent(in), optional :: text     !! value of a text or a choice
 
       self%in_effect = .true.
       if (present(text)) self%text = trim(text)
@@ -86,29 +91,33 @@ contains
       self%is_true = self%number > 0.0_dp
    end subroutine set
 
-   !> Sets a default that depends on other values. It has no effect if the deck gives the key a good value.
+   !> Sets a default that depends on other values. If the deck gives the key a good value, that value stays.
    pure subroutine set_default(self, numbers, text)
       class(key_value), intent(inout) :: self
-      real(dp), intent(in), optional :: numbers(:)   !! as of set
-      character(*), intent(in), optional :: text
+      real(dp), intent(in), optional :: numbers(:)   !! as in `set`
+      character(*), intent(in), optional :: text     !! as in `set`
 
       if (.not. self%is_given .or. self%is_bad) call self%set(numbers, text)
    end subroutine set_default
 
-   !> Reports a problem at the place of a key or, if it is absent, of the group.
+   !> Reports a problem at the position of a key or, if the deck does not give the key, of the group.
    pure subroutine complain(self, key, words)
       class(key_group), intent(inout) :: self
       type(key_value), intent(in) :: key
       character(*), intent(in) :: words   !! what is wrong, what was expected
 
-      call self%problems%add(merge(key%place, self%place, key%place > 0), words)
+      integer :: place
+
+      place = self%place
+      if (key%place > 0) place = key%place
+      call self%problems%add(place, words)
    end subroutine complain
 
-   !> Adds a key: where its value is, and its row of the table.
+   !> Adds a key: a pointer to its value, and its row of the table.
    subroutine add(self, value, row)
       class(key_list), intent(inout) :: self
-      type(key_value), intent(in), target :: value   !! a component of the record
-      type(key_type), intent(in) :: row
+      type(key_value), intent(in), target :: value   !! the component of the record
+      type(key_type), intent(in) :: row              !! its description; the component `of` follows from the list's
 
       if (.not. allocated(self%rows)) allocate (self%rows(0), self%keys(0))
       self%rows = [self%rows, row]
@@ -116,12 +125,13 @@ contains
       self%keys = [self%keys, key_pointer(value)]
    end subroutine add
 
-   !> Sets the defaults of the table. A key whose default is in words has no value until `set_default` is called.
+   !> Sets all keys to the defaults of the table. A default in words depends on other keys: such a key has no value
+   !> until the group's check calls `set_default`.
    subroutine start(self, deck_path)
       class(key_list), intent(inout) :: self
-      character(*), intent(in) :: deck_path
+      character(*), intent(in) :: deck_path   !! path of the deck's file as the caller gave it
 
-      type(word_value) :: read
+      type(word_value) :: parsed
       character(:), allocatable :: trouble
       integer :: k
 
@@ -131,19 +141,21 @@ contains
             allocate (key%numbers(0))
             key%text = ''
             if (self%rows(k)%default == '') cycle
-            call read_value(self%rows(k), trim(self%rows(k)%default), read, trouble)
-            if (.not. allocated(trouble)) call key%set([read%number], read%text)
+            call read_value(self%rows(k), trim(self%rows(k)%default), parsed, trouble)
+            if (.not. allocated(trouble)) call key%set([parsed%number], parsed%text)
          end associate
       end do
    end subroutine start
 
-   !> Takes what the deck gives for a key. Without a value it is bad: its default stays in effect.
+   !> Takes the values that the deck gives for a key. A key without values is bad, and its default stays in effect.
    subroutine take(self, k, place, numbers, text)
       class(key_list), intent(inout) :: self
       integer, intent(in) :: k                                !! number of the key
-      integer, intent(in) :: place                            !! of the key, byte of the deck's text
-      real(dp), intent(in), optional :: numbers(:)            !! as of key_value, repeats expanded; empty: as absent
-      character(*), intent(in), optional :: text
+      integer, intent(in) :: place                            !! position of the key in the deck's text
+      !> The values as numbers, as in key_value; for a text or a choice one number, which has no meaning. Empty or
+      !> absent: no value.
+      real(dp), intent(in), optional :: numbers(:)
+      character(*), intent(in), optional :: text              !! value of a text or a choice
 
       associate (key => self%keys(k)%value)
          key%place = place
@@ -154,41 +166,42 @@ contains
       end associate
    end subroutine take
 
-   !> Takes a number or a text that a caller in memory gives for a key, and reports one that it may not have.
+   !> Takes a number or a text that a program gives for a key, without a deck. A value that the key may not have is
+   !> reported.
    subroutine take_value(self, k, number, text)
       class(key_list), intent(inout) :: self
       integer, intent(in) :: k                       !! number of the key
-      real(dp), intent(in), optional :: number       !! one of them
-      character(*), intent(in), optional :: text
+      real(dp), intent(in), optional :: number       !! the value of a real or an integer
+      character(*), intent(in), optional :: text     !! the value of a text or a choice, if `number` is absent
 
       character(:), allocatable :: trouble
-      type(word_value) :: read
+      type(word_value) :: parsed
 
       if (present(number)) then
-         read%number = number
+         parsed%number = number
          call check_number(self%rows(k), exact_number(number), number, trouble)
       else
-         call read_value(self%rows(k), quoted(text), read, trouble)
+         call read_value(self%rows(k), quoted(text), parsed, trouble)
       end if
-      call self%take(k, 0, [read%number], read%text)
+      call self%take(k, 0, [parsed%number], parsed%text)
       if (allocated(trouble)) call self%group%problems%add(0, trouble)
    end subroutine take_value
 
-   !> The value of a key as a deck gives it, numbers to all digits and texts without quotes.
+   !> The value of a key as a deck would give it: numbers to all digits, texts without quotes.
    pure function words(self, k, between) result(text)
       class(key_list), intent(in) :: self
       integer, intent(in) :: k              !! number of the key
-      character(*), intent(in) :: between   !! two numbers
+      character(*), intent(in) :: between   !! separator of numbers
       character(:), allocatable :: text
 
-      integer, parameter :: most_digits = 24   !! and signs of a number
+      integer, parameter :: most_digits = 24   !! most characters of a number
       character(:), allocatable :: number
       integer :: i, used
 
       associate (kind => self%rows(k)%kind, numbers => self%keys(k)%value%numbers)
          select case (kind)
          case (real_value, integer_value)
-            ! To append each number would copy the text each time, for up to 100000 numbers.
+            ! Appending numbers one by one would copy the text each time, for up to 100000 numbers.
             allocate (character((most_digits + len(between))*size(numbers)) :: text)
             used = 0
             do i = 1, size(numbers)
@@ -200,14 +213,16 @@ contains
             end do
             text = text(:used)
          case (logical_value)
-            text = trim(merge('.true. ', '.false.', self%keys(k)%value%is_true))
+            text = '.false.'
+            if (self%keys(k)%value%is_true) text = '.true.'
          case default
             text = self%keys(k)%value%text
          end select
       end associate
    end function words
 
-   !> 'group.', and 'group.key' of each key that asks for something: .true., a number > 0, a text other than 'none'.
+   !> The name 'group.', and for each key that may request a table or a computation its name 'group.key': keys with the
+   !> value .true., a number > 0, or a text other than 'none'. For other keys the result has 'group.' again.
    pure function asked_for(self) result(names)
       class(key_list), intent(in) :: self
       character(2*name_length) :: names(1 + size(self%rows))
@@ -223,86 +238,96 @@ contains
       end do
    end function asked_for
 
-   !> Reports required keys that are missing, keys without those that they need, keys that give the same in two ways,
-   !> and keys that the selected alternative does not read. What has no effect is left out of the resolved deck: keys of
-   !> other alternatives, keys without those that they need, and defaults beside another way to give the same. What
-   !> follows from a mistake that has been reported is no problem of its own.
+   !> Checks the keys of the group against each other. Reported are required keys that are missing, keys given without
+   !> those that they need, keys that give the same quantity in two ways, and keys that the selected alternative does
+   !> not read. A problem that only follows from one already reported is left out.
    !>
-   !> A group with a selector has alternatives: &surface its kinds of surface, &method its solvers.
+   !> Keys without effect get in_effect = .false., so that the resolved deck does not show them: keys of other
+   !> alternatives, keys without those that they need, and defaults of a quantity that is given in another way.
+   !>
+   !> A group with a selector has alternatives: &surface has kinds of surface, &method has solvers.
    subroutine check_relations(self)
       class(key_list), intent(in) :: self
 
-      character(:), allocatable :: choice, key, others, said, who
+      character(:), allocatable :: choice    ! the selected alternative; empty: there is none, or it is not known
+      character(:), allocatable :: chosen    ! the alternative in words for messages
+      character(:), allocatable :: reported  ! needed keys that were reported as missing, with blanks around each
+      character(:), allocatable :: subject   ! subject of the message about a missing key
+      character(:), allocatable :: key
       character(name_length), allocatable :: needs(:)
-      integer :: first, i, k, place, selects
-      logical :: is_default, is_told
-      logical, allocatable :: lacks(:)
-      logical, dimension(size(self%rows)) :: is_given, is_own, family
+      integer :: first, i, k, place, selector_index
+      logical :: is_default                  ! whether the alternative is the default
+      logical :: is_told                     ! whether a key of another alternative was reported
+      logical, allocatable :: is_lacking(:)  ! whether each needed key is missing
+      logical, dimension(size(self%rows)) :: is_given, is_own, is_same   ! given; read; gives the same quantity
 
       choice = ''
-      said = ' '
+      reported = ' '
       place = self%group%place
-      who = '&'//trim(self%name)
+      subject = '&'//trim(self%name)
       is_default = .false.
       is_told = .false.
       is_own = .true.
       is_given = [(self%keys(k)%value%is_given, k=1, size(self%rows))]
-      selects = key_index(self%rows, self%selector)
-      if (selects > 0) then
-         associate (selector => self%keys(selects)%value)
+      selector_index = key_index(self%rows, self%selector)
+      if (selector_index > 0) then
+         associate (selector => self%keys(selector_index)%value)
             is_default = .not. selector%is_given
-            ! A bad selector, or one whose name is misspelt, has its default, which says nothing about the other keys.
+            ! A selector that is bad or misspelt in the deck has its default, which is not what the user meant: no
+            ! choice is known then.
             if (.not. (selector%is_bad .or. (is_default .and. self%group%has_unknown))) choice = selector%text
             if (choice /= '') then
-               who = trim(self%selector)//" = '"//choice//"'"
+               subject = trim(self%selector)//" = '"//choice//"'"
                place = max(selector%place, place)
                is_own = is_read(self%rows, choice)
             end if
          end associate
       end if
-      others = "'"//choice//"'"
-      if (is_default) others = 'the default, '//others
+      chosen = "'"//choice//"'"
+      if (is_default) chosen = 'the default, '//chosen
       associate (rows => self%rows, group => self%group)
          do k = 1, size(rows)
             key = trim(rows(k)%name)
             associate (value => self%keys(k)%value)
                if (.not. is_own(k)) then
                   value%in_effect = .false.
-                  ! Beside the default one key is enough to see that the selector is missing.
+                  ! If the selector has its default, one report is enough to show that the selector is missing.
                   if (is_given(k) .and. .not. (value%is_bad .or. (is_default .and. is_told))) then
                      call group%complain(value, key//' is a key of '//trim(self%selector)//' = '// &
-                        listed(in_quotes(words_of(rows(k)%of)), ' and ')//', not of '//others// &
+                        listed(in_quotes(words_of(rows(k)%of)), ' and ')//', not of '//chosen// &
                         did_you_mean(key, pack(rows%name, is_own .and. rows%of /= '' .and. .not. is_given), "'", "'"))
                      is_told = .true.
                   end if
                   cycle
                end if
-               ! Those that give the same quantity: a key alone, or all ways.
-               family = is_own .and. rows%way/10 == rows(k)%way/10
-               if (rows(k)%way == 0) family = rows%name == key
-               first = findloc(family, .true., dim=1)
+               ! The keys that give the same quantity: the key alone, or those of all ways.
+               is_same = is_own .and. rows%way/10 == rows(k)%way/10
+               if (rows(k)%way == 0) is_same = rows%name == key
+               first = findloc(is_same, .true., dim=1)
                if (rows(k)%required .and. k == first .and. group%place > 0 .and. .not. group%has_unknown .and. &
-                   .not. any(family .and. is_given) .and. (rows(k)%of == '' .or. choice /= '')) then
+                   .not. any(is_same .and. is_given) .and. (rows(k)%of == '' .or. choice /= '')) then
                   if (rows(k)%way == 0) then
-                     call group%problems%add(place, who//' needs '//key//' = '//allowed_values(rows(k)))
+                     call group%problems%add(place, subject//' needs '//key//' = '//allowed_values(rows(k)))
                   else
-                     call group%problems%add(place, who//' needs '//ways_in_words(rows, k))
+                     call group%problems%add(place, subject//' needs '//ways_in_words(rows, k))
                   end if
                end if
-               first = findloc(family .and. is_given, .true., dim=1)
+               first = findloc(is_same .and. is_given, .true., dim=1)
                needs = words_of(rows(k)%needs)
-               lacks = [(.not. stands_beside(trim(needs(i))), i=1, size(needs))]
-               if (any(lacks) .or. any(family .and. is_given .and. rows%way /= rows(k)%way)) value%in_effect = .false.
+               is_lacking = [(.not. stands_beside(trim(needs(i))), i=1, size(needs))]
+               if (any(is_lacking) .or. any(is_same .and. is_given .and. rows%way /= rows(k)%way)) &
+                  value%in_effect = .false.
                if (.not. is_given(k)) cycle
                if (rows(k)%way /= rows(first)%way .and. &
-                   .not. any(family(:k - 1) .and. is_given(:k - 1) .and. rows(:k - 1)%way /= rows(first)%way)) &
+                   .not. any(is_same(:k - 1) .and. is_given(:k - 1) .and. rows(:k - 1)%way /= rows(first)%way)) &
                   call group%problems%add(max(self%keys(first)%value%place, value%place), &
                      trim(rows(first)%name)//' and '//key//' contradict each other: give one of them')
                if (rows(k)%kind == logical_value .and. .not. value%is_true) cycle
                do i = 1, size(needs)
-                  if (.not. lacks(i) .or. group%has_unknown .or. index(said, ' '//trim(needs(i))//' ') > 0) cycle
+                  if (.not. is_lacking(i) .or. group%has_unknown) cycle
+                  if (index(reported, ' '//trim(needs(i))//' ') > 0) cycle
                   call group%complain(value, key//' needs '//trim(needs(i))//' beside it')
-                  said = said//trim(needs(i))//' '
+                  reported = reported//trim(needs(i))//' '
                end do
             end associate
          end do
@@ -310,9 +335,9 @@ contains
 
    contains
 
-      !> Whether the deck gives a key or, of key='value', whether it has that value or a bad one.
+      !> Whether the deck gives a needed key. If a value is needed too, whether the key has that value or a bad one.
       logical function stands_beside(word)
-         character(*), intent(in) :: word
+         character(*), intent(in) :: word   !! "key" or "key='value'"
 
          integer :: equals
 

@@ -1,4 +1,4 @@
-!> Tables of the keys of each namelist group: name, type, bounds, default, unit and meaning.
+!> The description of a key of a namelist group, a row of the group's table: name, type, bounds, default, unit, meaning.
 !>
 !> Checks of decks, the key reference of --help and the comments of resolved decks all follow from these tables.
 module wavycon_key_table
@@ -13,41 +13,44 @@ module wavycon_key_table
    integer, parameter, public :: real_value = 1, integer_value = 2, logical_value = 3, text_value = 4, &
       choice_value = 5
 
+   !> Most bytes of the name and of the meaning of a key; the size of a bound that does not exist.
    integer, parameter, public :: name_length = 24
-   real(dp), parameter, public :: no_bound = huge(1.0_dp)
    integer, parameter, public :: meaning_length = 640
+   real(dp), parameter, public :: no_bound = huge(1.0_dp)
 
    type :: key_type
-      integer :: kind = real_value
-      character(name_length) :: name = ''
-      !> As in a deck; in words if it depends on other keys: the group's check then sets it. Empty: no default.
+      integer :: kind = real_value                       !! type of the value: real_value or another name above
+      character(name_length) :: name = ''                !! in lower case
+      !> The default as a deck would give it; in words if the default depends on other keys, in which case the group's
+      !> check sets the value. Empty: there is no default.
       character(40) :: default = ''
       character(32) :: unit = ''                         !! '-' if dimensionless; empty for texts, flags and counts
-      character(meaning_length) :: meaning = ''
-      real(dp) :: least = -no_bound, most = no_bound     !! bounds of a number, themselves allowed
-      real(dp) :: above = -no_bound, below = no_bound    !! bounds, themselves excluded
-      integer :: most_values = 1                         !! more than 1: a list
-      integer :: longest = 0                             !! bytes of a text
-      logical :: may_be_blank = .false.                  !! of a text
+      character(meaning_length) :: meaning = ''          !! for --help
+      real(dp) :: least = -no_bound, most = no_bound     !! bounds of a number that are allowed themselves
+      real(dp) :: above = -no_bound, below = no_bound    !! bounds of a number that are excluded themselves
+      integer :: most_values = 1                         !! most values of the key; a key with more than 1 is a list
+      integer :: longest = 0                             !! most bytes of a text
+      logical :: may_be_blank = .false.                  !! whether a text may consist of blanks
       character(80) :: choices = ''                      !! the words that a choice may be, with blanks between them
-      logical :: required = .false.                      !! whether a deck must give it, or what gives the same
-      !> Keys of a group that give the same quantity in different ways have the same tens here, which are not 0, and
-      !> different ones: they contradict each other, --set of one of them replaces the others, and of defaults only that
-      !> of the way that is given has an effect.
+      logical :: required = .false.                      !! whether a deck must give the key, or its quantity otherwise
+      !> Keys of a group that give the same quantity in different ways have numbers with the same digits but the last
+      !> one. Keys with the same number belong together. Two ways contradict each other, --set of one key replaces those
+      !> of the other ways, and defaults of the ways that are not given have no effect. 0: no other key gives the
+      !> quantity.
       integer :: way = 0
-      !> What must stand beside the key in a deck: names of keys of the group, or key='value', with blanks between them.
-      !> Without it its default has no effect.
+      !> What a deck must give beside the key: names of keys of the group, or key='value', with blanks between them.
+      !> Without these the default of the key has no effect.
       character(32) :: needs = ''
-      !> Of a group with a selector: the choices of the selector with which the key is read, with blanks between them;
+      !> In a group with a selector: the choices of the selector with which the key is read, with blanks between them;
       !> empty: all.
       character(48) :: of = ''
    end type key_type
 
 contains
 
-   !> The words of a text with blanks between them.
+   !> The words of a text.
    pure function words_of(text) result(words)
-      character(*), intent(in) :: text
+      character(*), intent(in) :: text   !! words of at most name_length bytes with blanks between them
       character(name_length), allocatable :: words(:)
 
       character(:), allocatable :: left
@@ -70,7 +73,7 @@ contains
       is_read = key%of == '' .or. index(' '//key%of, ' '//trim(choice)//' ') > 0
    end function is_read
 
-   !> The meaning of a key, with the choices that read it: "Of a and b: this."
+   !> The meaning of a key, with the choices of the selector that read the key: "Of a and b: meaning".
    pure function full_meaning(key) result(words)
       type(key_type), intent(in) :: key
       character(:), allocatable :: words
@@ -79,7 +82,7 @@ contains
       if (key%of /= '') words = 'Of '//listed(words_of(key%of), ' and ')//': '//words
    end function full_meaning
 
-   !> The number of a key in a table; 0 if it is not there.
+   !> The number of the key with a name in a table; 0 if the table does not have the key.
    pure integer function key_index(keys, name)
       type(key_type), intent(in) :: keys(:)
       character(*), intent(in) :: name
@@ -110,10 +113,10 @@ contains
       end select
    end function allowed_values
 
-   !> The keys that give the same quantity: "a, b, or c and d", where c and d make one way.
+   !> The keys that give the same quantity, in words: "a, b, or c and d", where c and d together are one way.
    pure function ways_in_words(keys, k) result(words)
-      type(key_type), intent(in) :: keys(:)
-      integer, intent(in) :: k   !! one of them
+      type(key_type), intent(in) :: keys(:)   !! table of a group
+      integer, intent(in) :: k                !! number of a key that gives the quantity, with way > 0
       character(:), allocatable :: words
 
       character(80) :: ways(0:9)
@@ -128,7 +131,7 @@ contains
       words = listed(pack(ways, ways /= ''), ', or ')
    end function ways_in_words
 
-   !> The bounds of a number, with a blank before them; empty if there are none.
+   !> The bounds of a number in words, such as ' >= 0 and < 1'; empty if there are none.
    pure function bounds(key) result(words)
       type(key_type), intent(in) :: key
       character(:), allocatable :: words

@@ -1,4 +1,4 @@
-!> Reads the value of a key from a word of a deck, and checks its type and bounds.
+!> Reads the value of a key from a word of a deck, and checks type and bounds of the value.
 module wavycon_key_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, ieee_set_status, &
@@ -18,20 +18,20 @@ module wavycon_key_values
    !> The value of a word: a number or a text, according to the type of the key.
    type :: word_value
       integer :: repeats = 1                 !! r of 'r*value'
-      real(dp) :: number = 0.0_dp            !! of reals and integers; of logicals 1 for .true. and 0 for .false.
-      character(:), allocatable :: text      !! of texts and choices, without the quotes
+      real(dp) :: number = 0.0_dp            !! value of a real or an integer; of a logical 1 for .true., 0 for .false.
+      character(:), allocatable :: text      !! value of a text or a choice, without the quotes
    end type word_value
 
-   character(*), parameter :: digits = '0123456789'
+   character(*), parameter :: decimal_digits = '0123456789'
    character(*), parameter :: true_words(*) = ['.true.', 'true  ', '.t.   ', 't     ']
    character(*), parameter :: false_words(*) = ['.false.', 'false  ', '.f.    ', 'f      ']
 
 contains
 
-   !> Reads one word: 'value', or 'r*value' for r values.
+   !> Reads one word: 'value', or 'r*value' for r equal values.
    subroutine read_value(key, word, value, trouble)
-      type(key_type), intent(in) :: key
-      character(*), intent(in) :: word                    !! as in the deck, quotes included
+      type(key_type), intent(in) :: key                   !! description of the key
+      character(*), intent(in) :: word                    !! the word as the deck has it, with its quotes
       type(word_value), intent(out) :: value
       character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
@@ -62,13 +62,13 @@ contains
    pure subroutine split_repeat(word, repeats, start)
       character(*), intent(in) :: word
       integer, intent(out) :: repeats  !! 1 where there is no 'r*'; 0 if r is out of range or no value follows
-      integer, intent(out) :: start    !! of the value
+      integer, intent(out) :: start    !! first byte of the value in the word
 
       integer :: star, status
 
       repeats = 1
       start = 1
-      star = verify(word, digits)
+      star = verify(word, decimal_digits)
       if (star < 2) return
       if (word(star:star) /= '*') return
       start = star + 1
@@ -76,11 +76,11 @@ contains
       if (status /= 0 .or. start > len(word)) repeats = 0
    end subroutine split_repeat
 
-   !> Reads a real number or an integer, which has digits and a sign alone.
+   !> Reads a real number, or an integer: digits and perhaps a sign, without point and exponent.
    subroutine read_number(key, word, number, trouble)
       type(key_type), intent(in) :: key
       character(*), intent(in) :: word
-      real(dp), intent(out) :: number   !! exact for integers: those of decks are far below 2^53
+      real(dp), intent(out) :: number   !! exact for integers: the bounds of decks are far below 2^53
       character(:), allocatable, intent(out) :: trouble
 
       type(ieee_status_type) :: floating_point
@@ -91,7 +91,7 @@ contains
       call ieee_set_halting_mode(ieee_overflow, .false.)
       call read_decimal(word, number, is_number)
       call ieee_set_status(floating_point)
-      if (key%kind == integer_value) is_number = is_number .and. verify(word, digits//'+-') == 0
+      if (key%kind == integer_value) is_number = is_number .and. verify(word, decimal_digits//'+-') == 0
       if (is_number) then
          call check_number(key, word, number, trouble)
       else
@@ -102,9 +102,9 @@ contains
    !> Checks a number against the bounds of a key.
    pure subroutine check_number(key, word, number, trouble)
       type(key_type), intent(in) :: key
-      character(*), intent(in) :: word   !! the number as it is written
+      character(*), intent(in) :: word   !! the number as it is written, for the message
       real(dp), intent(in) :: number
-      character(:), allocatable, intent(out) :: trouble   !! as of read_value
+      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
 
       ! Comparisons with a NaN raise an exception, which Debug builds trap.
       if (ieee_is_nan(number)) then
@@ -117,6 +117,7 @@ contains
       end if
    end subroutine check_number
 
+   !> Reads a text: a character constant in quotes.
    pure subroutine read_text(key, word, text, trouble)
       type(key_type), intent(in) :: key
       character(*), intent(in) :: word
@@ -139,6 +140,7 @@ contains
       text = trim(text)
    end subroutine read_text
 
+   !> Reads a choice: one of the words of the key, in quotes.
    pure subroutine read_choice(key, word, text, trouble)
       type(key_type), intent(in) :: key
       character(*), intent(in) :: word
@@ -151,7 +153,7 @@ contains
       choices = words_of(key%choices)
       if (is_constant(word)) then
          text = unquoted(word)
-         if (any(choices == text)) return   ! blanks at its end are ignored
+         if (any(choices == text)) return   ! blanks at the end of the text are ignored
       else if (any(choices == lower_case(word))) then
          trouble = trim(key%name)//" must be in quotes: '"//lower_case(word)//"'"
          return
@@ -159,17 +161,17 @@ contains
       trouble = must_be(key, word)//did_you_mean(lower_case(text), choices, "'", "'")
    end subroutine read_choice
 
-   !> Whether a word, which ends with its closing quote if it begins with a quote, is a character constant.
+   !> Whether a word is a character constant in quotes.
    pure logical function is_constant(word)
-      character(*), intent(in) :: word
+      character(*), intent(in) :: word   !! a word that ends with its closing quote if it begins with a quote
 
       is_constant = len(word) > 1 .and. scan(word, '"''') == 1
    end function is_constant
 
-   !> "key must be ..., got ..."
+   !> The message for a bad value: "key must be ..., got ...".
    pure function must_be(key, value) result(words)
       type(key_type), intent(in) :: key
-      character(*), intent(in) :: value   !! as it is written, a text with its quotes
+      character(*), intent(in) :: value   !! the value as it is written, a text with its quotes
       character(:), allocatable :: words
 
       type(key_type) :: one

@@ -5,19 +5,20 @@ module wavycon_nearest_name
 
    public :: nearest_name, did_you_mean
 
-   !> Most letters of a name that is compared; it bounds the time.
+   !> Most letters of a misspelt name that is compared. The limit bounds the time.
    integer, parameter :: longest = 40
-   !> Fewest letters of a part of a name.
+   !> Fewest letters of a misspelt name that is looked for as a part of known names.
    integer, parameter :: shortest_part = 3
-   !> The distance by a letter. That by an underscore is 1: it is forgotten more easily.
+   !> The edit distance of a wrong letter. A missing or superfluous underscore counts 1, because it is more frequent.
    integer, parameter :: change = 2
 
 contains
 
-   !> Number of the known name nearest to the one given; 0 if none is near.
+   !> The number of the known name that is nearest to a misspelt name; 0 if none is near.
    !>
-   !> A name is near if at most a third of its letters, but at least one, are wrong, or if it is a part of a
-   !> known name, which had better be its beginning. Of two names that are equally near it is the one that is not given.
+   !> A known name is near if at most a third of the letters are wrong, but one letter always may be. Otherwise it is
+   !> near if the misspelt name is a part of it, best its beginning. Of two known names at the same distance the one
+   !> that the deck does not give is taken.
    pure integer function nearest_name(name, known, is_given) result(nearest)
       character(*), intent(in) :: name      !! lower case
       character(*), intent(in) :: known(:)  !! lower case, padded with blanks
@@ -37,7 +38,7 @@ contains
       end if
    end function nearest_name
 
-   !> "; did you mean 'x'?" if a name is near, else nothing or all names.
+   !> Words that end a message: "; did you mean 'x'?" if a known name is near, else `otherwise` or nothing.
    pure function did_you_mean(name, known, before, after, otherwise, is_given) result(words)
       character(*), intent(in) :: name, known(:)            !! as for nearest_name
       character(*), intent(in) :: before, after             !! put around the known name
@@ -45,22 +46,25 @@ contains
       logical, intent(in), optional :: is_given(:)          !! as for nearest_name
       character(:), allocatable :: words
 
-      integer :: nearest
+      integer :: candidate
 
       words = ''
       if (present(otherwise)) words = otherwise
-      nearest = nearest_name(name, known, is_given)
-      if (nearest == 0) return
-      words = '; did you mean '//before//trim(known(nearest))//after
-      if (present(is_given)) words = words//trim(merge(', which is there', '                ', is_given(nearest)))
+      candidate = nearest_name(name, known, is_given)
+      if (candidate == 0) return
+      words = '; did you mean '//before//trim(known(candidate))//after
+      if (present(is_given)) then
+         if (is_given(candidate)) words = words//', which is there'
+      end if
       words = words//'?'
    end function did_you_mean
 
-   !> Edit distance: the least sum of insertions, deletions, changes and swaps of neighbours that turn a into b.
+   !> Edit distance of two texts: the least cost of insertions, deletions, changes and swaps of neighbouring letters
+   !> that turn a into b. Each costs `change`, but to insert or delete an underscore costs 1.
    pure integer function edit_distance(a, b) result(distance)
       character(*), intent(in) :: a, b
 
-      integer :: d(0:len(a), 0:len(b))   ! of the first letters of both
+      integer :: d(0:len(a), 0:len(b))   ! d(i, j): distance of the first i letters of a and the first j letters of b
       integer :: i, j
 
       d(:, 0) = [(change*i, i=0, len(a))]

@@ -5,16 +5,17 @@ module wavycon_problems
 
    public :: problem_type, problem_list_type
 
-   !> Most problems that are kept. When the list is full the search for more ends, to bound time and memory.
+   !> Most problems that are kept. When the list is full the search for further problems ends, which bounds time and
+   !> memory.
    integer, parameter, public :: most_kept = 50
 
    type :: problem_type
-      integer :: place = 0                  !! byte of the deck's text; 0 means the deck as a whole
+      integer :: place = 0                  !! position in the deck's text, a byte from 1; 0 means the deck as a whole
       character(:), allocatable :: words    !! what is wrong, what was expected
    end type problem_type
 
    type :: problem_list_type
-      integer :: number = 0                   !! of all problems
+      integer :: number = 0                   !! number of all problems, also of those that are not kept
       type(problem_type) :: items(most_kept)  !! the first ones found, in the order of their places
    contains
       procedure :: add
@@ -24,10 +25,10 @@ module wavycon_problems
 
 contains
 
-   !> Adds a problem behind those of the same place.
+   !> Adds a problem in the order of places, behind earlier problems of the same place.
    pure subroutine add(self, place, words)
       class(problem_list_type), intent(inout) :: self
-      integer, intent(in) :: place       !! byte of the deck's text; 0 means the deck as a whole
+      integer, intent(in) :: place       !! position in the deck's text, a byte from 1; 0 means the deck as a whole
       character(*), intent(in) :: words  !! what is wrong, what was expected
 
       integer :: i
@@ -42,7 +43,7 @@ contains
       self%items(i)%words = words
    end subroutine add
 
-   !> Adds the problems of another list.
+   !> Adds the problems of another list; those that the other list has not kept are counted.
    pure subroutine join(self, other)
       class(problem_list_type), intent(inout) :: self
       type(problem_list_type), intent(in) :: other
@@ -55,6 +56,7 @@ contains
       self%number = self%number + max(0, other%number - most_kept)
    end subroutine join
 
+   !> Whether the list is full.
    pure logical function is_full(self)
       class(problem_list_type), intent(in) :: self
 

@@ -1,4 +1,4 @@
-!> The program for several processes: `mpirun -n 4 wavycon-mpi deck.nml`.
+!> The parallel program, for several processes: `mpirun -n 4 wavycon-mpi deck.nml`.
 program wavycon_mpi_main
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_run_program, only: run_program

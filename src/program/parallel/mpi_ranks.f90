@@ -1,4 +1,5 @@
-!> The ranks of the parallel program, by MPI.
+!> The exchange between the ranks, the processes of the parallel program, by MPI. src/base/ranks.f90 describes the
+!> procedures and their arguments.
 module wavycon_mpi_ranks
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use mpi_f08, only: mpi_abort, mpi_address_kind, mpi_allreduce, mpi_alltoallv, mpi_alltoallw, mpi_byte, mpi_comm, &
@@ -15,6 +16,7 @@ module wavycon_mpi_ranks
 
    public :: start_mpi
 
+   !> The communicator of all processes that mpirun has started.
    type, extends(communicator) :: mpi_communicator
    contains
       procedure, nopass :: add_reals
@@ -47,31 +49,36 @@ contains
       call mpi_comm_size(machine, own%ranks_on_machine)
       call mpi_comm_free(machine)
       call mpi_get_library_version(library, length)
-      ! As the library calls itself up to the first comma or line.
+      ! The library's description of itself, up to the first comma or the end of the line.
       own%library = trim(library(:scan(library(:length)//new_line('a'), ','//new_line('a')) - 1))
       call move_alloc(own, comm)
       call use_communicator(comm)
    end subroutine start_mpi
 
+   !> Sums over the ranks, element by element, in place.
    subroutine add_reals(values)
       real(dp), intent(inout), contiguous :: values(:)
 
       call mpi_allreduce(mpi_in_place, values, size(values), mpi_double_precision, mpi_sum, mpi_comm_world)
    end subroutine add_reals
 
+   !> Sums over the ranks, element by element, in place.
    subroutine add_integers(values)
       integer(int64), intent(inout), contiguous :: values(:)
 
       call mpi_allreduce(mpi_in_place, values, size(values), mpi_integer8, mpi_sum, mpi_comm_world)
    end subroutine add_integers
 
+   !> Largest values over the ranks, element by element, in place.
    subroutine largest(values)
       real(dp), intent(inout), contiguous :: values(:)
 
       call mpi_allreduce(mpi_in_place, values, size(values), mpi_double_precision, mpi_max, mpi_comm_world)
    end subroutine largest
 
-   !> N.B. Counts are numbers of columns: numbers of bytes may exceed the integers of MPI.
+   !> Moves columns of a matrix from the ranks that have them to the ranks that want them.
+   !>
+   !> N.B. The unit of the messages is a column, because numbers of bytes may exceed the integers of MPI.
    subroutine move(self, column_bytes, have, own, want, wanted)
       class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: column_bytes
@@ -79,6 +86,7 @@ contains
       type(*), intent(in), target :: own(*)
       type(*), intent(inout), target :: wanted(*)
 
+      !> Columns received from and sent to each rank: their number, and the number of columns before them in the array.
       integer, dimension(0:self%ranks - 1) :: received, received_at, sent, sent_at
       type(mpi_datatype) :: column
 
@@ -94,7 +102,9 @@ contains
       call mpi_type_free(column)
    end subroutine move
 
-   !> Messages are described to MPI as they lie in the arrays: nothing is copied before or after.
+   !> Exchanges a matrix with distributed columns for the same matrix with distributed rows, or back.
+   !>
+   !> The messages are described to MPI as they lie in the arrays, so that no copies are made before or afterwards.
    subroutine exchange_rows(self, bytes, columns, rows, by_columns, by_rows, to_rows)
       class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: bytes
@@ -102,9 +112,10 @@ contains
       type(*), intent(inout), target :: by_columns(*), by_rows(*)
       logical, intent(in) :: to_rows
 
-      !> The part of the own columns that is a rank's rows, and the part of the own rows that is its columns.
+      !> For each other rank: where its rows lie in the own columns, and where its columns lie in the own rows.
       type(mpi_datatype), dimension(0:self%ranks - 1) :: in_columns, in_rows
-      integer, dimension(0:self%ranks - 1) :: number_of_columns, number_of_rows, nowhere   ! messages: 1 or 0
+      !> Number of messages to or from each rank, 1 or 0, and their offsets, which are in the datatypes.
+      integer, dimension(0:self%ranks - 1) :: number_of_columns, number_of_rows, nowhere
       integer :: columns_of(0:self%ranks - 1), i, own_columns, own_rows, rows_of(0:self%ranks - 1)
 
       columns_of = columns(2, :) - columns(1, :) + 1
@@ -133,31 +144,32 @@ contains
       end do
    end subroutine exchange_rows
 
-   !> The type of runs of elements at equal distances from a place on.
-   type(mpi_datatype) function part_of(bytes, runs, length, distance, start) result(part)
-      integer, intent(in) :: bytes              !! of an element
-      integer, intent(in) :: runs
-      integer, intent(in) :: length, distance   !! elements
-      !> Elements; it may exceed the integers of mpi_alltoallw.
-      integer(mpi_address_kind), intent(in) :: start
+   !> The MPI datatype of a part of a matrix: runs of elements, which begin at equal distances.
+   type(mpi_datatype) function part_of(bytes, runs, length, distance, first) result(part)
+      integer, intent(in) :: bytes              !! size of an element
+      integer, intent(in) :: runs               !! number of runs
+      integer, intent(in) :: length, distance   !! length of a run; distance of the starts of two runs [elements]
+      !> Number of elements before the first run. It may exceed the integers that mpi_alltoallw takes as offsets.
+      integer(mpi_address_kind), intent(in) :: first
 
       type(mpi_datatype) :: all_runs, element
 
       call mpi_type_contiguous(bytes, mpi_byte, element)
       call mpi_type_vector(runs, length, distance, element, all_runs)
-      call mpi_type_create_hindexed_block(1, 1, [start*bytes], all_runs, part)
+      call mpi_type_create_hindexed_block(1, 1, [first*bytes], all_runs, part)
       call mpi_type_commit(part)
       call mpi_type_free(all_runs)
       call mpi_type_free(element)
    end function part_of
 
-   !> Ends MPI on all ranks. A rank that ends by an error which the others do not know of would wait for them, as they
-   !> do for it: after a while it ends them too.
+   !> Ends MPI on all ranks. If a rank ends by an error of which the other ranks do not know, it would wait for them in
+   !> mpi_finalize, and they for its next message. Such a rank therefore ends all ranks after a while.
    subroutine finish(self, status)
       class(mpi_communicator), intent(in) :: self
       integer, intent(in) :: status
 
-      integer(int64), parameter :: patience = 10   !! ranks that know of an error end at the same time [s]
+      !> How long to wait for the other ranks [s]. Ranks that know of the same error arrive here at the same time.
+      integer(int64), parameter :: patience = 10
       integer(int64) :: begun, now, rate
       logical :: all_are_here
       type(mpi_request) :: request

@@ -1,6 +1,7 @@
-!> <case>.bounds.dat: guaranteed bounds of complementary energy, approach and mean gap of the surface, from pressures and
-!> gaps of each solution, and whether the solution's own numbers lie within them. They are those of a grid: the one
-!> that was solved on, otherwise one that the solution is evaluated on. The page of src/core/half_space derives them.
+!> <case>.bounds.dat: guaranteed bounds of complementary energy, approach and mean gap of the surface, from pressures
+!> and gaps of each solution, and whether the solution's own numbers lie within these bounds. Pressures and gaps are
+!> taken at the points of a grid: of the grid that the solver used or, if there is none, of a grid on which the solution
+!> is evaluated. The page of src/core/half_space derives the bounds, (E18) to (E26).
 module wavycon_bounds_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_fields, only: contact_fields
@@ -20,13 +21,14 @@ module wavycon_bounds_tables
 
    public :: bounds_tables
 
-   !> Points of the cell along each side on which a solution without a grid is evaluated, of profiles and of planes, for
-   !> accuracy 1e-6. Bounds are the closer by the cube of their number: there are 2^n times as many, up to the largest.
+   !> A solution without a grid is evaluated on one. `usual_points` is the number of its points along each side of the
+   !> cell for an accuracy of 1e-6, of profiles (1) and of surfaces in 2-D (2). The width of the bounds falls with the
+   !> cube of the number of points, so that finer accuracies take 2^n times as many points, up to `most_points`.
    integer, parameter :: usual_points(2) = [4096, 512], most_points(2) = [65536, 1024]
 
 contains
 
-   !> The table of this file.
+   !> The table <case>.bounds.dat.
    function bounds_tables() result(tables)
       type(table_type) :: tables(1)
 
@@ -40,16 +42,17 @@ contains
          meaning='Guaranteed bounds of complementary energy, approach and mean gap.')
    end function bounds_tables
 
-   !> Errors: exit_file_trouble.
+   !> Writes the table: a row for each load. Bounds are NaN for a load without a solution, and on a grid that does not
+   !> have all waves of the surface. Errors: exit_file_trouble.
    subroutine write_bounds(table, results, error)
       class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
       type(error_type), allocatable, intent(out) :: error
 
-      type(bounding_grid) :: grid   ! of the last load
+      type(bounding_grid) :: grid   ! as the last load needed it; loads on the same grid use it again
       type(energy_bounds) :: bounds
       type(output_file) :: file
-      type(quantities) :: of_load
+      type(quantities) :: measures
       integer :: cell(2), load
       logical :: has_bounds, is_fine_enough
       real(dp) :: inside(2), numbers(6), own(3), overlap, unit(6)
@@ -75,13 +78,15 @@ contains
                if (has_bounds) then
                   call grid%bound(surface, p, gap, solution%pbar_over_pstar, bounds)
                   cell = grid%cell/surface%parts()
-                  of_load = solution%quantities
-                  call solution%details(of_load)
-                  own = or_nan(of_load%value([approach, elastic_energy, mean_gap]))
+                  measures = solution%quantities
+                  call solution%details(measures)
+                  own = or_nan(measures%value([approach, elastic_energy, mean_gap]))
+                  ! H <max(-g, 0)> of (E24). The mean of h + u is 1, so that the negative part of the gap h + u - delta
+                  ! has the mean delta - 1 + mean gap.
                   overlap = 0.0_dp
                   if (surface%has_hardness()) overlap = surface%hardness*(own(1) - 1.0_dp + own(3))
                   numbers = [bounds%energy, bounds%approach, bounds%mean_gap]
-                  ! F of the solution by (E24).
+                  ! The solution's own energy F by (E24), and its approach.
                   inside = [inside_of(solution%pbar_over_pstar*own(1) - own(2) - overlap, bounds%energy), &
                             inside_of(own(1), bounds%approach)]
                end if
@@ -95,26 +100,31 @@ contains
 
    contains
 
-      !> 1 if a number lies between bounds, 0 if it does not, NaN if one of the three is not known.
+      !> 1 if the number lies between the bounds, 0 if it does not, NaN if the number or a bound is unknown.
       real(dp) function inside_of(number, bounds)
          real(dp), intent(in) :: number, bounds(2)
 
          inside_of = not_a_number()
-         if (.not. any(ieee_is_nan([number, bounds]))) &
-            inside_of = merge(1.0_dp, 0.0_dp, number >= bounds(1) .and. number <= bounds(2))
+         if (any(ieee_is_nan([number, bounds]))) return
+         inside_of = 0.0_dp
+         if (number >= bounds(1) .and. number <= bounds(2)) inside_of = 1.0_dp
       end function inside_of
 
    end subroutine write_bounds
 
-   !> The pressures and the gaps of a solution on the points of the cell, or of a quarter of an even one.
+   !> The pressures and the gaps of a solution at the points of a grid: of the whole cell or, if the surface is even in
+   !> X and Y, of a quarter of it.
    subroutine fields_of(results, load, p, gap)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
-      real(dp), allocatable, intent(out) :: p(:, :)      !! p/p*; not allocated without a solution
-      real(dp), allocatable, intent(out) :: gap(:, :)    !! gap/Delta, with a hardness negative where p is the hardness
+      real(dp), allocatable, intent(out) :: p(:, :)      !! p/p*, shape (M, N); not allocated without a solution
+      !> gap/Delta, shape (M, N). With a hardness it is h + u - delta <= 0 where the pressure is the hardness.
+      real(dp), allocatable, intent(out) :: gap(:, :)
 
       class(contact_fields), allocatable :: fields
       integer :: j, points(2)
+      logical :: is_halved(2)
+      real(dp) :: offset(2)
       real(dp), allocatable :: no_shape(:), u(:, :)
 
       associate (surface => results%solver%surface, solution => results%loads(load))
@@ -124,18 +134,21 @@ contains
          if (fields%own_points(1) > 0) then
             points = fields%own_slab%points
             allocate (p(points(1), points(2)), gap(points(1), points(2)), u(points(1), 1))
-            ! The displacement is not asked for, which the shape is for.
+            ! The shape serves for the displacement alone, which is not used here: zeros do.
             allocate (no_shape(points(1)), source=0.0_dp)
             do j = 1, points(2)
                call fields%at_own_column(j, no_shape, p(:, j), u(:, 1), gap(:, j))
             end do
          else
-            points = merge(points_for(results%scene%method%accuracy%number, surface%dimension), 1, &
-                           [1, 2] <= surface%dimension)/surface%parts()
-            associate (is_halved => points > 1 .and. surface%shape%is_even())
-               call fields%on_grid(points, merge(0.5_dp, 0.0_dp, is_halved), p, u, gap)
-               points = merge(points*surface%parts()/2, points, is_halved)
-            end associate
+            points = 1
+            points(:surface%dimension) = points_for(results%scene%method%accuracy%number, surface%dimension)
+            points = points/surface%parts()
+            ! Of an even surface the bounds take a quarter of the cell, with points in the middle of their steps.
+            is_halved = points > 1 .and. surface%shape%is_even()
+            offset = 0.0_dp
+            where (is_halved) offset = 0.5_dp
+            call fields%on_grid(points, offset, p, u, gap)
+            where (is_halved) points = points*surface%parts()/2
             p = p(:points(1), :points(2))
             gap = gap(:points(1), :points(2))
          end if
@@ -143,7 +156,8 @@ contains
       end associate
    end subroutine fields_of
 
-   !> Points along each side whose bounds are about as close as an accuracy.
+   !> The number of points along each side with which the bounds are about as close as the accuracy: a power of 2 times
+   !> `usual_points`, at least 64, at most `most_points`.
    pure integer function points_for(accuracy, dimension) result(points)
       real(dp), intent(in) :: accuracy   !! relative, > 0
       integer, intent(in) :: dimension
@@ -154,12 +168,13 @@ contains
       points = nint(min(max(usual_points(dimension)*2.0_dp**doublings, 64.0_dp), real(most_points(dimension), dp)))
    end function points_for
 
-   !> Where the pressure is the hardness the gap is set to h + u - delta, if that is negative.
+   !> Sets the gap to h + u - delta, if that is negative, where the pressure is the hardness, as (E24) needs it. The
+   !> displacement u of the pressure is computed by Fourier transforms.
    subroutine add_overlap(surface, approach_over_amplitude, p, gap)
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: approach_over_amplitude
-      real(dp), intent(in) :: p(:, :)
-      real(dp), intent(inout) :: gap(:, :)
+      type(surface_type), intent(in) :: surface   !! with a hardness
+      real(dp), intent(in) :: approach_over_amplitude   !! delta/Delta
+      real(dp), intent(in) :: p(:, :)             !! p/p* at the points of the grid, shape (M, N)
+      real(dp), intent(inout) :: gap(:, :)        !! gap/Delta there
 
       real(dp), allocatable :: height(:, :), u(:, :)
       type(fourier_series) :: series

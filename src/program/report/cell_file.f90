@@ -1,5 +1,5 @@
-!> Tables of numbers at the points of a grid over the whole cell: a text in gnuplot's grid format, with a blank line
-!> between rows, or an array of records for numpy.
+!> Tables of numbers at the points of a grid over the whole cell. Such a table is a text in gnuplot's grid format, with
+!> a blank line between rows, or a file of numpy: an array of records.
 module wavycon_cell_file
    use, intrinsic :: iso_fortran_env, only: int64, int8
    use wavycon_contact_fields, only: contact_fields
@@ -15,21 +15,21 @@ module wavycon_cell_file
 
    public :: cell_file, check_memory, is_text, map_offset, map_points, npy_header
 
-   !> A map of more points than the square of this, or planes of more points together, are written in numpy's format,
-   !> unless the deck says otherwise.
+   !> A map of more than text_side^2 points, and planes with more points in total, are written in numpy's format, unless
+   !> the deck names the format.
    integer, parameter, public :: text_side = 257
 
-   !> The header of numpy's format, version 1.0 (numpy.lib.format), is a multiple of so many bytes, the same for all
-   !> maps of a kind, so that readers that do not know the format skip it.
+   !> The length of the header of numpy's format, version 1.0 (numpy.lib.format), is a multiple of `npy_header_step`
+   !> bytes. It is then the same for all maps of a kind, and readers that do not know the format can skip it.
    integer, parameter :: npy_header_step = 256
 
    type :: cell_file
       type(output_file) :: file
       logical :: as_text = .true.
-      integer :: points(2) = 0                !! along x and y
-      real(dp) :: offset(2) = 0.0_dp          !! of the first point, in steps
-      real(dp), private :: side(2) = 0.0_dp   !! of the cell [length]
-      logical :: is_here = .true.             !! whether this rank writes it
+      integer :: points(2) = 0                !! numbers of points along x and y
+      real(dp) :: offset(2) = 0.0_dp          !! position of the first point along x and y, in steps of the grid
+      real(dp), private :: side(2) = 0.0_dp   !! sides of the cell [length]
+      logical :: is_here = .true.             !! whether this rank writes the file
    contains
       procedure :: open => open_cell_file
       procedure :: put_row
@@ -37,23 +37,27 @@ module wavycon_cell_file
 
 contains
 
-   !> Opens <case>.<kind>.dat or <case>.<kind>.npy, on the first rank. `file%is_open` says whether there is the memory
-   !> too.
-   subroutine open_cell_file(self, results, table, planes, numbers_a_point, what)
+   !> Opens <case>.<file>.dat or <case>.<file>.npy, `file` being that of the table, on the first rank. Afterwards
+   !> `file%is_open` says whether the file could be opened and whether there is enough memory for a grid of its points.
+   subroutine open_cell_file(self, results, table, planes, numbers_a_point, subject)
       class(cell_file), intent(out) :: self
       type(results_type), intent(in) :: results
-      !> With columns of integers, which the file of numpy does not have, x, y and others.
+      !> The table, whose columns are integers, then x, y and others. A file of numpy does not have the integers.
       class(table_type), intent(in) :: table
-      integer, intent(in) :: planes(:)          !! their number along each of the first indices of the file of numpy
-      integer, intent(in) :: numbers_a_point    !! that are in memory at a time
-      character(*), intent(in) :: what          !! before the number of points, for the message on memory
+      !> Shape of the array of planes in the file of numpy: the number of loads, then of planes of a load if there are
+      !> several.
+      integer, intent(in) :: planes(:)
+      integer, intent(in) :: numbers_a_point    !! how many numbers are in memory for each point
+      character(*), intent(in) :: subject       !! words before the number of points in the message on memory
 
+      integer :: counted
       type(column_type), allocatable :: columns(:)
 
       self%points = map_points(results)
-      ! A table with more than one plane a load counts all of them.
-      self%as_text = is_text(results%scene%output%map_format%text, &
-                             self%points*[1, merge(product(planes), 1, size(planes) > 1)])
+      ! A map counts as one plane, a table with several planes for each load with all of them.
+      counted = 1
+      if (size(planes) > 1) counted = product(planes)
+      self%as_text = is_text(results%scene%output%map_format%text, self%points*[1, counted])
       self%side = results%solver%surface%sides()
       self%offset = map_offset(results, self%points)
       self%is_here = results%sharing%is_first
@@ -66,27 +70,28 @@ contains
          call self%file%open(results%scene%directory, results%scene%case//'.'//trim(table%file)//'.npy', &
                              npy_header([planes, self%points([2, 1])], columns%name))
       end if
-      call check_memory(self%file, self%points, numbers_a_point, what)
+      call check_memory(self%file, self%points, numbers_a_point, subject)
    end subroutine open_cell_file
 
-   !> Notes trouble if there is not the memory for a grid.
-   subroutine check_memory(file, points, numbers_a_point, what)
+   !> Notes trouble of a file if there is not enough memory for a grid.
+   subroutine check_memory(file, points, numbers_a_point, subject)
       type(output_file), intent(inout) :: file
-      integer, intent(in) :: points(2)
-      integer, intent(in) :: numbers_a_point
-      character(*), intent(in) :: what         !! before the number of points
+      integer, intent(in) :: points(2)         !! numbers of points of the grid along x and y
+      integer, intent(in) :: numbers_a_point   !! how many double precision numbers each point takes
+      character(*), intent(in) :: subject      !! words before the number of points in the message
 
       if (has_memory_for(numbers_a_point*product(int(points, int64)))) return
-      call file%note_trouble('there is not enough memory for '//what//integer_text(points(1))//' x '// &
+      call file%note_trouble('there is not enough memory for '//subject//integer_text(points(1))//' x '// &
                              integer_text(points(2))//' points')
    end subroutine check_memory
 
-   !> Writes a row of points along x. The point after the last is the first again and is not written.
+   !> Writes a row of points along x. The surface is periodic: the point behind the last one would be the first one
+   !> again and is not written.
    subroutine put_row(self, integers, row, values)
       class(cell_file), intent(inout) :: self
-      integer, intent(in) :: integers(:)     !! of the first columns
-      integer, intent(in) :: row             !! its number, from 1
-      real(dp), intent(in) :: values(:, :)   !! of the columns after x and y, shape (columns, points)
+      integer, intent(in) :: integers(:)     !! values of the columns before x and y
+      integer, intent(in) :: row             !! number of the row along y, from 1
+      real(dp), intent(in) :: values(:, :)   !! values of the columns after x and y, shape (columns, points)
 
       real(dp), allocatable :: rows(:, :)
       integer :: k
@@ -107,7 +112,7 @@ contains
       end if
    end subroutine put_row
 
-   !> The points of maps along x and y.
+   !> The numbers of points of maps along x and y; in 1-D the second is 1.
    function map_points(results) result(points)
       type(results_type), intent(in) :: results
       integer :: points(2)
@@ -120,14 +125,14 @@ contains
 
    !> Whether a map is written as a text.
    pure logical function is_text(map_format, points)
-      character(*), intent(in) :: map_format   !! the key
-      integer, intent(in) :: points(2)
+      character(*), intent(in) :: map_format   !! value of the key map_format: 'text', 'auto' or another
+      integer, intent(in) :: points(2)         !! two factors of the number of points
 
       is_text = map_format == 'text' .or. (map_format == 'auto' .and. product(int(points, int64)) <= text_side**2)
    end function is_text
 
-   !> The place of the first point, in steps, the same for all loads: that of a grid that was solved with as many
-   !> points.
+   !> The position of the first point of maps along x and y, in steps of the grid, the same for all loads. If a load was
+   !> solved on a grid of as many points as the map, the map takes the points of that grid.
    function map_offset(results, points) result(offset)
       type(results_type), intent(in) :: results
       integer, intent(in) :: points(2)
@@ -141,26 +146,27 @@ contains
          offset = fields%own_offset
          if (all(points == fields%own_points)) return
       end do
-      ! The points of a mirrored map are in the middle of their steps, so that none lies on a border.
+      ! Otherwise the points of a mirrored surface are in the middle of their steps, so that none lies on a border.
       offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
    end function map_offset
 
-   !> The bytes of numpy's file format before the elements, double precision numbers or records of them. These follow
-   !> with the last index changing fastest.
+   !> The header of a file in numpy's format: the bytes before the elements. Elements are double precision numbers or
+   !> records of such numbers; they follow with the last index changing fastest.
    pure function npy_header(elements, names) result(header)
-      integer, intent(in) :: elements(:)     !! their number along each index
-      !> Names of the numbers of a record, short enough for the header; absent: the elements are numbers.
+      integer, intent(in) :: elements(:)     !! shape of the array of elements
+      !> Names of the numbers of a record; all of them must fit into a header of 65 kB. Absent: elements are numbers.
       character(*), intent(in), optional :: names(:)
       character(:), allocatable :: header
 
-      !> Followed by two bytes for the length of the rest, the lower one first.
+      !> The first bytes. Two bytes with the length of the rest of the header follow, the lower one first.
       character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)
       integer, parameter :: before_words = len(magic) + 2
       character(:), allocatable :: number, words
       integer :: i, length
 
-      ! '<' where the lowest byte of a number is the first, '>' elsewhere.
-      number = "'"//merge('<', '>', transfer(1, 1_int8) == 1_int8)//"f8'"
+      ! '<' says that the lowest byte of a number comes first in memory, '>' that the highest does.
+      number = "'>f8'"
+      if (transfer(1, 1_int8) == 1_int8) number = "'<f8'"
       words = number
       if (present(names)) then
          words = '['

@@ -1,15 +1,16 @@
-!> <case>.checkpoint: the loads solved so far, for --resume. It is removed when the tables are written.
+!> <case>.checkpoint: the loads solved so far, for --resume. The file is removed when the tables are written.
 !>
 !> Only solutions that take long are written (contact_solution%is_kept); the others are fast to solve again. The file
-!> holds a mark and a line feed, then records: the number of 8-byte words, the words and their checksum. The first
-!> record is a text that describes what is solved, each further one is a solution. A last record that was cut short by
-!> an interruption is ignored.
+!> begins with a mark and a line feed. Records follow, each as the number of its 8-byte words, the words and their
+!> checksum. The first record is a text that describes what is solved, each further one is a solution. A last record
+!> that an interruption cut short is ignored.
 !>
-!> Two runs of the same case do not mix: each writes to a file of its own, which a later run replaces as a whole.
+!> Two runs of the same case do not mix their records: each run writes to a file of its own, which a later run replaces
+!> as a whole.
 !>
-!> Where ranks share the work each has a checkpoint <case>.checkpoint.<rank> with the loads that it solved, or with its
-!> columns of the grids. A run that resumes reads the checkpoints of all ranks of the interrupted run, and may have any
-!> number of them itself.
+!> Where ranks (processes of the parallel program) share the work, each rank has a checkpoint <case>.checkpoint.<rank>
+!> with the loads that it solved, or with its columns of the grids. A run that resumes reads the checkpoints of all
+!> ranks of the interrupted run, and may have another number of ranks.
 module wavycon_checkpoint
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
@@ -28,21 +29,21 @@ module wavycon_checkpoint
 
    public :: checkpoint_file, checkpoint_name, read_checkpoints
 
-   !> Stands for the number of a rank in a run whose work is not shared.
+   !> In place of the number of a rank: the run's work is not shared, and the checkpoint's name has no number.
    integer, parameter :: alone = -1
    character(*), parameter :: mark = 'wavycon checkpoint 10'//newline
    integer, parameter :: bytes_of_word = 8
-   !> End of all messages about a checkpoint that cannot be used.
-   character(*), parameter :: way_out = '. Without --resume all loads are solved, and the checkpoint is replaced.'
+   !> The end of all messages about a checkpoint that cannot be used.
+   character(*), parameter :: advice = '. Without --resume all loads are solved, and the checkpoint is replaced.'
 
    type :: checkpoint_file
       logical :: is_complete = .false.                         !! whether all solutions added so far were written
-      type(c_ptr), private :: file = c_null_ptr                !! of open_written
-      logical, private :: has_name = .false.                   !! or a temporary one
-      integer, private :: kept = -1                            !! solutions written; -1: not even the description
-      integer, private :: loads = 0                            !! all loads of the run
-      integer(int64), private :: bytes = 0                     !! written
-      character(:), allocatable, private :: name
+      type(c_ptr), private :: file = c_null_ptr                !! the file, from open_written
+      logical, private :: has_name = .false.                   !! whether the file has its name, not a temporary one
+      integer, private :: kept = -1                            !! number of solutions written; -1: no record at all yet
+      integer, private :: loads = 0                            !! number of loads of the run
+      integer(int64), private :: bytes = 0                     !! length of the file so far
+      character(:), allocatable, private :: name               !! path of the file
    contains
       procedure :: create
       procedure :: add
@@ -54,38 +55,45 @@ contains
    !> The path of the checkpoint, <directory>/<case>.checkpoint or <directory>/<case>.checkpoint.<rank>.
    function checkpoint_name(results, rank) result(name)
       type(results_type), intent(in) :: results
-      integer, intent(in), optional :: rank   !! alone: of a run whose work is not shared; absent: this one
+      !> A rank, or `alone` for a run whose work is not shared; absent: that of this run and rank.
+      integer, intent(in), optional :: rank
       character(:), allocatable :: name
 
-      integer :: of_rank
+      integer :: owner
 
-      of_rank = merge(results%sharing%rank, alone, results%sharing%is_shared)
-      if (present(rank)) of_rank = rank
+      owner = alone
+      if (results%sharing%is_shared) owner = results%sharing%rank
+      if (present(rank)) owner = rank
       name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
-      if (of_rank /= alone) name = name//'.'//integer_text(of_rank)
+      if (owner /= alone) name = name//'.'//integer_text(owner)
    end function checkpoint_name
 
-   !> Removes the checkpoints of an earlier run that had another number of ranks.
+   !> Removes the checkpoints that an earlier run with more ranks, or with shared work, has left: those that this run
+   !> does not replace.
    subroutine remove_others(results)
       type(results_type), intent(in) :: results
 
       integer :: rank
 
       if (.not. results%sharing%is_first) return
-      if (results%sharing%is_shared) call remove_file(checkpoint_name(results, alone))
-      rank = merge(results%sharing%ranks, 0, results%sharing%is_shared)
+      rank = 0
+      if (results%sharing%is_shared) then
+         call remove_file(checkpoint_name(results, alone))
+         rank = results%sharing%ranks
+      end if
       do while (path_kind(checkpoint_name(results, rank)) == path_file)
          call remove_file(checkpoint_name(results, rank))
          rank = rank + 1
       end do
    end subroutine remove_others
 
-   !> Creates the checkpoint of a run with the solutions that are known already; it replaces that of an earlier run. A
-   !> checkpoint that cannot be written does not stop the run: see is_complete.
+   !> Creates the checkpoint of a run with the solutions that are known already. The file replaces the checkpoint of an
+   !> earlier run only when it holds all of these. An error of writing does not stop the run: `is_complete` is then
+   !> .false.
    subroutine create(self, results, known)
       class(checkpoint_file), intent(out) :: self
       type(results_type), intent(in) :: results   !! its directory exists
-      logical, intent(in) :: known(:)             !! of each load: whether its solution is known
+      logical, intent(in) :: known(:)             !! whether the solution of each load is known
 
       character(:), allocatable :: text
       integer :: load
@@ -107,10 +115,10 @@ contains
       if (end_written(self%file, 1_c_int, 1_c_int) /= 0) call close_file(self)
    end subroutine create
 
-   !> Adds a solution, if it is worth keeping.
+   !> Adds a solution, if it took long (contact_solution%is_kept).
    subroutine add(self, load, solution)
       class(checkpoint_file), intent(inout) :: self
-      integer, intent(in) :: load             !! its number in the deck's order
+      integer, intent(in) :: load             !! number of the load in the deck's order
       type(contact_solution), intent(in) :: solution
 
       integer(int64), allocatable :: words(:)
@@ -124,8 +132,8 @@ contains
       end if
    end subroutine add
 
-   !> Removes the checkpoint after the tables are written, unless another run has replaced it meanwhile: as `put` sees
-   !> by its size.
+   !> Removes the checkpoint after the tables are written. If the file has another size than this run has written,
+   !> another run has replaced it meanwhile, and it stays.
    subroutine remove(self)
       class(checkpoint_file), intent(inout) :: self
 
@@ -134,7 +142,7 @@ contains
       if (file_size(self%name) == self%bytes) call remove_file(self%name)
    end subroutine remove
 
-   !> Closes the file; nothing more is written to it.
+   !> Closes the file. Nothing is written to it afterwards.
    subroutine close_file(self)
       type(checkpoint_file), intent(inout) :: self
 
@@ -144,11 +152,11 @@ contains
       self%is_complete = .false.
    end subroutine close_file
 
-   !> Writes a record and says what an interruption leaves from now on. Nothing is written any more once another run has
-   !> replaced the file, as its size shows.
+   !> Writes a record, and sets the message that tells after an interruption how many loads are kept. If the file has
+   !> another size afterwards than this run has written, another run has replaced it, and the file is closed.
    subroutine put(self, words)
       type(checkpoint_file), intent(inout) :: self
-      integer(int64), intent(in) :: words(:)
+      integer(int64), intent(in) :: words(:)   !! the words of the record without length and checksum
 
       integer(c_int) :: status
       integer(c_size_t) :: bytes
@@ -156,7 +164,7 @@ contains
       if (.not. self%is_complete) return
       bytes = bytes_of_word*size(words, kind=c_size_t)
       self%bytes = self%bytes + bytes + 2*bytes_of_word
-      ! The status is that of all so far.
+      ! The status is that of the first error of the file, so that the last one counts for all three.
       status = put_bytes(self%file, [bytes/bytes_of_word], int(bytes_of_word, c_size_t))
       status = put_bytes(self%file, words, bytes)
       status = put_bytes(self%file, [checksum(words)], int(bytes_of_word, c_size_t))
@@ -171,31 +179,33 @@ contains
                                           ' loads are kept in '//self%name//c_null_char)
    end subroutine put
 
-   !> Reads the next record of a file.
+   !> Reads the next record of a checkpoint.
    subroutine get(unit, words)
-      integer, intent(in) :: unit
-      !> Not allocated if the file ends before the record does; size 0 if the record is damaged.
+      integer, intent(in) :: unit   !! unit of the file, which is open for reading as a stream
+      !> The words of the record; not allocated if the file ends before the record does; size 0 if they do not agree
+      !> with their checksum.
       integer(int64), allocatable, intent(out) :: words(:)
 
-      integer(int64) :: bytes, length, place, sum_of_words
+      integer(int64) :: bytes, length, position, sum_of_words
       integer :: status
 
       read (unit, iostat=status) length
       if (status /= 0) return
       ! A damaged length may be huge: allocate no more than the file holds.
-      inquire (unit=unit, size=bytes, pos=place)
-      if (length < 0 .or. length > (bytes - place + 1)/bytes_of_word - 1) return
+      inquire (unit=unit, size=bytes, pos=position)
+      if (length < 0 .or. length > (bytes - position + 1)/bytes_of_word - 1) return
       allocate (words(length))
       read (unit, iostat=status) words, sum_of_words
       if (status /= 0 .or. sum_of_words /= checksum(words)) words = words(:0)
    end subroutine get
 
-   !> Reads the solutions of an interrupted run, which may have had any number of ranks. Errors: exit_bad_input for a
-   !> damaged checkpoint and for one of another run, exit_file_trouble.
+   !> Reads the solutions of an interrupted run, which may have had another number of ranks, from all its checkpoints.
+   !> Errors: exit_bad_input for a damaged checkpoint and for the checkpoint of another run, exit_file_trouble.
    subroutine read_checkpoints(results, known, first_name, error)
-      type(results_type), intent(inout) :: results   !! with room for all loads, which are ordered
-      logical, intent(out) :: known(:)               !! of each own load: whether its solution was in the checkpoints
-      character(:), allocatable, intent(out) :: first_name   !! of a checkpoint; not allocated if there is none
+      !> `loads` has an element for each load and takes the solutions.
+      type(results_type), intent(inout) :: results
+      logical, intent(out) :: known(:)   !! whether the solution of each load was read; .false. for loads of other ranks
+      character(:), allocatable, intent(out) :: first_name   !! path of the first checkpoint; not allocated without one
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: name, now
@@ -214,15 +224,15 @@ contains
          end if
          rank = rank + 1
       end do
-      ! Some ranks may have written their columns of the load that was interrupted, others not.
+      ! At the interruption some ranks may have written their columns of a load and others not: forget these columns.
       do load = 1, size(known)
          if (allocated(results%loads(load)%source) .and. .not. known(load)) deallocate (results%loads(load)%source)
       end do
    end subroutine read_checkpoints
 
-   !> Reads one checkpoint. Errors: as of read_checkpoints.
+   !> Reads one checkpoint. Results, `known` and errors are those of read_checkpoints.
    subroutine read_checkpoint(name, now, results, known, error)
-      character(*), intent(in) :: name
+      character(*), intent(in) :: name               !! path of the checkpoint
       character(*), intent(in) :: now                !! description of this run
       type(results_type), intent(inout) :: results
       logical, intent(inout) :: known(:)
@@ -262,7 +272,7 @@ contains
          end if
       end do
       close (unit)
-      if (trouble /= '') call fatal_error(error, exit_bad_input, escaped(name)//': '//trouble//way_out)
+      if (trouble /= '') call fatal_error(error, exit_bad_input, escaped(name)//': '//trouble//advice)
    end subroutine read_checkpoint
 
    !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
@@ -275,9 +285,9 @@ contains
              newline//results%scene%fingerprint
    end function description
 
-   !> How the descriptions of two runs differ; empty if they do not.
+   !> A sentence that says how the descriptions of two runs differ; empty if they are equal.
    function difference(before, now) result(words)
-      character(*), intent(in) :: before, now   !! of the interrupted run and of this one
+      character(*), intent(in) :: before, now   !! descriptions of the interrupted run and of this one
       character(:), allocatable :: words
 
       integer :: i, k
@@ -300,7 +310,7 @@ contains
 
    contains
 
-      !> The line of byte k, without comment and without blanks at both ends.
+      !> The line of the text that holds byte k, without comment and without blanks at both ends.
       pure function line_at(text) result(line)
          character(*), intent(in) :: text
          character(:), allocatable :: line
@@ -312,7 +322,8 @@ contains
 
    end function difference
 
-   !> Checksum: a polynomial whose coefficients are the half words, modulo a prime. A change of one word changes it.
+   !> Checksum of words: a polynomial whose coefficients are the half words, modulo a prime. A change of one word
+   !> changes the checksum.
    pure integer(int64) function checksum(words) result(total)
       integer(int64), intent(in) :: words(:)
 
@@ -324,9 +335,9 @@ contains
       end do
    end function checksum
 
-   !> The checksum of words and one more.
+   !> The checksum of a sequence of words with one more word at its end.
    elemental integer(int64) function with_word(before, word) result(total)
-      integer(int64), intent(in) :: before   !! checksum of the words before
+      integer(int64), intent(in) :: before   !! checksum of the sequence without that word
       integer(int64), intent(in) :: word
 
       integer(int64), parameter :: prime = 2_int64**31 - 1, factor = 1103515245_int64, low_half = 2_int64**32 - 1
@@ -335,8 +346,8 @@ contains
       total = modulo(total*factor + shiftr(word, 32), prime)
    end function with_word
 
-   !> Checksum of a surface: amplitude, cell and Fourier coefficients. It does not depend on how these are distributed
-   !> over the ranks.
+   !> Checksum of a surface: of its amplitude, the sides of its cell and its Fourier coefficients. It does not depend on
+   !> how the coefficients are distributed over the ranks.
    integer(int64) function surface_checksum(results) result(total)
       type(results_type), intent(in) :: results
 
@@ -353,10 +364,11 @@ contains
       end associate
    end function surface_checksum
 
-   !> The sum of the checksums of the coefficients of each wave number in X.
+   !> The sum, over the wave numbers in X that this rank has, of a checksum of the coefficients of that wave number. The
+   !> sum of these over the ranks is the same however wave numbers are distributed.
    pure integer(int64) function sum_over_waves(values, first) result(total)
       real(dp), intent(in) :: values(:, :)   !! shape (own wave numbers in X, wave numbers in Y)
-      integer, intent(in) :: first           !! of the own wave numbers
+      integer, intent(in) :: first           !! the first of the own wave numbers in X
 
       integer(int64) :: of_wave(size(values, 1))
       integer :: i, j

@@ -1,4 +1,4 @@
-!> The lines that say what is solved: the head of tables and, with short numbers, of the log.
+!> The lines that say what is solved. They are the head of tables and, with numbers of fewer digits, of the log.
 module wavycon_head_lines
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: clauses, escaped, exact_number, integer_text, newline, percent, short_number
@@ -13,14 +13,14 @@ module wavycon_head_lines
 
 contains
 
-   !> Version, deck, surface, the statistics of a height map, material and method: lines without a newline behind the
-   !> last.
+   !> The lines of version, deck, surface, statistics of a height map, material and method, separated by newlines. The
+   !> last line has no newline.
    function head_lines(scene, surface, method, prefix, digits) result(lines)
       type(scene_type), intent(in) :: scene
-      type(surface_type), intent(in) :: surface   !! the solver's
-      character(*), intent(in) :: method          !! in words
-      character(*), intent(in) :: prefix          !! of each line
-      character(*), intent(in) :: digits          !! of numbers: 'all' or 'some'
+      type(surface_type), intent(in) :: surface   !! the surface that is solved, with its amplitude and sides
+      character(*), intent(in) :: method          !! the solver and its discretisation in words
+      character(*), intent(in) :: prefix          !! text at the start of each line, such as '# '
+      character(*), intent(in) :: digits          !! digits of numbers: 'all', so that they read back exactly, or 'some'
       character(:), allocatable :: lines
 
       character(:), allocatable :: words
@@ -41,7 +41,7 @@ contains
             words = words//', mirrored'
          end if
          call add('surface: '//words)
-         ! The statistics of a height map, and what was done to it.
+         ! The statistics of a height map, and how it was prepared.
          if (allocated(scene%map)) then
             associate (map => scene%map, roughness => scene%roughness)
                call add('map: points_x[-] = '//integer_text(map%points(1))// &
@@ -73,7 +73,7 @@ contains
          lines = lines//newline//prefix//line
       end subroutine add
 
-      !> Such as ', rms_height[mm] = 0.1'.
+      !> A name, its unit and its value, such as ', rms_height[mm] = 0.1'.
       pure function number(name, unit, value) result(text)
          character(*), intent(in) :: name, unit
          real(dp), intent(in) :: value
@@ -92,7 +92,7 @@ contains
 
    end function head_lines
 
-   !> The changes in one line; empty if there are none.
+   !> The changes that were made to a height map, in one line; empty if there are none.
    pure function preparation_words(changes, length_unit) result(words)
       type(map_changes), intent(in) :: changes
       character(*), intent(in) :: length_unit   !! label of the unit of lengths
@@ -101,16 +101,15 @@ contains
       character(:), allocatable :: trend
 
       words = ''
-      if (changes%head_lines > 0) words = 'without a head of '//integer_text(changes%head_lines)//' line'// &
-         trim(merge(' ', 's', changes%head_lines == 1))//' in words'
+      if (changes%head_lines > 0) words = 'without a head of '//counted(changes%head_lines, 'line')//' in words'
       if (changes%uneven_steps(2) > 0.0_dp) words = clauses(words, 'resampled to '// &
          integer_text(changes%points(1))//' points '//short_number(changes%step)//' apart, which are '// &
          short_number(changes%uneven_steps(1))//' to '//short_number(changes%uneven_steps(2))// &
          ' apart in the file ['//length_unit//']')
       if (changes%cropped_from(1) > 0) words = clauses(words, 'cropped from '// &
          integer_text(changes%cropped_from(1))//' x '//integer_text(changes%cropped_from(2))//' points')
-      if (changes%spikes > 0) words = clauses(words, integer_text(changes%spikes)//' spike'// &
-         trim(merge(' ', 's', changes%spikes == 1))//' replaced by the median of the heights around')
+      if (changes%spikes > 0) words = clauses(words, counted(changes%spikes, 'spike')// &
+                                              ' replaced by the median of the heights around')
       if (changes%detrend /= 'none') then
          trend = 'mean'
          if (changes%detrend == 'quadratic') trend = 'quadratic trend'
@@ -122,8 +121,7 @@ contains
             words = words//' ['//length_unit//']'
          end if
       end if
-      if (changes%filled > 0) words = clauses(words, integer_text(changes%filled)//' missing height'// &
-                                              trim(merge(' ', 's', changes%filled == 1))//' filled ('// &
+      if (changes%filled > 0) words = clauses(words, counted(changes%filled, 'missing height')//' filled ('// &
                                               percent(real(changes%filled, dp)/product(changes%points))//')')
       if (changes%edges == 'mirror') words = clauses(words, 'continued by its mirror images')
       if (changes%edges == 'free') words = clauses(words, 'with free edges: nothing continues it')
@@ -133,5 +131,15 @@ contains
          short_number(changes%short_wavelength)//', whose rms was '//short_number(changes%rms_of_short)// &
          ' ['//length_unit//']')
    end function preparation_words
+
+   !> A number of things in words, such as '1 line' or '3 lines'.
+   pure function counted(number, noun) result(words)
+      integer, intent(in) :: number
+      character(*), intent(in) :: noun   !! in the singular
+      character(:), allocatable :: words
+
+      words = integer_text(number)//' '//noun
+      if (number /= 1) words = words//'s'
+   end function counted
 
 end module wavycon_head_lines

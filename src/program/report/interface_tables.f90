@@ -1,10 +1,11 @@
-!> Tables of what follows from the contact for the interface.
+!> Tables of the properties of the interface. Equations (I..) are those of src/beyond/README.md.
 !>
 !> <case>.interface.dat: contact stiffness and resistance, and how mean gap and contact area change with the load.
-!> <case>.partial_slip.dat: stick area, displacement and energy a cycle of each load and tangential load.
-!> <case>.slip_loop.dat: a block of each with the tangential load against the displacement.
-!> <case>.adhesion.dat: the contact with adhesion. Blocks: the curve of load and approach against area; pull-off, jumps
-!> and ends of branches; the loads.
+!> <case>.partial_slip.dat: stick area, tangential displacement and energy lost in a cycle, a row for each load and
+!> tangential load.
+!> <case>.slip_loop.dat: tangential load against displacement, a block for each load and tangential load.
+!> <case>.adhesion.dat: the contact with adhesion in three blocks: the curve of load and approach against area;
+!> pull-off, jumps and ends of branches; the loads.
 module wavycon_interface_tables
    use wavycon_adhesive_contact, only: adhesive_point, at_approach, at_load, closed, not_solved, &
       point_names, separated
@@ -52,8 +53,9 @@ contains
          'surface_energy[pressure*length] branch[word] point[word] status_code[#] status[word]')
    end function interface_tables
 
-   !> The stiffness is -1/G' [p*/Delta]: zero without load, infinite in full contact, which the table has as NaN. The
-   !> resistance of a nominal area follows from it (I8).
+   !> Writes the row of a load. The contact stiffness is -1/G' [p*/Delta], with the slope G' of the mean gap against the
+   !> mean pressure. It is zero without load and infinite in full contact, where the table has NaN. The resistance of a
+   !> nominal area follows from G' by (I8).
    subroutine put_interface(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -84,15 +86,17 @@ contains
       end associate
    end subroutine put_interface
 
-   !> The tangential stiffness is that of the next increase of the load.
+   !> Writes the rows of a load, one for each tangential load. The tangential stiffness is that of a further increase of
+   !> the tangential load.
    subroutine put_slip(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(quantities) :: slopes(2)   ! at P and P*
+      type(quantities) :: slopes(2)   ! derivatives at the mean pressure P, and at that of the stick contact, P*
       integer :: i
-      real(dp) :: displacement(2), energy(2), of_stick(3), stiffness
+      real(dp) :: displacement(2), energy(2), stiffness
+      real(dp) :: of_stick(3)   ! stick contact: mean pressure [p*], area fraction and its error
 
       associate (solution => results%loads(load), setting => results%scene%interface_setting, &
                  p_star => results%scene%p_star, amplitude => results%solver%surface%amplitude)
@@ -129,13 +133,15 @@ contains
       end associate
    end subroutine put_slip
 
-   !> Branch 1 is loading; 2, from Q to -Q, and 3, back to Q, follow by Masing's rule.
+   !> Writes the blocks of a load, one for each tangential load Q, with three branches. Branch 1 is the loading from 0
+   !> to Q, which is solved. Branch 2, from Q to -Q, and branch 3, back to Q, follow from it by Masing's rule: the same
+   !> curve at twice the size.
    subroutine put_loop(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      real(dp) :: point(2)   !! tangential load [p*], displacement over kappa f [Delta]
+      real(dp) :: point(2)   !! tangential load [p*], displacement divided by kappa f [Delta]
       integer :: branch, i, k
 
       associate (setting => results%scene%interface_setting, p_star => results%scene%p_star, &
@@ -161,7 +167,7 @@ contains
       end associate
    end subroutine put_loop
 
-   !> Block 1 is the curve, 2 its critical points, 3 the loads.
+   !> Writes a block of the table of adhesion: 1 is the curve, 2 its critical points, 3 the contacts at the loads.
    subroutine put_adhesion(results, block, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: block

@@ -1,8 +1,8 @@
-!> Tables over one cell, for each load a block with a blank line between rows (gnuplot's grid format), or the same as an
-!> array of records for numpy.
+!> Tables over one cell: a text with a block for each load and a blank line between rows (gnuplot's grid format), or a
+!> file of numpy, an array of records.
 !>
-!> <case>.map.dat or .npy: the fields.
-!> <case>.slip_map.dat or .npy: the tangential tractions, and where the contact sticks and slips, of each load and
+!> <case>.map.dat or .npy: pressure, gap, displacement and undeformed gap.
+!> <case>.slip_map.dat or .npy: tangential traction, pressure, and whether the point sticks or slips, for each load and
 !> tangential load.
 module wavycon_map_tables
    use, intrinsic :: iso_fortran_env, only: int64
@@ -20,11 +20,11 @@ module wavycon_map_tables
 
    public :: map_tables
 
-   !> Numbers in memory for each point of a map: three fields and the surface, the spectrum of one, and those of the
-   !> solution; of a slip map: three fields of two contacts.
+   !> How many numbers are in memory for each point. Map: three fields and the surface, the spectrum of one of these,
+   !> and the solution's own fields. Slip map: three fields of two contacts.
    integer, parameter :: numbers_a_point = 7, numbers_a_slip_point = 6
 
-   !> Columns of a map, without load and place.
+   !> Columns of a map, without load, x and y.
    integer, parameter :: numbers_of_map = 4
 
 contains
@@ -42,7 +42,8 @@ contains
          'pressure[pressure] slip_state[-]')
    end function map_tables
 
-   !> All ranks write a map in numpy's format at the points of the grid that all loads are solved on.
+   !> All ranks write the map together if it is in numpy's format and its points are those of the distributed grid that
+   !> all loads are solved on. Before loads are solved, the grid that the deck gives decides.
    logical function is_written_by_all(results)
       type(results_type), intent(in) :: results
 
@@ -63,7 +64,7 @@ contains
       end if
    end function is_written_by_all
 
-   !> Errors: exit_file_trouble.
+   !> Writes the map of all loads. Errors: exit_file_trouble.
    subroutine write_map_table(table, results, error)
       class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
@@ -71,7 +72,7 @@ contains
 
       type(cell_file) :: map
       class(contact_fields), allocatable :: fields
-      real(dp), allocatable :: gap(:, :), p(:, :), shape(:, :), u(:, :)
+      real(dp), allocatable :: gap(:, :), height(:, :), p(:, :), u(:, :)
       integer :: l, load
       logical :: by_all
 
@@ -87,9 +88,9 @@ contains
                cycle
             end if
             call fields%on_grid(map%points, map%offset, p, u, gap)
-            call surface%sample_shape(map%points, map%offset, shape)
+            call surface%sample_shape(map%points, map%offset, height)
             do l = 1, map%points(2)
-               call map%put_row([load], l, row_of(p(:, l), gap(:, l), u(:, l), shape(:, l)))
+               call map%put_row([load], l, row_of(p(:, l), gap(:, l), u(:, l), height(:, l)))
             end do
          end do
       end associate
@@ -97,27 +98,28 @@ contains
 
    contains
 
-      !> Writes the load, whose columns are distributed over the ranks: the first rank takes them one by one.
+      !> Writes the map of the load, whose columns are distributed over the ranks. All ranks call this procedure: they
+      !> send the columns one by one to the first rank, which writes them.
       subroutine put_distributed()
          integer :: column, k, l
          integer :: image(map%points(1))
          logical :: is_own
          real(dp), dimension(fields%own_slab%points(1)) :: gap, p, u
-         real(dp), allocatable :: shape(:, :)
+         real(dp), allocatable :: height(:, :)
          real(dp) :: values(numbers_of_map, map%points(1))
          type(grid_transform) :: transform
 
          associate (slab => fields%own_slab, series => results%solver%surface%shape)
-            allocate (shape(slab%points(1), slab%columns()))
+            allocate (height(slab%points(1), slab%columns()))
             call transform%start(slab%points, series%is_even())
-            call transform%sample(series, shape)
-            ! Of a quarter of the cell the mirror images follow.
+            call transform%sample(series, height)
+            ! If the grid covers a quarter of the cell, its mirror images give the points of the others.
             image = image_of_point([(k, k=1, size(image))], slab%points(1), size(image) > slab%points(1))
             do l = 1, map%points(2)
                column = image_of_point(l, slab%points(2), map%points(2) > slab%points(2))
                is_own = column >= slab%first .and. column <= slab%last
                if (is_own) then
-                  associate (own => shape(:, column - slab%first + 1))
+                  associate (own => height(:, column - slab%first + 1))
                      call fields%at_own_column(column, own, p, u, gap)
                      values = row_of(p(image), gap(image), u(image), own(image))
                   end associate
@@ -128,21 +130,21 @@ contains
          end associate
       end subroutine put_distributed
 
-      !> The numbers of a row of points, in the deck's units.
-      pure function row_of(p, gap, u, shape) result(values)
-         real(dp), intent(in) :: p(:), gap(:), u(:)   !! p/p*, gap/Delta and u/Delta
-         real(dp), intent(in) :: shape(:)             !! 1 - h/Delta
+      !> Pressure, gap, displacement and undeformed gap of a row of points, in the deck's units.
+      pure function row_of(p, gap, u, height) result(values)
+         real(dp), intent(in) :: p(:), gap(:), u(:)   !! p/p*, gap/Delta and u/Delta, shape (points)
+         real(dp), intent(in) :: height(:)            !! 1 - h/Delta, h being the undeformed gap, shape (points)
          real(dp) :: values(numbers_of_map, size(p))
 
          values(1, :) = results%scene%p_star*p
          values(2, :) = results%solver%surface%amplitude*gap
          values(3, :) = results%solver%surface%amplitude*u
-         values(4, :) = results%solver%surface%amplitude*(1.0_dp - shape)
+         values(4, :) = results%solver%surface%amplitude*(1.0_dp - height)
       end function row_of
 
    end subroutine write_map_table
 
-   !> Errors: exit_file_trouble.
+   !> Writes the slip map of all loads and tangential loads. Errors: exit_file_trouble.
    subroutine write_slip_map(table, results, error)
       class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
@@ -150,8 +152,8 @@ contains
 
       type(cell_file) :: map
       class(contact_fields), allocatable :: fields
-      real(dp), allocatable :: gap(:, :), p(:, :), p_of_stick(:, :), u(:, :), values(:, :)
-      integer :: i, l, load
+      real(dp), allocatable :: gap(:, :), p(:, :), p_of_stick(:, :), state(:), u(:, :), values(:, :)
+      integer :: i, k, l, load
 
       call map%open(results, table, [size(results%loads), size(results%slip, 1)], numbers_a_slip_point, '')
       associate (surface => results%solver%surface, p_star => results%scene%p_star, &
@@ -168,10 +170,10 @@ contains
                   call fields%on_grid(map%points, map%offset, p_of_stick, u, gap)
                end associate
                do l = 1, map%points(2)
-                  ! The state is 0 where the gap is open, 1 slip, 2 stick.
+                  ! The state is 0 where the gap is open, 1 where the contact slips and 2 where it sticks.
+                  state = [(real(count([p(k, l), p_of_stick(k, l)] > 0.0_dp), dp), k=1, map%points(1))]
                   values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
-                                              p_star*p(:, l), merge(1.0_dp, 0.0_dp, p(:, l) > 0.0_dp) + &
-                                              merge(1.0_dp, 0.0_dp, p_of_stick(:, l) > 0.0_dp)], [map%points(1), 3]))
+                                              p_star*p(:, l), state], [map%points(1), 3]))
                   if (.not. results%slip(i, load)%stick%has_numbers()) values = not_a_number()
                   call map%put_row([load, i], l, values)
                end do

@@ -1,5 +1,5 @@
-!> A table in memory: its columns as numbers. `output_file` writes tables to it in place of a file. Columns are declared
-!> as name[unit]: those of the unit '#' have integers, those of the unit 'word' have words.
+!> A table in memory, whose columns are arrays of numbers. `output_file` writes a table to memory in place of a file.
+!> Columns are declared as name[unit]. A column of the unit '#' has integers, one of the unit 'word' has words.
 module wavycon_memory_table
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_kinds, only: dp
@@ -10,26 +10,27 @@ module wavycon_memory_table
 
    public :: column_list, column_type, memory_table
 
-   !> What the values of a column are.
+   !> The kinds of values that a column has.
    integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
 
-   !> Bytes of a name or a unit.
+   !> Most bytes of the name or the unit of a column, and of a word in a table.
    integer, parameter, public :: longest_column = 48
    integer, parameter, public :: longest_word = 32
-   integer, parameter :: first_room = 64
+   !> Rows for which a new table has memory.
+   integer, parameter :: first_rows = 64
 
    type :: column_type
-      character(longest_column) :: name = '', unit = ''     !! '-' is the unit of integers and words
-      integer :: kind = of_reals                            !! what its values are
+      character(longest_column) :: name = '', unit = ''     !! the unit of integers and words is '-'
+      integer :: kind = of_reals                            !! of_reals, of_integers or of_words
    end type column_type
 
    type :: memory_table
       type(column_type), allocatable :: columns(:)
-      integer :: rows = 0
+      integer :: rows = 0                                   !! number of rows so far
       real(dp), allocatable :: values(:, :)                 !! shape (columns, rows or more)
-      !> A column of words has their numbers in this list, from 1.
+      !> All words of the table, each once. In place of a word `values` has the word's number in this list, from 1.
       character(longest_word), allocatable :: words(:)
-      logical :: is_full = .false.                          !! whether there was not the memory for all rows
+      logical :: is_full = .false.                          !! whether memory was too short for further rows
    contains
       procedure :: start
       procedure :: add_row
@@ -45,14 +46,14 @@ contains
       type(column_type), intent(in) :: columns(:)
 
       self%columns = columns
-      allocate (self%values(size(columns), first_room), self%words(0))
+      allocate (self%values(size(columns), first_rows), self%words(0))
    end subroutine start
 
-   !> Adds a row.
+   !> Adds a row. If there is not enough memory for the row, it is lost and `is_full` becomes .true.
    subroutine add_row(self, numbers, words)
       class(memory_table), intent(inout) :: self
-      real(dp), intent(in) :: numbers(:)               !! of the columns of integers and of numbers
-      character(*), intent(in), optional :: words(:)   !! of the columns of words, of at most longest_word bytes
+      real(dp), intent(in) :: numbers(:)               !! values of the columns of integers and of numbers, in order
+      character(*), intent(in), optional :: words(:)   !! values of the columns of words, <= longest_word bytes
 
       integer :: i
       logical :: is_word(size(self%columns))
@@ -73,7 +74,7 @@ contains
       end associate
    end subroutine add_row
 
-   !> The number of a word, which is added to the list if it is new.
+   !> The number of a word in the list of words. A new word is added to the list.
    integer function number_of_word(self, word) result(number)
       type(memory_table), intent(inout) :: self
       character(*), intent(in) :: word   !! at most longest_word bytes
@@ -84,7 +85,7 @@ contains
       number = size(self%words)
    end function number_of_word
 
-   !> The number of a column; 0 if there is none of this name.
+   !> The number of the column with a name; 0 if there is none.
    pure integer function find_column(self, name) result(column)
       class(memory_table), intent(in) :: self
       character(*), intent(in) :: name
@@ -93,18 +94,21 @@ contains
       if (allocated(self%columns)) column = findloc(self%columns%name == name, .true., dim=1)
    end function find_column
 
-   !> Lines, without a newline behind the last: 'columns', name[unit] of each, the unit of a column of words being
-   !> 'word'; 'words', the list of words. Not allocated for another name.
+   !> One of two lists as text, a line for each entry.
    pure subroutine text(self, name, lines)
       class(memory_table), intent(in) :: self
+      !> 'columns': name[unit] of each column, with the unit 'word' for columns of words; 'words': the list of words.
       character(*), intent(in) :: name
+      !> Lines separated by newlines, the last without one; not allocated for another name.
       character(:), allocatable, intent(out) :: lines
 
-      integer :: i
+      integer :: entries, i
 
       if (name /= 'columns' .and. name /= 'words') return
       lines = ''
-      do i = 1, merge(size(self%columns), size(self%words), name == 'columns')
+      entries = size(self%columns)
+      if (name == 'words') entries = size(self%words)
+      do i = 1, entries
          if (i > 1) lines = lines//newline
          if (name == 'words') then
             lines = lines//trim(self%words(i))
@@ -116,9 +120,9 @@ contains
       end do
    end subroutine text
 
-   !> The columns in a text, name[unit] of each.
+   !> The columns that a text declares.
    pure function column_list(text) result(columns)
-      character(*), intent(in) :: text   !! with a blank between two
+      character(*), intent(in) :: text   !! name[unit] of each column, with a blank between two
       type(column_type), allocatable :: columns(:)
 
       integer :: behind, first, i, last

@@ -1,5 +1,5 @@
-!> What the log says of a run: its input, the tables of the solved loads and of the largest stresses, and what a user
-!> should know of the solutions.
+!> The text of a run's log: the input, the tables of the solved loads and of the largest stresses, and notes on what a
+!> user should know of input and solutions.
 module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
@@ -22,9 +22,9 @@ module wavycon_notes
 
    public :: note_loads, note_scene, outcome, show_loads, show_scene, show_stresses, sum_up
 
-   !> A line that grows column by column, together with that of the names.
+   !> A row of a table of the log, which grows column by column, together with the line of the columns' names.
    type :: log_line
-      character(:), allocatable :: names, words
+      character(:), allocatable :: names, words   !! the line of names, and the row
    contains
       procedure :: start
       procedure :: add
@@ -32,9 +32,9 @@ module wavycon_notes
 
 contains
 
-   !> Writes the input in effect: deck, surface, material, method and loads, and what is suspicious of it.
+   !> Writes the input in effect: deck, surface, material, method and loads, and notes on suspicious values.
    subroutine show_scene(results, log)
-      type(results_type), intent(in) :: results   !! started
+      type(results_type), intent(in) :: results   !! with the scene and the started solver
       type(run_log), intent(inout) :: log
 
       character(:), allocatable :: words
@@ -59,15 +59,16 @@ contains
       end associate
    end subroutine show_scene
 
-   !> Notes what is suspicious of a scene before its loads are solved: a height map, a surface that is too steep for the
-   !> theory, if the deck has units, and one that is all but flat, most likely by a mistake of units.
+   !> Notes what is suspicious in a scene, before its loads are solved: a doubtful height map; if the deck has units, a
+   !> surface that is too steep for the theory; a surface that is almost flat, most likely by a mistake of units.
    subroutine note_scene(scene, log)
       type(scene_type), intent(in) :: scene
       type(run_log), intent(inout) :: log
 
-      !> The theory of small slopes is off by the order of their square, here a tenth.
+      !> The relative error of the theory of small slopes is of the order of the slope squared, here a tenth.
       real(dp), parameter :: steepest = 0.3_dp
-      !> Heights in m beside sides in um make slopes of 1e-4 (polished silicon) to 10 a million times smaller.
+      !> Heights in m beside sides in um make slopes a million times smaller. Real slopes are 1e-4 (polished silicon) to
+      !> 10, so that such a mistake gives slopes up to 1e-5.
       real(dp), parameter :: flattest = 1e-5_dp
       character(:), allocatable :: borders, cause, verdict
       logical :: is_flat
@@ -88,14 +89,15 @@ contains
                    verdict//' '//cause)
    end subroutine note_scene
 
-   !> Says what is suspicious of a height map.
+   !> Notes what is suspicious in a height map: a missing_value that does not occur, spikes, borders that do not fit
+   !> together, noise.
    subroutine note_map(scene, map, log)
       type(scene_type), intent(in) :: scene
-      type(map_statistics), intent(in) :: map   !! of the scene
+      type(map_statistics), intent(in) :: map   !! statistics of the scene's height map
       type(run_log), intent(inout) :: log
 
-      !> Least slope by differences over that of the series. Noise that lowers it to 0.9 takes a quarter or more of the
-      !> contact area at light loads: see the table of src/core/map/README.md.
+      !> Least ratio of the rms slope by differences to the rms slope of the Fourier series. Noise that lowers the ratio
+      !> to 0.9 takes a quarter or more of the contact area at light loads: see the table of src/core/map/README.md.
       real(dp), parameter :: least_ratio = 0.9_dp
       character(:), allocatable :: remedies
       integer :: direction
@@ -113,7 +115,7 @@ contains
             scene%length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
             '; such steps carry load. Remedies: '//remedies)
       end do
-      ! A broken border is a step between two points.
+      ! A border that does not fit is a step between two points and lowers the ratio too: it was noted above.
       if (map%slope_by_differences >= least_ratio*scene%roughness%slope .or. any(map%is_broken_along([1, 2]))) return
       call log%note('the rms slope is '//short_number(scene%roughness%slope)// &
                    ', by differences of neighbours only '//short_number(map%slope_by_differences)// &
@@ -121,9 +123,9 @@ contains
                    'they make contact areas smaller')
    end subroutine note_map
 
-   !> A line for each load: mean gap, area and peak pressure, each followed by its error estimate; mean and peak
-   !> pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges force, approach, area
-   !> and peak pressure in the deck's units.
+   !> Writes a row for each load: mean gap, area and peak pressure, each followed by its error estimate; mean and peak
+   !> pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges the row has force,
+   !> approach, area and peak pressure in the deck's units.
    subroutine show_loads(results, log)
       type(results_type), intent(in) :: results   !! with a solution for each load
       type(run_log), intent(inout) :: log
@@ -134,7 +136,7 @@ contains
       type(log_line) :: line
 
       if (log%quiet) return
-      ! The longest name of a solver among the loads.
+      ! The column of solvers is as wide as the longest name among the loads.
       solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
       names = [character(9) :: 'gap/Delta', 'area/A0', 'peak/p*']
       columns = [character(24) :: 'mean_gap_over_amplitude', 'contact_area_fraction', 'peak_pressure_over_pstar']
@@ -158,9 +160,10 @@ contains
       end associate
    end subroutine show_loads
 
-   !> A line for each load and body: von Mises stress and shear stress, each followed by its error estimate, and the
-   !> depth of the first over the side of the cell along x; with free edges all in the deck's units. The von Mises
-   !> stress in the deck's unit too if the deck gives a modulus, and the ratio to the yield stress if it gives one.
+   !> Writes a row for each load and body: the largest von Mises stress and the largest shear stress, each followed by
+   !> its error estimate, and the depth of the largest von Mises stress over the side of the cell along x. If the deck
+   !> gives a modulus, the von Mises stress follows in the deck's unit; if it gives a yield stress, the ratio to the
+   !> yield stress follows. With free edges all values are in the deck's units.
    subroutine show_stresses(results, log)
       type(results_type), intent(in) :: results   !! with the largest stresses
       type(run_log), intent(inout) :: log
@@ -204,7 +207,7 @@ contains
       end associate
    end subroutine show_stresses
 
-   !> Starts a line with the mean pressure or, with free edges, the force.
+   !> Starts the row of a load with its mean pressure or, with free edges, its force.
    subroutine start(self, results, load)
       class(log_line), intent(out) :: self
       type(results_type), intent(in) :: results
@@ -221,10 +224,10 @@ contains
       end if
    end subroutine start
 
-   !> Adds a number at the right of a column; of an error estimate two digits, and '-' if it is unknown.
+   !> Adds a column with a number at its right. An error estimate has two digits, an unknown one is '-'.
    subroutine add(self, name, number)
       class(log_line), intent(inout) :: self
-      character(*), intent(in) :: name
+      character(*), intent(in) :: name   !! name of the column; 'error' for an error estimate
       real(dp), intent(in) :: number
 
       character(12) :: buffer
@@ -245,7 +248,8 @@ contains
       self%words = self%words//repeat(' ', max(0, width - len(words)))//words
    end subroutine add
 
-   !> Writes the last lines of the log and finds the exit status.
+   !> Writes the last lines of the log and sets the exit status: exit_fine if all loads were solved as requested,
+   !> otherwise exit_not_converged.
    subroutine sum_up(results, log, status)
       type(results_type), intent(in) :: results
       type(run_log), intent(inout) :: log
@@ -259,10 +263,11 @@ contains
          call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
       end associate
       call log%say(outcome(results))
-      status = merge(exit_fine, exit_not_converged, all([(results%is_solved(load), load=1, size(results%loads))]))
+      status = exit_fine
+      if (.not. all([(results%is_solved(load), load=1, size(results%loads))])) status = exit_not_converged
    end subroutine sum_up
 
-   !> How many loads of a run were solved as requested, in a line.
+   !> A line that says how many loads of a run were solved as requested.
    function outcome(results) result(words)
       type(results_type), intent(in) :: results   !! with a solution for each load
       character(:), allocatable :: words
@@ -275,10 +280,10 @@ contains
                            ' loads NOT solved as requested, see the status column'
    end function outcome
 
-   !> Notes what a user should know of solutions.
+   !> Notes what a user should know of solutions: what is not resolved, not reached, not defined or doubtful.
    subroutine note_loads(results, loads_by, loads, log)
-      type(results_type), intent(in) :: results       !! started
-      integer, intent(in) :: loads_by                 !! how the loads were given, a name of wavycon_scene
+      type(results_type), intent(in) :: results       !! with the scene and the started solver
+      integer, intent(in) :: loads_by                 !! how the loads were given: by_pressure or another of the scene
       type(solution_record), intent(in) :: loads(:)   !! the solutions
       type(run_log), intent(inout) :: log
 
@@ -327,15 +332,15 @@ contains
 
    contains
 
-      !> Notes what holds for some of the loads, if it does for any.
+      !> Notes what holds for a number of the loads, unless this number is 0.
       subroutine note_some(number, words)
-         integer, intent(in) :: number       !! of these loads
+         integer, intent(in) :: number       !! how many loads the words hold for
          character(*), intent(in) :: words
 
          if (number > 0) call log%note('at '//integer_text(number)//of_loads//' '//words)
       end subroutine note_some
 
-      !> Says how many contact areas or mean gaps no load has on the grid, and what helps.
+      !> Notes how many of the given contact areas or mean gaps the grid cannot have at any load, and what helps.
       subroutine note_unreached()
          character(:), allocatable :: limit
          integer :: last
@@ -354,7 +359,8 @@ contains
             "accuracy; solver = 'fitted' has no such limit")
       end subroutine note_unreached
 
-      !> Says which values have no error estimate and which are no larger than theirs, and what helps.
+      !> Notes how many loads have no error estimates, how many loads have values that are no larger than their errors,
+      !> and what helps.
       subroutine note_unresolved()
          character(32) :: values(3)
          integer :: coarse(3), i, unknown
@@ -367,7 +373,7 @@ contains
             associate (solution => loads(i))
                if (solution%status /= unresolved) cycle
                if (any(is_known(solution%error(main_quantities)))) then
-                  coarse = coarse + merge(0, 1, solution%are_resolved(results%solver%surface))
+                  where (.not. solution%are_resolved(results%solver%surface)) coarse = coarse + 1
                else
                   unknown = unknown + 1
                end if

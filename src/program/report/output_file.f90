@@ -1,5 +1,5 @@
-!> Result files, written as written_file.c says. A table may be written to memory in place of a file: it gets columns
-!> and rows, and lines by `put` are left out.
+!> Result files. A file gets its name when it is complete (src/base/system/written_file.c). A table may be written to
+!> memory in place of a file: the table in memory gets columns and rows, while lines written by `put` are left out.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
@@ -15,7 +15,7 @@ module wavycon_output_file
 
    public :: output_file
 
-   !> The narrowest column: a real number of 16 digits with a three-digit exponent, and a blank before it.
+   !> Width of the narrowest column: a real number of 16 digits with a three-digit exponent, and blanks before it.
    integer, parameter :: narrowest = 25
 
    interface
@@ -23,23 +23,24 @@ module wavycon_output_file
       pure subroutine put_in_columns(columns, kinds, ends, numbers, line) bind(c, name='wavycon_put_in_columns')
          import :: c_char, c_double, c_int
          integer(c_int), value :: columns
-         integer(c_int), intent(in) :: kinds(*), ends(*)          !! of each column, as of output_file
-         real(c_double), intent(in) :: numbers(*)                 !! of the columns without words
-         character(kind=c_char), intent(inout) :: line(*)
+         integer(c_int), intent(in) :: kinds(*), ends(*)          !! `kinds` and `column_end` of output_file
+         real(c_double), intent(in) :: numbers(*)                 !! values of the columns that do not have words
+         character(kind=c_char), intent(inout) :: line(*)         !! blanks on entry, ends(columns) bytes
       end subroutine put_in_columns
    end interface
 
    type :: output_file
       private
-      type(memory_table), pointer, public :: memory => null()   !! in place of the file; exists until `finish`
-      type(c_ptr) :: file = c_null_ptr            !! of open_written
-      character(:), allocatable :: name
-      character(:), allocatable :: trouble        !! first error; not allocated if there was none
-      type(column_type), allocatable :: columns(:)   !! not allocated if the file is no table
-      logical :: has_names = .false.              !! whether the line of the names was written
-      integer :: blocks = 0                       !! data sets begun by begin_block
+      !> The table in memory that replaces the file; it must exist until `finish` is called.
+      type(memory_table), pointer, public :: memory => null()
+      type(c_ptr) :: file = c_null_ptr            !! the open file, from open_written
+      character(:), allocatable :: name           !! path of the file
+      character(:), allocatable :: trouble        !! message of the first error; not allocated if there was none
+      type(column_type), allocatable :: columns(:)   !! columns of a table; not allocated for other files
+      logical :: has_names = .false.              !! whether the line with the names of the columns was written
+      integer :: blocks = 0                       !! number of data sets begun by begin_block
       integer(c_int), allocatable :: column_end(:)       !! position in a row at which each column ends
-      integer(c_int), allocatable :: kinds(:)            !! what the values of each column are
+      integer(c_int), allocatable :: kinds(:)            !! kind of each column: of_reals, of_integers, of_words
    contains
       procedure :: open => open_file
       procedure :: is_open
@@ -54,11 +55,11 @@ module wavycon_output_file
 
 contains
 
-   !> Opens a file for writing. `finish` reports errors.
+   !> Opens a file for writing. `finish` reports the errors of this and of all other procedures.
    subroutine open_file(self, directory, name, head)
       class(output_file), intent(out) :: self
-      character(*), intent(in) :: directory      !! existing
-      character(*), intent(in) :: name           !! of the file in the directory
+      character(*), intent(in) :: directory      !! an existing directory
+      character(*), intent(in) :: name           !! name of the file in the directory
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
 
       self%name = directory//'/'//name
@@ -73,7 +74,7 @@ contains
       is_open = .not. allocated(self%trouble)
    end function is_open
 
-   !> Writes a line.
+   !> Writes a line. A table in memory does not get it.
    subroutine put(self, line)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: line
@@ -82,7 +83,7 @@ contains
       call check(self, put_text(self%file, line//newline, len(line, c_size_t) + 1))
    end subroutine put
 
-   !> Writes numbers to a binary file, in the order of the array.
+   !> Writes numbers to a binary file, in the order of the array's elements in memory.
    subroutine put_numbers(self, numbers)
       class(output_file), intent(inout) :: self
       real(dp), intent(in), contiguous :: numbers(:, :)
@@ -91,8 +92,8 @@ contains
       call check(self, put_bytes(self%file, numbers, size(numbers, kind=c_size_t)*storage_size(numbers)/8))
    end subroutine put_numbers
 
-   !> Sets the columns and writes the header line of their units. That of their names follows at the head of each block
-   !> or, without blocks, before the first row.
+   !> Sets the columns and writes the header line of their units. The line of their names follows at the head of each
+   !> block or, without blocks, before the first row.
    subroutine put_columns(self, columns)
       class(output_file), intent(inout) :: self
       type(column_type), intent(in) :: columns(:)   !! names without blanks; units are shown in brackets
@@ -117,10 +118,10 @@ contains
       call self%put(line)
    end subroutine put_columns
 
-   !> A line with words at the right of their columns.
+   !> A line with a word at the right of each of the first columns.
    pure function aligned(self, words) result(line)
       type(output_file), intent(in) :: self
-      character(*), intent(in) :: words(:)   !! one for each column
+      character(*), intent(in) :: words(:)   !! words of the columns, in order
       character(:), allocatable :: line
 
       integer :: i
@@ -139,8 +140,8 @@ contains
       call self%put(aligned(self, self%columns%name))
    end subroutine put_names
 
-   !> Begins a data set of gnuplot's `index`: two blank lines, unless it is the first, a comment, and the names of the
-   !> columns, which gnuplot looks for at the head of each data set.
+   !> Begins a block, a data set that gnuplot's `index` counts: two blank lines, unless the block is the first, a
+   !> comment, and the names of the columns, which gnuplot looks for at the head of each data set.
    subroutine begin_block(self, comment)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: comment
@@ -151,11 +152,11 @@ contains
       call put_names(self)
    end subroutine begin_block
 
-   !> Writes a row.
+   !> Writes a row of the table, to the file or to memory.
    subroutine put_row(self, numbers, words)
       class(output_file), intent(inout) :: self
-      real(dp), intent(in) :: numbers(:)               !! of the columns of integers and of numbers
-      character(*), intent(in), optional :: words(:)   !! of the columns of words; without blanks
+      real(dp), intent(in) :: numbers(:)               !! values of the columns of integers and of numbers, in order
+      character(*), intent(in), optional :: words(:)   !! values of the columns of words, in order; without blanks
 
       character(:), allocatable :: line
       integer :: i, k
@@ -177,29 +178,29 @@ contains
       call self%put(line)
    end subroutine put_row
 
-   !> Records the error of the file, if there is one.
+   !> Records an error of the operating system, if there is one.
    subroutine check(self, number)
       class(output_file), intent(inout) :: self
-      integer(c_int), intent(in) :: number   !! as of error_text
+      integer(c_int), intent(in) :: number   !! the system's number of the error, as error_text takes it; 0: no error
 
       if (number /= 0) call self%note_trouble(error_text(number))
    end subroutine check
 
-   !> Records an error: `finish` will report it and remove the file.
+   !> Records an error. `finish` will report the first recorded error and remove the file.
    subroutine note_trouble(self, message)
       class(output_file), intent(inout) :: self
-      character(*), intent(in) :: message
+      character(*), intent(in) :: message   !! what went wrong, without the name of the file
 
       if (.not. allocated(self%trouble)) self%trouble = message
    end subroutine note_trouble
 
-   !> Closes the file and gives it its name; after an error the file is removed instead. Errors: exit_file_trouble.
+   !> Closes the file and gives it its name. After an error the file is removed instead. Errors: exit_file_trouble.
    subroutine finish(self, error)
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
       if (associated(self%memory)) then
-         if (self%memory%is_full) call self%note_trouble('there is not the memory for all rows')
+         if (self%memory%is_full) call self%note_trouble('there is not enough memory for all rows')
          if (allocated(self%trouble)) call fatal_error(error, exit_file_trouble, 'table in memory: '//self%trouble)
          return
       end if

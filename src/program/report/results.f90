@@ -1,4 +1,4 @@
-!> The data that the tables of one scene are written from, and the header lines that all tables have.
+!> The data from which the tables of one scene are written, and the header lines that all tables have.
 module wavycon_results
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_adhesive_curve, only: adhesive_curve
@@ -23,27 +23,28 @@ module wavycon_results
 
    public :: results_type, not_a_number
 
-   !> Bytes of a unit's label, with '1/' before it or '^2' after it.
+   !> Most bytes of the label of a unit, with '1/' before it or '^2' after it.
    integer, parameter :: longest_unit = 24
 
    type :: results_type
       type(scene_type), allocatable :: scene
       class(contact_solver), allocatable :: solver
-      type(solver_traits) :: traits                          !! of the solver
+      type(solver_traits) :: traits                          !! what the solver can do, and its grids
       character(:), allocatable :: method                    !! the solver and its discretisation in words
       logical :: keeps_fields = .false.                      !! whether solutions have fields, edges and stresses
-      type(contact_solution), allocatable :: loads(:)        !! in the deck's order; loads of other ranks: the measures
-      !> The largest von Mises stress and the largest shear stress, shape (2, bodies, loads); not allocated unless the
-      !> deck asks for them.
+      !> The solution of each load, in the deck's order. Of a load that another rank solves: its numbers without fields.
+      type(contact_solution), allocatable :: loads(:)
+      !> The largest von Mises stress (1) and the largest shear stress (2), shape (2, bodies, loads); not allocated
+      !> unless the deck asks for them.
       type(largest_stress), allocatable :: largest_stresses(:, :, :)
       !> Partial slip, shape (tangential loads, loads), and adhesion; not allocated unless the deck asks for them.
       type(partial_slip), allocatable :: slip(:, :)
       type(adhesive_curve), allocatable :: adhesion
-      type(contact_solution), allocatable :: adhesive_loads(:)   !! of each load the contact with adhesion
-      logical :: with_adhesion = .false.                     !! whether these have changed places with `loads`
+      type(contact_solution), allocatable :: adhesive_loads(:)   !! contact with adhesion at each load
+      logical :: with_adhesion = .false.                     !! whether swap_contacts has put these into `loads`
       type(work_sharing) :: sharing                          !! how the ranks share the work
-      integer, allocatable :: order(:)                       !! the loads in the order in which they are solved
-      type(memory_table), pointer :: memory => null()        !! tables are written to it in place of files
+      integer, allocatable :: order(:)                       !! numbers of the loads in the order of their solution
+      type(memory_table), pointer :: memory => null()        !! if associated, a table is written to it, not to a file
    contains
       procedure :: swap_contacts
       procedure :: open_table
@@ -58,24 +59,25 @@ module wavycon_results
 
 contains
 
-   !> Exchanges the contacts without adhesion and with it, so that procedures for tables of the one serve the other.
+   !> Exchanges the contacts without adhesion, `loads`, and those with adhesion, `adhesive_loads`. Procedures that write
+   !> tables from `loads` then write those of the contact with adhesion. A second call restores the contacts.
    subroutine swap_contacts(self)
-      class(results_type), intent(inout) :: self   !! with adhesion
+      class(results_type), intent(inout) :: self   !! with `adhesive_loads`
 
-      type(contact_solution), allocatable :: others(:)
+      type(contact_solution), allocatable :: held(:)
 
-      call move_alloc(self%adhesive_loads, others)
+      call move_alloc(self%adhesive_loads, held)
       call move_alloc(self%loads, self%adhesive_loads)
-      call move_alloc(others, self%loads)
+      call move_alloc(held, self%loads)
       self%with_adhesion = .not. self%with_adhesion
    end subroutine swap_contacts
 
-   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. Errors show in
-   !> file%finish. Or opens the table in memory, if there is one, and sets its columns.
+   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. If there is a
+   !> table in memory, its columns are set instead, without a file. `file%finish` reports errors.
    subroutine open_table(self, kind, columns, file)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: kind         !! name of the table, such as 'summary'
-      character(*), intent(in) :: columns      !! name[unit] of each; the units of `unit_in_words` are replaced
+      character(*), intent(in) :: columns      !! name[unit] of each column; `unit_in_words` makes labels of the units
       type(output_file), intent(out) :: file
 
       type(column_type), allocatable :: list(:)
@@ -97,11 +99,11 @@ contains
       call file%put_columns(list)
    end subroutine open_table
 
-   !> The label of a unit: in it 'length', 'pressure', 'area', which in 1-D is a length, and 'force', as the deck names
-   !> them; others as they are.
+   !> The label of a unit in the deck's words: 'length' and 'pressure' become the deck's labels; 'area' becomes the
+   !> label of a length squared, in 1-D of a length; 'force' becomes pressure times area. All other text stays.
    elemental recursive function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
-      character(*), intent(in) :: unit
+      character(*), intent(in) :: unit   !! such as '1/length'
       character(longest_unit) :: words
 
       character(8), parameter :: names(*) = [character(8) :: 'length', 'pressure', 'area', 'force']
@@ -122,11 +124,11 @@ contains
       end do
    end function unit_in_words
 
-   !> The status of the largest stresses of a load in a body: that of the load or, where an error is more than half of
-   !> its stress, `unresolved` on a given grid and `not_accurate` otherwise.
+   !> The status of the largest stresses of a load in a body: the status of the load or, where the error estimate of a
+   !> stress exceeds `largest_stress_error` of the stress, `unresolved` if the deck gives the grid, else `not_accurate`.
    pure integer function stress_status(self, load, body) result(status)
-      class(results_type), intent(in) :: self      !! with largest stresses
-      integer, intent(in) :: load, body            !! numbers in the deck's order
+      class(results_type), intent(in) :: self      !! with `largest_stresses`
+      integer, intent(in) :: load, body            !! numbers of the load and of the body in the deck's order
 
       status = self%loads(load)%status
       if (.not. is_good_status(status)) return
@@ -135,7 +137,7 @@ contains
       if (all(self%traits%given_grid > 0)) status = unresolved
    end function stress_status
 
-   !> Whether a largest stress is hardly known.
+   !> Whether the error estimate of a largest stress exceeds `largest_stress_error` of the stress.
    elemental logical function is_doubtful(largest)
       type(largest_stress), intent(in) :: largest
 
@@ -144,11 +146,11 @@ contains
       if (.not. ieee_is_nan(largest%error)) is_doubtful = largest%error > largest_stress_error*largest%value
    end function is_doubtful
 
-   !> Whether a load, its largest stresses and its partial slip were solved as requested, as far as the deck asks for
-   !> them.
+   !> Whether a load was solved as requested, and so were its largest stresses and its partial slip if the deck asks for
+   !> these. Full slip counts as solved.
    pure logical function is_solved(self, load)
       class(results_type), intent(in) :: self
-      integer, intent(in) :: load    !! number in the deck's order
+      integer, intent(in) :: load    !! number of the load in the deck's order
 
       integer :: body
 
@@ -159,11 +161,11 @@ contains
          all(self%slip(:, load)%slides .or. is_good_status(self%slip(:, load)%status))
    end function is_solved
 
-   !> Begins the block of a load with a comment and the names of the columns.
+   !> Begins the block of a load with a comment (number, mean pressure, status) and the names of the columns.
    subroutine begin_block(self, file, load)
       class(results_type), intent(in) :: self
       type(output_file), intent(inout) :: file
-      integer, intent(in) :: load    !! number in the deck's order
+      integer, intent(in) :: load    !! number of the load in the deck's order
 
       character(:), allocatable :: words
 
@@ -174,7 +176,7 @@ contains
       end associate
    end subroutine begin_block
 
-   !> A number in units of p*: NaN on a surface with free edges, which has no p*.
+   !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*.
    elemental real(dp) function in_p_star(self, number)
       class(results_type), intent(in) :: self
       real(dp), intent(in) :: number
@@ -183,18 +185,19 @@ contains
       if (self%solver%surface%has_free_edges) in_p_star = not_a_number()
    end function in_p_star
 
-   !> The number of a load in a column of tables: NaN if it is unknown or does not exist. With free edges there are no
-   !> numbers in p*, and a profile has no approach. Without a hardness nothing is at it; the linear law is of maps.
+   !> The number of a load in a column of tables; NaN if the number is unknown or does not exist. With free edges there
+   !> are no numbers in p*, and a profile with free edges has no approach. Areas and loads at the hardness exist only if
+   !> there is a hardness.
    pure real(dp) function number(self, load, column, quantities_of_load)
       class(results_type), intent(in) :: self
-      integer, intent(in) :: load
-      character(*), intent(in) :: column   !! its name
-      !> With details; absent: those that the solver has computed.
+      integer, intent(in) :: load          !! number of the load in the deck's order
+      character(*), intent(in) :: column   !! name of the column
+      !> The quantities of the load with its details; absent: the quantities that the solver has computed.
       type(quantities), intent(in), optional :: quantities_of_load
 
       logical :: exists, in_unit, is_error
       integer :: kind, quantity
-      real(dp) :: unit(number_of_kinds)   !! of the core's numbers, in those of the deck
+      real(dp) :: unit(number_of_kinds)   !! the program's unit of each kind of quantity, in the deck's units
       type(quantities) :: q
 
       associate (surface => self%solver%surface, solution => self%loads(load), scene => self%scene)
@@ -222,9 +225,11 @@ contains
          case default
             call find_quantity(column, quantity, kind, is_error, in_unit)
             number = q%value(quantity)
-            ! Pressures over the p* of a flat surface are infinite.
+            ! The pressure of a flat surface, whose p* is 0, is infinite in units of p*.
             if (.not. number > huge(number)) number = or_nan(number)
-            if (is_error) number = or_nan(q%error(merge(mean_gap, quantity, quantity == approach)))
+            if (is_error) number = or_nan(q%error(quantity))
+            ! The error of the mean gap is also that of the approach.
+            if (is_error .and. quantity == approach) number = or_nan(q%error(mean_gap))
             exists = self%traits%has_errors .or. .not. is_error
             if (quantity == approach) exists = exists .and. .not. (surface%has_free_edges .and. surface%dimension == 1)
             if (any(quantity == [area_at_hardness, load_at_hardness])) exists = exists .and. surface%has_hardness()
@@ -236,7 +241,7 @@ contains
                unit(of_area) = surface%nominal_area()
                unit(of_energy) = scene%p_star*surface%amplitude*surface%nominal_area()
                number = unit(kind)*number
-               ! On a flat surface, whose p* is zero, it is the mean pressure.
+               ! The pressure on a flat surface is uniform, so that the peak pressure is the mean pressure.
                if (column == 'peak_pressure' .and. .not. scene%p_star > 0.0_dp) number = self%mean_pressure(load)
             else if (any(kind == [of_pressure, of_energy])) then
                number = self%in_p_star(number)
@@ -245,10 +250,10 @@ contains
       end associate
    end function number
 
-   !> The mean pressure of a load [pressure]. If the deck gives it, exactly that number.
+   !> The mean pressure of a load [pressure]. If the deck gives the mean pressure, the result is exactly that number.
    pure real(dp) function mean_pressure(self, load)
       class(results_type), intent(in) :: self
-      integer, intent(in) :: load
+      integer, intent(in) :: load    !! number of the load in the deck's order
 
       mean_pressure = self%scene%p_star*self%loads(load)%pbar_over_pstar
       if (allocated(self%scene%mean_pressure)) mean_pressure = self%scene%mean_pressure(load)

@@ -1,4 +1,4 @@
-!> The log of a run on standard output.
+!> The log of a run on standard output: lines, notes, and on a terminal a progress line.
 module wavycon_run_log
    use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: iso_fortran_env, only: int64
@@ -17,11 +17,11 @@ module wavycon_run_log
    type :: run_log
       private
       logical, public :: quiet = .false.   !! whether nothing is written
-      character(:), allocatable, public :: notes   !! those made since the start, each once: lines
-      integer :: columns = 0          !! of the terminal; 0: there is none
-      integer :: shown = 0            !! of them by the progress line
-      integer(int64) :: started = 0, rate = 1
-      real(dp) :: last_progress = 0.0_dp   !! since the start [s]
+      character(:), allocatable, public :: notes   !! the notes since the start, each once, as lines
+      integer :: columns = 0          !! width of the terminal in characters; 0: standard output is no terminal
+      integer :: shown = 0            !! length of the progress line that the terminal shows
+      integer(int64) :: started = 0, rate = 1   !! the system's clock at the start, and its counts per second
+      real(dp) :: last_progress = 0.0_dp   !! time of the last progress line since the start [s]
    contains
       procedure :: start
       procedure :: say
@@ -32,12 +32,12 @@ module wavycon_run_log
       procedure :: elapsed
    end type run_log
 
-   !> Shows the grids of a load as progress lines.
+   !> Shows the grids and iterations of a load as progress lines. The solver calls `grid_solved` and `shall_stop`.
    type, extends(solver_progress) :: log_progress
-      type(run_log), pointer :: log => null()
+      type(run_log), pointer :: log => null()   !! the log that writes the progress lines
       integer :: load = 0, loads = 0   !! number of the load being solved; number of all loads
-      integer :: solved = 0            !! loads that were solved
-      real(dp) :: last = 0.0_dp        !! when the last of them was, since the start of the log [s]
+      integer :: solved = 0            !! number of loads that were solved
+      real(dp) :: last = 0.0_dp        !! time at which the last of these was solved, since the start of the log [s]
    contains
       procedure :: grid_solved
       procedure :: shall_stop
@@ -56,29 +56,30 @@ contains
       call system_clock(self%started, self%rate)
    end subroutine start
 
-   !> Writes a line.
+   !> Writes a line in place of the progress line, if there is one.
    subroutine say(self, line)
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: line
 
       if (self%quiet) return
-      ! Blanks over the progress line.
+      ! Overwrite the progress line with blanks.
       if (self%shown > 0) call print_text(achar(13)//repeat(' ', self%shown)//achar(13)//c_null_char)
       self%shown = 0
-      ! A closed or full standard output does not stop the run: the results go to files. The program's end tells of it.
+      ! A closed or full standard output does not stop the run, whose results go to files: the program reports it when
+      ! it ends.
       call say_line(line)
    end subroutine say
 
-   !> Writes a note, what a user should know, and keeps it.
+   !> Writes a note, something that the user should know, and keeps it in `notes`.
    subroutine note(self, words)
-      class(run_log), intent(inout) :: self   !! started
+      class(run_log), intent(inout) :: self   !! after `start`
       character(*), intent(in) :: words       !! one line
 
       call self%say('note: '//words)
       if (index(newline//self%notes, newline//words//newline) == 0) self%notes = self%notes//words//newline
    end subroutine note
 
-   !> Writes a line after the time since the start.
+   !> Writes the time since the start in brackets, and a line behind it.
    subroutine say_timed(self, line)
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: line
@@ -89,7 +90,7 @@ contains
       call self%say(trim(time)//' '//line)
    end subroutine say_timed
 
-   !> Shows the grid that was solved last, as of `solver_progress`.
+   !> Shows the grid that was solved last. The arguments are those of `solver_progress`.
    subroutine grid_solved(self, points, iterations, residual)
       class(log_progress), intent(in) :: self
       integer, intent(in) :: points(2), iterations
@@ -100,7 +101,7 @@ contains
          short_number(residual))
    end subroutine grid_solved
 
-   !> Shows the iteration on a grid; never stops it.
+   !> Shows the iteration on a grid. The result is always .false.: the solver shall not stop.
    logical function shall_stop(self, iterations, residual)
       class(log_progress), intent(in) :: self
       integer, intent(in) :: iterations
@@ -111,8 +112,8 @@ contains
          integer_text(iterations)//', residual '//short_number(residual))
    end function shall_stop
 
-   !> The load being solved, the time since the start and, from the second load on, what is left if the others take as
-   !> long as those before.
+   !> The number of the load being solved, the time since the start and, from the second load on, an estimate of the
+   !> time that is left: each remaining load takes the mean time of the loads before.
    function words_of_load(self) result(words)
       class(log_progress), intent(in) :: self
       character(:), allocatable :: words
@@ -126,16 +127,16 @@ contains
                                              - (now - self%last)))//' left'
    end function words_of_load
 
-   !> A time in words, in seconds or minutes.
+   !> A time in words: in seconds, from 100 s on in minutes.
    pure function duration(seconds) result(words)
-      real(dp), intent(in) :: seconds
+      real(dp), intent(in) :: seconds   !! >= 0
       character(:), allocatable :: words
 
       words = integer_text(nint(seconds))//' s'
       if (seconds >= 100) words = integer_text(nint(seconds/60))//' min'
    end function duration
 
-   !> Whether a progress line would be shown: only on a terminal and at most every progress_interval.
+   !> Whether a progress line would be shown now: only on a terminal, and `progress_interval` after the last one.
    logical function is_due(self)
       class(run_log), intent(in) :: self
 
@@ -143,7 +144,7 @@ contains
       if (is_due) is_due = self%elapsed() - self%last_progress >= progress_interval
    end function is_due
 
-   !> Writes a progress line over the last one if it is due, cut to the width of the terminal.
+   !> Writes a progress line over the last one, if `is_due`. The line is cut to the width of the terminal.
    subroutine say_progress(self, words)
       class(run_log), intent(inout) :: self
       character(*), intent(in) :: words

@@ -1,16 +1,17 @@
-!> Tables of where the surfaces touch.
+!> Tables of the regions of contact. A spot is a connected region of contact, a pool a connected region of open gap.
 !>
-!> <case>.contour.dat: the edge of contact as closed curves; with solver = 'beale' the isobar p = edge_level p*. It has
-!> a block for each load that has an edge, with a blank line between curves. In 2-D the contact lies to the left of a
-!> curve; curves are not cut at the border of the cell and may extend beyond it. In 1-D a curve consists of the two ends
-!> of a strip.
-!> <case>.spots.dat: how many spots of contact and pools of gap there are, and whether contact and gap percolate, a row
-!> for each load. A load without a solution has NaN.
-!> <case>.spot_sizes.dat: each spot of contact and each pool of gap, the largest first, a block for each load with a
-!> blank line between spots and pools. A load without a solution has none.
+!> <case>.contour.dat: the edge of contact as closed curves; with solver = 'beale' the isobar p = edge_level p*. The
+!> table has a block for each load that has an edge, with a blank line between curves. In 2-D the contact lies to the
+!> left of a curve; curves are not cut at the border of the cell and may extend beyond it. In 1-D a curve consists of
+!> the two ends of a strip.
+!> <case>.spots.dat: number and sizes of spots and pools, and whether contact and gap percolate, a row for each load.
+!> The row of a load without a solution has NaN.
+!> <case>.spot_sizes.dat: each spot and each pool, the largest first, a block for each load with a blank line between
+!> spots and pools. A load without a solution has no block.
 !> <case>.histogram.dat: how pressures are distributed over the contact, and gaps over the open area, a block for each
-!> load with a row for each bin of pressure and of gap. Values are those at the points of the grid that was solved; of
-!> other solutions those at equally spaced points, with which (A7) of README.md in src/core/measure deals.
+!> load with a row for each bin of pressure and of gap. Values are those at the points of the solver's grid. A solution
+!> without a grid is sampled at equally spaced points, and in 2-D taken as linear between them, by (A7) of README.md in
+!> src/core/measure.
 module wavycon_spot_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
@@ -56,12 +57,13 @@ contains
          meaning='How pressures are distributed over the contact, and gaps over the open area.')
    end function spot_tables
 
+   !> Writes the block of a load: the curves of its edge of contact.
    subroutine put_curves(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(contact_contour), allocatable :: curves(:)   ! in X and Y
+      type(contact_contour), allocatable :: curves(:)   ! their points are in the angles X and Y
       integer :: i, k
 
       associate (surface => results%solver%surface)
@@ -77,6 +79,7 @@ contains
       end associate
    end subroutine put_curves
 
+   !> Writes the row of a load: numbers, areas and percolation of its spots and pools.
    subroutine put_spots(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -84,7 +87,7 @@ contains
 
       type(contact_spots) :: regions
       real(dp) :: numbers(11)
-      real(dp), allocatable :: pools(:), spots(:)   ! areas
+      real(dp), allocatable :: pools(:), spots(:)   ! area fractions of closed pools and of spots
       integer :: i
 
       associate (solution => results%loads(load))
@@ -104,6 +107,7 @@ contains
       end associate
    end subroutine put_spots
 
+   !> Writes the block of a load: a row for each spot, then one for each pool.
    subroutine put_spot_sizes(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -120,7 +124,7 @@ contains
 
    contains
 
-      !> Writes the regions of one kind, a row for each.
+      !> Writes a row for each region of one kind.
       subroutine put_regions(regions, kind)
          type(contact_region), intent(in) :: regions(:)   !! the largest first
          character(*), intent(in) :: kind                 !! 'spot' or 'pool'
@@ -132,8 +136,9 @@ contains
             do i = 1, size(regions)
                associate (region => regions(i))
                   area = region%area_fraction*surface%nominal_area()
-                  ! That of the disc of this area; of a strip half its width.
-                  radius = merge(0.5_dp*area, sqrt(area/pi), surface%dimension == 1)
+                  ! The equivalent radius is that of the disc with this area; in 1-D it is half the width of the strip.
+                  radius = sqrt(area/pi)
+                  if (surface%dimension == 1) radius = 0.5_dp*area
                   mean_pressure = not_a_number()
                   if (region%area_fraction > 0.0_dp) &
                      mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
@@ -147,7 +152,7 @@ contains
 
    end subroutine put_spot_sizes
 
-   !> Writes the block of a load, if it has a solution.
+   !> Writes the block of a load: its histograms of pressure and gap. A load without a solution has no block.
    subroutine put_histogram(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -158,25 +163,27 @@ contains
       real(dp), allocatable :: displacement(:, :), gap(:, :), pressure(:, :)
       real(dp) :: least, offset(2)
       integer :: bin, bins, points(2)
-      logical :: linear
+      logical :: is_continuous   ! whether the fields are taken as linear between the points, (A7)
 
       associate (scene => results%scene, surface => results%solver%surface, solution => results%loads(load))
          call solution%fields(surface, fields)
          points = fields%own_points
          offset = fields%own_offset
-         linear = any(points == 0) .and. surface%dimension == 2
+         is_continuous = any(points == 0) .and. surface%dimension == 2
          if (any(points == 0)) then
-            points = merge(plane_samples, [line_samples, 1], surface%dimension == 2)
+            points = plane_samples
+            if (surface%dimension == 1) points = [line_samples, 1]
             offset = merge(0.5_dp, 0.0_dp, points > 1)
          end if
          call fields%on_grid(points, offset, pressure, displacement, gap)
          if (any(ieee_is_nan(pressure))) return
          bins = nint(scene%output%histogram_bins%number)
-         ! The pressure of a series waves about zero outside the contact, whose edge is an isobar.
+         ! The pressure of a truncated series oscillates about zero outside the contact. The edge of its contact is
+         ! therefore the isobar p = edge_level p*.
          least = 0.0_dp
          if (scene%method%edge_level%is_given) least = scene%method%edge_level%number
-         call make_histogram(pressure, pressure > least, bins, linear, pressures)
-         call make_histogram(gap, .not. pressure > least, bins, linear, gaps)
+         call make_histogram(pressure, pressure > least, bins, is_continuous, pressures)
+         call make_histogram(gap, .not. pressure > least, bins, is_continuous, gaps)
       end associate
       call results%begin_block(file, load)
       do bin = 1, bins
@@ -186,13 +193,13 @@ contains
 
    contains
 
-      !> The numbers of the bin.
-      pure function in_unit(of, unit) result(numbers)
-         type(histogram), intent(in) :: of
-         real(dp), intent(in) :: unit   !! of its values [pressure] or [length]
+      !> The numbers of the current bin in the deck's units: middle, mean of the values, area fraction and density.
+      pure function in_unit(values, unit) result(numbers)
+         type(histogram), intent(in) :: values   !! histogram of p/p* or of gap/Delta
+         real(dp), intent(in) :: unit            !! p* [pressure] or Delta [length]
          real(dp) :: numbers(4)
 
-         numbers = [unit*of%middle(bin), unit*of%mean(bin), of%fraction(bin), of%density(bin)/unit]
+         numbers = [unit*values%middle(bin), unit*values%mean(bin), values%fraction(bin), values%density(bin)/unit]
       end function in_unit
 
    end subroutine put_histogram

@@ -1,10 +1,11 @@
-!> Tables of stresses.
+!> Tables of stresses in the bodies.
 !>
 !> <case>.stress_largest.dat: the largest von Mises stress and the largest shear stress of each load and body.
-!> <case>.stress_line.dat: stresses on the line below the crest, a block for each load and body.
+!> <case>.stress_line.dat: stresses on the vertical line below the crest, a block for each load and body.
 !> <case>.stress_section.dat: stresses on a vertical section through the crest, a block for each load and body with a
 !> blank line between depths.
-!> <case>.stress_planes.dat or .npy: stresses on planes below the whole cell, a block for each load, body and depth.
+!> <case>.stress_planes.dat or .npy: stresses on horizontal planes below the whole cell, a block for each load, body and
+!> depth.
 module wavycon_stress_tables
    use wavycon_cell_file, only: cell_file
    use wavycon_constants, only: pi
@@ -24,14 +25,16 @@ module wavycon_stress_tables
 
    public :: stress_tables, stress_depths, stress_numbers
 
-   !> Tension is positive, and principal stress 1 is the largest. The error is an estimate for the six components.
+   !> Columns of the stress at a point. Tension is positive, and principal stress 1 is the largest. The error is an
+   !> estimate of the largest error of the six components.
    character(*), parameter :: stress_columns = &
       'stress_xx[pressure] stress_yy[pressure] stress_zz[pressure] stress_xy[pressure] stress_xz[pressure] '// &
       'stress_yz[pressure] principal_1[pressure] principal_2[pressure] principal_3[pressure] von_mises[pressure] '// &
       'largest_shear[pressure] stress_pressure[pressure] stress_error[pressure]'
    integer, parameter :: numbers_of_stress = 13
 
-   !> Numbers in memory for each point of a plane: stresses, error, their spectra, and those of the solution.
+   !> How many numbers are in memory for each point of a plane: stresses, error, their spectra, and the solution's own
+   !> fields.
    integer, parameter :: numbers_a_point = 20
 
 contains
@@ -40,7 +43,7 @@ contains
    function stress_tables() result(tables)
       type(table_type) :: tables(4)
 
-      ! The ratio to the yield stress is that of the criterion in use.
+      ! stress_over_yield_stress is the equivalent stress of the yield criterion in use over the yield stress.
       tables(1) = table_type('stress_largest', 'largest', 'stress', put_load=put_largest_stresses, &
          columns='load[#] body[#] nu[-] pbar_over_pstar[-] '// &
          'largest_von_mises_over_pstar[-] largest_von_mises_over_pstar_error[-] largest_shear_over_pstar[-] '// &
@@ -60,17 +63,19 @@ contains
          columns='load[#] body[#] x[length] y[length] depth[length] '//stress_columns)
    end function stress_tables
 
-   !> The largest stresses are found before the tables are written.
+   !> Writes the rows of a load, one for each body. The largest stresses were found before: they are in the results.
    subroutine put_largest_stresses(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      integer :: body, parts(2)
-      real(dp) :: ratio(2), to_unit(5)   ! the latter of value, error and place
+      integer :: body
+      integer :: images(2)     ! how often a mirrored map fits into the cell along x and y
+      real(dp) :: ratio(2)     ! equivalent stress over the yield stress, and its error
+      real(dp) :: to_unit(5)   ! units of value, error, x, y and depth in the deck's units
 
       associate (surface => results%solver%surface)
-         parts = surface%parts()
+         images = surface%parts()
          to_unit = [results%scene%p_star, results%scene%p_star, surface%length, surface%length(1)]
       end associate
       do body = 1, size(results%scene%stress_setting%body)
@@ -83,13 +88,14 @@ contains
                                results%in_p_star([results%loads(load)%pbar_over_pstar, yielding%value, &
                                                   yielding%error, shear%value, shear%error]), ratio, &
                                results%mean_pressure(load), &
-                               to_unit*[yielding%value, yielding%error, yielding%place_in_cell(parts)], &
-                               to_unit*[shear%value, shear%error, shear%place_in_cell(parts)], &
+                               to_unit*[yielding%value, yielding%error, yielding%place_in_cell(images)], &
+                               to_unit*[shear%value, shear%error, shear%place_in_cell(images)], &
                                status_code(status)], [status_name(status)])
          end associate
       end do
    end subroutine put_largest_stresses
 
+   !> Writes the blocks of a load: the stresses below the crest.
    subroutine put_line(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -98,6 +104,7 @@ contains
       call put_below(results, load, file)
    end subroutine put_line
 
+   !> Writes the blocks of a load: the stresses on the vertical section below a line of the surface.
    subroutine put_section(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -105,24 +112,26 @@ contains
 
       type(surface_line) :: line
 
-      ! A table in memory may be asked for although the deck has section = 'none': it is that along x.
+      ! A program may ask for this table in memory although the deck has section = 'none'. The section is then that
+      ! along x.
       call start_surface_line(line, results, max(1, findloc(['x       ', 'diagonal', 'y       '] == &
                               results%scene%stress%section%text, .true., dim=1)))
       call put_below(results, load, file, line)
    end subroutine put_section
 
-   !> Writes the stresses below the crest or below a line of the surface: a block for each body, below a line with a
-   !> blank line between depths.
+   !> Writes the stresses below the crest or below a line of the surface: a block for each body. Below a line a blank
+   !> line separates the depths.
    subroutine put_below(results, load, file, line)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
-      !> With the columns 'load', 'body', below the crest depth and depth over cell, below a line distance, x, y and
-      !> depth, and stresses.
+      !> The file. Its columns are 'load' and 'body'; then, below the crest, depth and depth over cell or, below a line,
+      !> distance, x, y and depth; then those of the stress.
       type(output_file), intent(inout) :: file
-      type(surface_line), intent(in), optional :: line   !! absent: the crest alone
+      type(surface_line), intent(in), optional :: line   !! absent: the vertical line below the crest
 
       class(stress_fields), allocatable :: fields
-      real(dp), allocatable :: depths(:), errors(:, :), parts(:, :, :, :), place(:)
+      !> Position columns, and the stress of the waves as terms(:, 1) + nu*terms(:, 2), shape (6, 2, points, depths).
+      real(dp), allocatable :: depths(:), errors(:, :), position(:), terms(:, :, :, :)
       real(dp) :: side(2)
       integer :: body, i, k, points
 
@@ -131,14 +140,14 @@ contains
       associate (surface => results%solver%surface, bodies => results%scene%stress_setting%body)
          side = surface%sides()
          call stress_depths(results%scene%stress, surface, .false., depths)
-         allocate (parts(6, 2, points, size(depths)), errors(points, size(depths)))
+         allocate (terms(6, 2, points, size(depths)), errors(points, size(depths)))
          call results%loads(load)%stresses(surface, fields)
          do i = 1, size(depths)
             associate (depth => 2*pi*depths(i)/surface%length(1))
                if (present(line)) then
-                  call fields%on_line(line%angle(:, 0), line%direction, line%t, depth, parts(:, :, :, i), errors(:, i))
+                  call fields%on_line(line%angle(:, 0), line%direction, line%t, depth, terms(:, :, :, i), errors(:, i))
                else
-                  call fields%at(surface%crest(1), surface%crest(2), depth, parts(:, :, 1, i), errors(1, i))
+                  call fields%at(surface%crest(1), surface%crest(2), depth, terms(:, :, 1, i), errors(1, i))
                end if
             end associate
          end do
@@ -147,11 +156,11 @@ contains
             do i = 1, size(depths)
                if (i > 1 .and. present(line)) call file%put('')
                do k = 1, points
-                  place = [depths(i), depths(i)/side(1)]
+                  position = [depths(i), depths(i)/side(1)]
                   if (present(line)) &
-                     place = [line%distance(k - 1), surface%length*line%angle(:, k - 1)/(2*pi), depths(i)]
-                  call file%put_row([real(dp) :: load, body, place, stress_numbers( &
-                                     bodies(body)%stress(parts(:, :, k, i), fields%pbar_over_pstar), errors(k, i), &
+                     position = [line%distance(k - 1), surface%length*line%angle(:, k - 1)/(2*pi), depths(i)]
+                  call file%put_row([real(dp) :: load, body, position, stress_numbers( &
+                                     bodies(body)%stress(terms(:, :, k, i), fields%pbar_over_pstar), errors(k, i), &
                                      results%scene%p_star)])
                end do
             end do
@@ -159,7 +168,7 @@ contains
       end associate
    end subroutine put_below
 
-   !> Errors: exit_file_trouble.
+   !> Writes the stresses of all loads on planes. Errors: exit_file_trouble.
    subroutine write_stress_planes_table(table, results, error)
       class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
@@ -196,11 +205,11 @@ contains
       call planes%file%finish(error)
    end subroutine write_stress_planes_table
 
-   !> The numbers of these columns at a point.
+   !> The numbers of `stress_columns` at a point [pressure].
    pure function stress_numbers(stress, error, p_star) result(numbers)
-      real(dp), intent(in) :: stress(6)   !! xx, yy, zz, xy, xz, yz [p*]
-      real(dp), intent(in) :: error       !! [p*]
-      real(dp), intent(in) :: p_star      !! [pressure]
+      real(dp), intent(in) :: stress(6)   !! components xx, yy, zz, xy, xz, yz [p*]
+      real(dp), intent(in) :: error       !! estimate of the largest error of a component [p*]
+      real(dp), intent(in) :: p_star      !! p* [pressure]
       real(dp) :: numbers(numbers_of_stress)
 
       real(dp) :: principal(3)
@@ -210,13 +219,13 @@ contains
                         stress_pressure(stress), error]
    end function stress_numbers
 
-   !> The depths of a table: those of planes are the list of depths, if there is one, and those of line and section the
-   !> range, if there is one.
+   !> The depths of a table. A deck may give a list of depths, a range of equally spaced depths, or both. Planes take
+   !> the list if the deck gives it; line and section take the range if it is in effect. Otherwise they take the other.
    subroutine stress_depths(stress, surface, of_planes, depths)
-      type(stress_group), intent(in) :: stress
+      type(stress_group), intent(in) :: stress          !! the values of the group &stress
       type(surface_type), intent(in) :: surface
-      logical, intent(in) :: of_planes
-      real(dp), allocatable, intent(out) :: depths(:)   !! [length]
+      logical, intent(in) :: of_planes                  !! whether the table is that of planes
+      real(dp), allocatable, intent(out) :: depths(:)   !! depths below the surface [length]
 
       integer :: i, intervals, steps
       logical :: by_list

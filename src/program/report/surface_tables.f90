@@ -1,7 +1,8 @@
 !> Tables of the surface that was solved.
 !>
-!> <case>.spectrum.dat: its power spectra, a block for the isotropic one and one for lines along x and y.
-!> <case>.height.npy: its heights, for numpy and for kind = 'file'.
+!> <case>.spectrum.dat: power spectra of the surface, a block for the isotropic spectrum and one each for lines along x
+!> and along y.
+!> <case>.height.npy: heights of the surface, for numpy and for kind = 'file'.
 module wavycon_surface_tables
    use wavycon_cell_file, only: check_memory, map_points, npy_header
    use wavycon_error, only: error_type
@@ -17,7 +18,7 @@ module wavycon_surface_tables
 
    public :: surface_tables
 
-   !> Numbers in memory for each point: the height and its spectrum.
+   !> How many numbers are in memory for each point: the height and its spectrum.
    integer, parameter :: numbers_a_point = 2
 
 contains
@@ -30,14 +31,15 @@ contains
          columns='direction[word] wave_number[rad/length] waves[#] spectrum_2d[length^4] spectrum_1d[length^3] '// &
          'rms_height_up_to[length] rms_slope_up_to[-] rms_curvature_up_to[1/length]', &
          meaning='The power spectrum of the surface.')
-      ! The columns are those of the table in memory.
+      ! Only the table in memory has these columns: the file of numpy has the heights alone.
       tables(2) = table_type('height', 'height', written_by_all=is_written_by_all, &
          write_all=write_height_table, &
          columns='x[length] y[length] height[length]', &
          meaning="The heights that are solved, as a file of numpy that kind = 'file' reads.")
    end function surface_tables
 
-   !> Block 1 is the isotropic spectrum, 2 and 3 those of lines along x and y; of a profile there is that along x.
+   !> Writes a block of the table of spectra: 1 is the isotropic spectrum, 2 and 3 are those of lines along x and y. A
+   !> profile has block 2 alone.
    subroutine put_spectrum(results, block, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: block
@@ -67,16 +69,17 @@ contains
       end do
    end subroutine put_spectrum
 
-   !> All ranks write the heights of a map that is distributed over them.
+   !> All ranks write the table together if the height map is distributed over the ranks.
    logical function is_written_by_all(results)
       type(results_type), intent(in) :: results
 
       is_written_by_all = results%solver%surface%is_distributed()
    end function is_written_by_all
 
-   !> Writes rows of heights along x, over their mean [length]: of a map at its own points, of waves at those of maps.
-   !> A table in memory has their places too. Of a map that is distributed over the ranks the first one takes the
-   !> columns one by one. Errors: exit_file_trouble.
+   !> Writes rows along x of the heights above their mean [length]: of a height map at its own points, of other surfaces
+   !> at the points of maps (map_points). A table in memory has x and y of each point too. If the map is distributed
+   !> over the ranks, the ranks send its columns one by one to the first rank, which writes them. Errors:
+   !> exit_file_trouble.
    subroutine write_height_table(table, results, error)
       class(table_type), intent(in) :: table
       type(results_type), intent(in) :: results
@@ -88,7 +91,7 @@ contains
       real(dp), allocatable :: column(:, :), height(:, :)
       integer :: k, l, points(2)
       logical :: is_own, is_here
-      real(dp) :: first
+      real(dp) :: first   ! position of the first point along x and y, in steps
 
       associate (surface => results%solver%surface)
          is_here = results%sharing%is_first
@@ -117,12 +120,15 @@ contains
                first = merge(0.5_dp, 0.0_dp, surface%mirrored)
                call surface%sample_shape(points, [first, first], height)
                height = surface%amplitude*height
-               if (.not. associated(results%memory)) call file%put_numbers(height)
-               do l = 1, merge(points(2), 0, associated(results%memory))
-                  do k = 1, points(1)
-                     call file%put_row([surface%sides()*([k, l] - 1 + first)/points, height(k, l)])
+               if (associated(results%memory)) then
+                  do l = 1, points(2)
+                     do k = 1, points(1)
+                        call file%put_row([surface%sides()*([k, l] - 1 + first)/points, height(k, l)])
+                     end do
                   end do
-               end do
+               else
+                  call file%put_numbers(height)
+               end if
             end if
          end if
       end associate

@@ -1,5 +1,5 @@
-!> What a table of results is, as data: its name, its columns, who asks for it, and the procedure that writes its rows.
-!> src/README.md describes how to add a table.
+!> The description of a table of results: its name, its columns, the keys that ask for it, and the procedure that writes
+!> its rows. src/README.md describes how to add a table.
 module wavycon_table
    use wavycon_contact_solver, only: solver_traits
    use wavycon_contact_status, only: status_name
@@ -21,24 +21,29 @@ module wavycon_table
 
    public :: table_type
 
-   !> It has no allocatable components, of which gfortran 12 loses those of array constructors.
+   !> A table. The type has no allocatable components, because gfortran 12 loses the memory of those in array
+   !> constructors.
    type :: table_type
       character(16) :: file = ''          !! the table is <case>.<file>.dat
-      character(16) :: key = ''           !! the key that requests it; empty: it has none of its own
-      character(9) :: group = 'output'    !! of the key: 'output', 'stress' or 'interface'
+      character(16) :: key = ''           !! the logical key that requests the table; empty: the table has no such key
+      character(9) :: group = 'output'    !! group of the key: 'output', 'stress' or 'interface'
       character(160) :: meaning = ''      !! one sentence for the reference of keys of &output
-      character(2048) :: columns = ''     !! name[unit] of each, with a blank between two
-      !> Keys that together ask for it, in place of `key`: a logical one that is .true., a text other than 'none', a
-      !> number that is given; with the name of another group and a dot before the key of that. Without any it is
-      !> written always, but never without its group &stress or &interface.
+      character(2048) :: columns = ''     !! name[unit] of each column, with a blank between two
+      !> Keys of `group` that together request the table, in place of `key`. A key requests if it is a logical key that
+      !> is .true., a text other than 'none', or a number that is given. A key of another group has the name of that
+      !> group and a dot before it. A table without `key` and `asked_by` is always written; one of the groups stress and
+      !> interface only if the deck has the group.
       character(16) :: asked_by(2) = ''
       logical :: of_adhesion = .false.    !! whether the contacts are those with adhesion
-      logical :: needs_fields = .false.   !! whether it is made from fields, edges or details of the solutions
-      logical :: needs_surface = .true.   !! whether it needs the whole surface, with a p* and a Delta that are not zero
-      procedure(by_all_interface), pointer, nopass :: written_by_all => null() !! null: rank 0 writes it
-      integer :: blocks = 0               !! of a table that has a block of each of these in place of rows of each load
-      !> One of these: the rows of a load, or the block of `blocks`; or the table with its file. Neither for a table
-      !> whose columns are quantities of the solution.
+      logical :: needs_fields = .false.   !! whether the table is made from fields, edges or details of the solutions
+      !> Whether the table needs the whole surface, with a p* and a Delta that are not zero.
+      logical :: needs_surface = .true.
+      !> Whether all ranks write the table together; null: the first rank writes the table.
+      procedure(by_all_interface), pointer, nopass :: written_by_all => null()
+      integer :: blocks = 0               !! number of blocks of a table that does not have rows of each load; else 0
+      !> The procedure that writes the table: either `put_load`, which writes the rows of a load or one of `blocks`, or
+      !> `write_all`, which opens, writes and finishes the table. A table whose columns are all quantities of the
+      !> solution needs neither.
       procedure(load_interface), pointer, nopass :: put_load => null()
       procedure(write_interface), pointer, pass(table) :: write_all => null()
    contains
@@ -50,17 +55,17 @@ module wavycon_table
    end type table_type
 
    abstract interface
-      !> `written_by_all`: as `is_written_by_all` below.
+      !> `written_by_all`: whether all ranks write the table together. See `is_written_by_all` below.
       logical function by_all_interface(results)
          import :: results_type
          type(results_type), intent(in) :: results
       end function by_all_interface
 
-      !> `put_load`: writes the rows of one load or the block of one of `blocks`.
+      !> `put_load`: writes the rows of one load, or one of `blocks` blocks.
       subroutine load_interface(results, load, file)
          import :: output_file, results_type
          type(results_type), intent(in) :: results
-         integer, intent(in) :: load                !! number in the deck's order; or the number of the block
+         integer, intent(in) :: load                !! number of the load in the deck's order, or number of the block
          type(output_file), intent(inout) :: file   !! with the columns of the table
       end subroutine load_interface
 
@@ -75,7 +80,8 @@ module wavycon_table
 
 contains
 
-   !> The name that programs ask for: the key, that of &stress with 'stress_' before it; without a key that of the file.
+   !> The name by which programs ask for the table: its key, in the group stress with 'stress_' before it; without a key
+   !> the name of its file.
    elemental function name(self) result(words)
       class(table_type), intent(in) :: self
       character(24) :: words
@@ -102,13 +108,13 @@ contains
    !> Why the table cannot be written for a solver and a surface, as a sentence for a message; empty if it can.
    function refusal(self, traits, surface) result(words)
       class(table_type), intent(in) :: self
-      type(solver_traits), intent(in) :: traits   !! started or not
+      type(solver_traits), intent(in) :: traits   !! traits of the solver, which need not be started
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      !> Its fourth power must be a number.
+      !> The fourth power of a length must not overflow in double precision.
       real(dp), parameter :: largest_length = 1.0e75_dp
-      character(:), allocatable :: lack, others
+      character(:), allocatable :: alternatives, lack
 
       words = ''
       lack = ''
@@ -131,45 +137,47 @@ contains
          if (surface%has_free_edges .and. all(surface%form%c(:surface%dimension) > 0.0_dp)) words = ''
       end select
       if (lack == '') return
-      ! Which solvers of the surface do, or have, what this one lacks.
-      others = solvers_for(surface, trim(self%file))
+      ! The solvers for this surface that have, or do, what this solver lacks.
+      alternatives = solvers_for(surface, trim(self%file))
       words = "solver = '"//trim(solver_names(traits%solver))//"' "//lack
-      if (others == '') then
+      if (alternatives == '') then
          words = words//', nor does any other for this surface'
       else
-         words = words//'; '//others//' '//lack(:index(lack, ' ') - 1)
+         words = words//'; '//alternatives//' '//lack(:index(lack, ' ') - 1)
       end if
    end function refusal
 
-   !> Whether all ranks write the table together, each from its columns of grids that are distributed; called before the
-   !> loads are solved and after.
+   !> Whether all ranks write the table together, each from its columns of distributed grids. The function is called
+   !> before the loads are solved and afterwards.
    logical function is_written_by_all(self, results)
       class(table_type), intent(in) :: self
-      type(results_type), intent(in) :: results   !! started, before the loads are solved without solutions
+      type(results_type), intent(in) :: results   !! with the started solver; `loads` may not be allocated yet
 
       is_written_by_all = .false.
       if (associated(self%written_by_all)) is_written_by_all = self%written_by_all(results)
    end function is_written_by_all
 
-   !> Writes the table, to a file or to the memory table of the results. Errors: exit_file_trouble.
+   !> Writes the table to a file or, if the results have a table in memory, to that. Errors: exit_file_trouble.
    subroutine write_table(self, results, error)
       class(table_type), intent(in) :: self
       type(results_type), intent(inout) :: results   !! with a solution for each load; unchanged afterwards
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
-      integer :: load
+      integer :: i, number
 
       if (self%of_adhesion) call results%swap_contacts()
       if (associated(self%write_all)) then
          call self%write_all(results, error)
       else
          call results%open_table(trim(self%file), self%columns, file)
-         do load = 1, merge(self%blocks, size(results%loads), self%blocks > 0)
+         number = size(results%loads)
+         if (self%blocks > 0) number = self%blocks
+         do i = 1, number
             if (associated(self%put_load)) then
-               call self%put_load(results, load, file)
+               call self%put_load(results, i, file)
             else
-               call put_quantities(self, results, load, file)
+               call put_quantities(self, results, i, file)
             end if
          end do
          call file%finish(error)
@@ -177,7 +185,7 @@ contains
       if (self%of_adhesion) call results%swap_contacts()
    end subroutine write_table
 
-   !> Writes the row of a load whose columns are all quantities of its solution.
+   !> Writes the row of a load in a table whose columns are all quantities of the solution.
    subroutine put_quantities(self, results, load, file)
       type(table_type), intent(in) :: self
       type(results_type), intent(in) :: results

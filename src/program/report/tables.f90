@@ -1,11 +1,12 @@
-!> The list of all tables, and those of the numbers of each load. A new file of tables adds its line to `all_tables`.
+!> The list of all tables, and the tables with the numbers of each load. A new file of tables adds its line to
+!> `all_tables`.
 !>
-!> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a line for each load.
+!> <case>.summary.dat: mean gap, contact area, pressures, iterations, residual and status, a row for each load.
 !> <case>.details.dat: numbers that the summary does not have, with error estimates, from solvers that compute them, a
-!> row for each load. What a load without details (no load, full contact, no solution) does not have is NaN, its degree
-!> 0.
+!> row for each load. A load without details (no load, full contact, no solution) has NaN for these numbers and 0 for
+!> the degree of the polynomials.
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block for
-!> each load; in 1-D j = 0.
+!> each load; j = 0 in 1-D.
 module wavycon_tables
    use wavycon_bounds_tables, only: bounds_tables
    use wavycon_fourier_series, only: fourier_series
@@ -37,7 +38,7 @@ contains
 
       tables = [summary_tables(), line_tables(), map_tables(), spot_tables(), theory_tables(), surface_tables(), &
                 stress_tables(), interface_tables(), bounds_tables()]
-      ! The fields of the contact with adhesion are in tables of their own, beside those without.
+      ! The fields of the contact with adhesion get tables of their own, beside the tables without adhesion.
       of_adhesion = pack(tables, tables%key == 'lines' .or. tables%key == 'map' .or. tables%key == 'contours')
       do i = 1, size(of_adhesion)
          associate (table => of_adhesion(i))
@@ -52,13 +53,13 @@ contains
       tables = [tables, of_adhesion]
    end subroutine all_tables
 
-   !> The tables of the numbers of each load.
+   !> The tables with the numbers of each load.
    function summary_tables() result(tables)
       type(table_type) :: tables(3)
 
       tables(1) = table_type('summary', needs_surface=.false., columns=summary_columns())
-      ! The energy is per nominal area. The perimeter is that of one contact spot or, above merging, of one open pool;
-      ! the paper's cell has two of each.
+      ! The energy is per nominal area. The perimeter is that of one contact spot or, once the spots have merged, of one
+      ! open pool; the paper's cell has two of each.
       tables(2) = table_type('details', 'details', needs_fields=.true., &
          columns='load[#] pbar_over_pstar[-] '//listed_columns('details')//'status_code[#] status[word]', &
          meaning='Gaps at trough and saddle, strain energy, perimeter and the numbers of the '// &
@@ -68,7 +69,7 @@ contains
          meaning='The Fourier coefficients of the pressure.')
    end function summary_tables
 
-   !> The columns of the summary. `results%number` says what they have.
+   !> The columns of the summary. `results%number` gives the number of each column.
    pure function summary_columns() result(columns)
       character(:), allocatable :: columns
 
@@ -83,6 +84,7 @@ contains
          'residual[-] solver[word] status_code[#] status[word]'
    end function summary_columns
 
+   !> Writes the block of a load: the Fourier coefficients of its pressure.
    subroutine put_coefficients(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load

@@ -1,11 +1,13 @@
-!> <case>.theory.dat: the closed forms at the loads of the scene, a line for each load. Of a ball, and of a map with
-!> free edges on a ball: Hertz's contact of the ball. In 1-D: the exact solution (eqs. 4, 7, 20) and its limits (8),
-!> (11). In 2-D: the asymptotes (23), (24), (29), (30) of the paper; (29) with the coefficient of the whole lattice;
-!> asymptotes with further terms; and the radii of the contact spot at light load and of the crack at heavy load.
+!> <case>.theory.dat: closed forms at the loads of the scene, a row for each load. For a ball, and for a map with free
+!> edges on a ball, these are Hertz's contact of the ball. In 1-D they are the exact solution (eqs. 4, 7, 20) and its
+!> limits (8), (11). In 2-D they are the asymptotes (23), (24), (29), (30) of the paper; (29) with the coefficient of
+!> the whole lattice; asymptotes with further terms; and the radii of the contact spot at light load and of the crack at
+!> heavy load.
 !>
-!> <case>.theory_lines.dat: closed forms along the lines of <case>.lines.dat. In 1-D Westergaard's solution and the
-!> Dundurs-Tsai-Keer series with as many terms as the solver's; in 2-D the Hertz pressure about the nearest crest (light
-!> load), and the pressure and the opening of the penny-shaped crack about the nearest trough (heavy load).
+!> <case>.theory_lines.dat: closed forms along the lines of <case>.lines.dat. In 1-D they are Westergaard's solution and
+!> the Dundurs-Tsai-Keer series with as many terms as the solver's series. In 2-D they are the Hertz pressure about the
+!> nearest crest (light load), and the pressure and the opening of the penny-shaped crack about the nearest trough
+!> (heavy load).
 module wavycon_theory_tables
    use wavycon_constants, only: pi
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
@@ -58,15 +60,18 @@ contains
          'crack_gap_over_amplitude[-]')
    end function theory_tables
 
+   !> Writes the row of a load. Closed forms that do not exist for the surface are NaN.
    subroutine put_theory(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
       type(hertz_ball) :: contact
-      !> Area, approach, peak pressure and half axes of Hertz's contact of the ball.
+      !> Contact area, approach, peak pressure and half axes of Hertz's contact of the ball.
       real(dp) :: of_ball(5)
-      real(dp) :: force, of_line(5), of_plane(12), radii(2), roller(2)
+      real(dp) :: of_line(5), of_plane(12)   ! columns of waves in 1-D and in 2-D
+      real(dp) :: roller(2)                  ! half width and peak pressure of Hertz's line contact
+      real(dp) :: force, radii(2)
 
       of_ball = not_a_number()
       of_line = not_a_number()
@@ -102,6 +107,7 @@ contains
       end associate
    end subroutine put_theory
 
+   !> Writes the block of a load: the closed forms along the lines of the surface.
    subroutine put_theory_lines(results, load, file)
       type(results_type), intent(in) :: results
       integer, intent(in) :: load
@@ -109,10 +115,11 @@ contains
 
       type(surface_line) :: line
       real(dp) :: crack_radius, from_trough, phi, theta
-      real(dp), allocatable :: dundurs(:), values(:, :)   ! the latter's columns 1 to 4 are of lines, 5 to 7 of planes
+      real(dp), allocatable :: dundurs(:)
+      real(dp), allocatable :: values(:, :)   ! columns 1 to 4 exist in 1-D, 5 to 7 in 2-D
       integer :: k, number, terms
 
-      ! As many terms of the series as the solver's has, otherwise as in the paper.
+      ! The series has as many terms as the solver's, or 10 as in the paper.
       terms = 10
       if (results%scene%method%harmonics%in_effect) terms = nint(results%scene%method%harmonics%number)
       call results%begin_block(file, load)
@@ -130,7 +137,7 @@ contains
                                    westergaard_gap_over_amplitude(phi/2, load_p), &
                                    dundurs_pressure_over_pstar(phi, load_p, dundurs)]
                else
-                  ! Pressure (A4) and opening (A6) of the crack are zero outside of it.
+                  ! Pressure (A4) and opening (A6) of the crack are zero outside the crack.
                   from_trough = nearest_crest(phi - pi, theta)
                   values(5, k) = hertz_point_pressure_over_pstar(nearest_crest(phi, theta), load_p)
                   values(6:, k) = 0.0_dp
@@ -145,16 +152,17 @@ contains
       end associate
    end subroutine put_theory_lines
 
-   !> Distance of a point from the nearest crest of the wave (21), over its wavelength. With phi - pi for phi, from the
-   !> nearest trough.
+   !> Distance of a point from the nearest crest of the wave (21), over the wavelength. The wave has crests at phi =
+   !> theta = 0 and at phi = theta = pi, and a trough at phi = pi, theta = 0: with phi - pi in place of phi the result
+   !> is the distance from the nearest trough.
    pure real(dp) function nearest_crest(phi, theta)
-      real(dp), intent(in) :: phi, theta
+      real(dp), intent(in) :: phi, theta   !! angles of eq. (21) [rad]
 
-      real(dp) :: from(4)   !! phi and theta from two crests, between -pi and pi
+      real(dp) :: offset(4)   !! phi and theta relative to the two crests, between -pi and pi
 
-      from = [phi, theta, phi - pi, theta - pi]
-      from = from - 2*pi*nint(from/(2*pi))
-      nearest_crest = min(hypot(from(1), from(2)), hypot(from(3), from(4)))/(2*pi)
+      offset = [phi, theta, phi - pi, theta - pi]
+      offset = offset - 2*pi*nint(offset/(2*pi))
+      nearest_crest = min(hypot(offset(1), offset(2)), hypot(offset(3), offset(4)))/(2*pi)
    end function nearest_crest
 
 end module wavycon_theory_tables

@@ -1,4 +1,5 @@
-!> Runs a scene, or a deck, from beginning to end: starts the solver, solves all loads, writes the tables.
+!> Runs a scene, or a deck, from beginning to end: starts the solver, solves all loads, writes the tables. Ranks are the
+!> processes of the parallel program.
 module wavycon_run_scene
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
@@ -26,18 +27,18 @@ module wavycon_run_scene
 
 contains
 
-   !> Runs a scene: starts its solver, decides how the ranks share the work, solves and writes. An error of one rank is
-   !> that of all. Errors: exit_bad_input for a checkpoint that is damaged or of another deck; exit_file_trouble
-   !> for a file that cannot be read or written.
+   !> Runs a scene: starts its solver, decides how the ranks share the work, solves the loads and writes the tables. If
+   !> one rank has an error all ranks return it. Errors: exit_bad_input for a checkpoint that is damaged or of another
+   !> deck; exit_file_trouble for a file that cannot be read or written.
    subroutine run_scene(scene, quiet, resume, results, status, error)
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards: the results own it
-      logical, intent(in) :: quiet     !! whether to write no log, as on all ranks but the first
+      logical, intent(in) :: quiet     !! whether to write no log; it must be .true. on all ranks but the first
       logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
-      type(results_type), intent(out) :: results   !! complete if there is no error, on the first rank
+      type(results_type), intent(out) :: results   !! complete on the first rank if there is no error
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
-      integer(int64) :: status_of_all(1)   ! those of ranks that did not work are 0
+      integer(int64) :: status_of_all(1)   ! sum of the statuses: ranks that did not work have 0
       type(run_log), target :: log
       type(table_type), allocatable :: tables(:)
 
@@ -63,21 +64,24 @@ contains
    !> Runs a deck as the program does: solves its loads and writes its tables. Errors: those of the program for a bad
    !> deck, a bad height map or files that cannot be written.
    !>
-   !> N.B. As in the program, those of SIGINT, SIGTERM and SIGHUP that the process does not handle remove an unfinished
-   !> file and end the process.
+   !> N.B. As in the program, SIGINT, SIGTERM and SIGHUP remove an unfinished file and end the process, unless the
+   !> process handles the signal itself.
    subroutine run_deck(path, directory, quiet, status, error)
-      character(*), intent(in) :: path        !! of the deck
-      character(*), intent(in) :: directory   !! for the tables, in place of that of the deck; '': that of the deck
+      character(*), intent(in) :: path        !! path of the deck
+      character(*), intent(in) :: directory   !! directory of the tables; '': the one that the deck names
       logical, intent(in) :: quiet            !! whether to write no log to standard output
       integer, intent(out) :: status          !! the program's exit status: exit_fine, exit_not_converged or the error's
       type(error_type), allocatable, intent(out) :: error
 
+      integer :: number   ! of settings
       type(results_type) :: results
       type(scene_type), allocatable :: scene
       type(setting_type), allocatable :: settings(:)
 
-      allocate (settings(merge(0, 1, directory == '')))
-      if (size(settings) > 0) settings(1) = setting_type('output', 'directory', directory)
+      number = 0
+      if (directory /= '') number = 1
+      allocate (settings(number))
+      if (number == 1) settings(1) = setting_type('output', 'directory', directory)
       status = exit_fine
       allocate (scene)
       call read_deck(path, scene, error, settings)
@@ -85,17 +89,17 @@ contains
       if (allocated(error)) status = error%status
    end subroutine run_deck
 
-   !> Solves the loads of a scene and writes its tables. Errors: as of run_scene.
+   !> Solves the loads of a scene and writes its tables. Errors: those of run_scene.
    subroutine solve_and_write(results, tables, resume, log, status, error)
-      type(results_type), intent(inout) :: results        !! started
-      type(table_type), intent(in) :: tables(:)           !! that are to be written
-      logical, intent(in) :: resume
+      type(results_type), intent(inout) :: results        !! with the started solver; gets the solutions
+      type(table_type), intent(in) :: tables(:)           !! the tables to write
+      logical, intent(in) :: resume                       !! as in run_scene
       type(run_log), intent(inout), target :: log
       integer, intent(out) :: status
       type(error_type), allocatable, intent(out) :: error
 
       type(checkpoint_file) :: checkpoint
-      logical :: known(size(results%scene%target))   !! loads whose solutions are in the checkpoint
+      logical :: known(size(results%scene%target))   ! whether the solution of each load was in the checkpoint
 
       status = exit_fine
       allocate (results%loads(size(known)))
@@ -120,9 +124,9 @@ contains
       call sum_up(results, log, status)
    end subroutine solve_and_write
 
-   !> Finds the largest stresses and writes the tables. Where grids are distributed over the ranks some tables are
-   !> written by all ranks; for the others the first rank takes the fields of all and works alone. Errors:
-   !> exit_file_trouble.
+   !> Finds the largest stresses and writes the tables. If grids are distributed over the ranks, all ranks together
+   !> write some of the tables first. For the other tables the first rank then collects the fields of all ranks and
+   !> works alone. Errors: exit_file_trouble.
    subroutine write_results(results, tables, log, error)
       type(results_type), intent(inout) :: results   !! with a solution for each load
       type(table_type), intent(in) :: tables(:)
@@ -168,12 +172,13 @@ contains
       asks_for_largest = allocated(scene%stress_setting) .and. scene%p_star > 0.0_dp .and. scene%stress%largest%is_true
    end function asks_for_largest
 
-   !> Starts the solver of a scene, finds its tables and how the ranks share the work.
+   !> Starts the solver of a scene, selects the tables to write, and decides how the ranks share the work.
    subroutine start_results(scene, results, tables, with_fields)
       type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
-      type(results_type), intent(out) :: results                  !! without loads
-      type(table_type), allocatable, intent(out) :: tables(:)     !! that are to be written
-      !> Whether solutions keep their fields whatever the tables need, as they do in a search by yield.
+      type(results_type), intent(out) :: results                  !! without solutions yet
+      type(table_type), allocatable, intent(out) :: tables(:)     !! the tables to write
+      !> Whether solutions keep their fields. Absent: they do if a table needs them. In a search for a load of yield
+      !> they always do.
       logical, intent(in), optional :: with_fields
 
       character(:), allocatable :: description
@@ -185,7 +190,8 @@ contains
          ! p* and Delta of a flat surface are zero.
          tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
                        [(tables(i)%is_requested(scene), i=1, size(tables))])
-         ! A table that several keys ask for together is left out where it cannot be written.
+         ! A table with `asked_by` is left out silently if the solver or the surface cannot have it. A table with a key
+         ! of its own that cannot be written was reported with the deck.
          results%traits = traits_of(scene%method%solver%text)
          tables = pack(tables, [(tables(i)%refusal(results%traits, scene%surface) == '', i=1, size(tables))])
          results%keeps_fields = any(tables%needs_fields) .or. asks_for_largest(scene)
@@ -202,10 +208,10 @@ contains
          call results%solver%surface%shape%gather(first_only=.not. results%sharing%is_shared)
    end subroutine start_results
 
-   !> Reads the solutions in the checkpoint, if there is one. Errors: exit_bad_input, exit_file_trouble.
+   !> Reads the solutions in the checkpoint, if there is one. Errors: those of read_checkpoints.
    subroutine take_checkpoint(results, known, log, error)
-      type(results_type), intent(inout) :: results
-      logical, intent(out) :: known(:)               !! of each load: whether it need not be solved again
+      type(results_type), intent(inout) :: results   !! gets the solutions
+      logical, intent(out) :: known(:)               !! whether each load need not be solved again
       type(run_log), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
 
@@ -215,9 +221,11 @@ contains
       call read_checkpoints(results, known, name, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
-      ranks_that_know = merge(1, 0, known)
+      ranks_that_know = 0
+      where (known) ranks_that_know = 1
       call results%sharing%add(ranks_that_know)
-      ! Some ranks may have their columns of the load that was interrupted, others not.
+      ! A load on a distributed grid is known if all ranks have their columns. At the interruption some may have had
+      ! them and others not.
       if (results%sharing%kind == distributed_grids) then
          ranks_that_know = ranks_that_know/results%sharing%ranks
          known = ranks_that_know > 0
@@ -228,12 +236,13 @@ contains
       else
          call log%note('there is no '//escaped(checkpoint_name(results))//' to resume from: all loads are solved')
       end if
-      ! The digits of these loads depend on the load solved before.
+      ! A load that is searched for has digits that depend on the load solved before: solve all of them again, so that a
+      ! resumed run gives the same digits.
       if (results%scene%loads_by /= by_pressure .and. results%traits%continues_last_load) known = .false.
    end subroutine take_checkpoint
 
-   !> Makes the output directory and writes the resolved deck into it, so that a directory that cannot be written to is
-   !> reported before the loads are solved. Errors: exit_file_trouble.
+   !> Makes the output directory and writes the resolved deck into it. So a directory into which nothing can be written
+   !> is reported before the loads are solved. Errors: exit_file_trouble.
    subroutine prepare_directory(scene, error)
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
@@ -248,7 +257,8 @@ contains
          return
       end if
       name = scene%case//'.resolved.nml'
-      ! A resolved deck may be run where it is. But its first line has the name of the deck that it was made from.
+      ! If the deck is itself the resolved deck that would be written, with the same values, it stays. The first lines
+      ! are not compared: they name different decks.
       if (full_path(scene%directory//'/'//name) == full_path(scene%deck_path)) then
          call read_file(scene%deck_path, huge(0), text, error)
          if (allocated(error)) return
@@ -259,30 +269,31 @@ contains
       call file%finish(error)
    end subroutine prepare_directory
 
-   !> Brings what is distributed over the ranks, and what tables need that the first one writes alone, to the first one:
-   !> the fields load by load, the surface. Before the loads are solved it only checks that there is the memory for it,
-   !> as far as the grid is given. Errors: exit_file_trouble if the first rank lacks the memory, on all ranks.
+   !> Collects on the first rank the distributed fields and the distributed surface, as far as tables need them that the
+   !> first rank writes alone. Called before the loads are solved, the procedure only checks that the first rank has
+   !> enough memory, provided that the deck gives the grid. Errors, on all ranks: exit_file_trouble if the first rank
+   !> does not have enough memory.
    subroutine collect(results, tables, error)
-      type(results_type), intent(inout) :: results   !! started
-      type(table_type), intent(in) :: tables(:)
+      type(results_type), intent(inout) :: results   !! with the started solver; `loads` may not be allocated yet
+      type(table_type), intent(in) :: tables(:)      !! the tables to write
       type(error_type), allocatable, intent(out) :: error
 
       integer, parameter :: bytes_of_number = storage_size(1.0_dp)/8
       integer :: i, load
       integer(int64) :: numbers
-      logical :: by_first(size(tables)), fields, surface
+      logical :: by_first(size(tables)), needs_fields, needs_surface
 
       by_first = [(.not. tables(i)%is_written_by_all(results), i=1, size(tables))]
-      fields = any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)
-      surface = any(tables%needs_surface .and. by_first)
+      needs_fields = any(tables%needs_fields .and. by_first) .or. asks_for_largest(results%scene)
+      needs_surface = any(tables%needs_surface .and. by_first)
       numbers = 0
-      if (fields .and. allocated(results%loads)) then
+      if (needs_fields .and. allocated(results%loads)) then
          numbers = sum([(results%loads(load)%distributed_points(), load=1, size(results%loads))])
-      else if (fields) then
+      else if (needs_fields) then
          numbers = size(results%scene%target)*product(int(results%traits%given_grid, int64))
       end if
-      ! The series, and twice as much while it is gathered.
-      if (surface .and. results%solver%surface%is_distributed()) &
+      ! The surface takes the memory of its series, and twice as much more while the series is gathered.
+      if (needs_surface .and. results%solver%surface%is_distributed()) &
          numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
       if (.not. has_memory_for(numbers) .and. results%sharing%is_first) call fatal_error(error, exit_file_trouble, &
          'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
@@ -290,10 +301,12 @@ contains
          "summary, a map with map_format = 'npy' and the points of the grid, and the heights, or solve fewer loads")
       call results%sharing%share_error(error)
       if (allocated(error) .or. .not. allocated(results%loads)) return
-      do load = 1, merge(size(results%loads), 0, fields)
-         call results%loads(load)%collect_fields()
-      end do
-      if (surface) call results%solver%surface%shape%gather(first_only=.true.)
+      if (needs_fields) then
+         do load = 1, size(results%loads)
+            call results%loads(load)%collect_fields()
+         end do
+      end if
+      if (needs_surface) call results%solver%surface%shape%gather(first_only=.true.)
    end subroutine collect
 
 end module wavycon_run_scene

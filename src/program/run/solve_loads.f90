@@ -1,5 +1,6 @@
-!> Solves all loads of a scene and finds their largest stresses, partial slip and adhesion. Where the ranks share the
-!> loads, each solves its own and finds their stresses, and all then have the results.
+!> Solves all loads of a scene and finds their largest stresses, partial slip and adhesion. If the ranks share the
+!> loads, each rank solves its own loads and finds the stresses of these; afterwards all ranks have the numbers of all
+!> loads.
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
@@ -29,46 +30,50 @@ module wavycon_solve_loads
 
    public :: find_interface, find_stresses, order_loads, solve_loads, solve_target
 
-   !> Loads of a block where each starts from the last one and loads are distributed. The first of a block starts as the
-   !> first load of a sweep does. The length does not depend on who solves the block, and so the digits do not.
+   !> Number of loads of a block, if loads are distributed and each starts from the solution of the last one. The first
+   !> load of a block starts without a solution. As the blocks do not depend on the number of ranks, the digits do not
+   !> either.
    integer, parameter :: block_length = 8
 
-   !> The quantity of the record by which loads are given, in the order of the names of wavycon_scene; 0: there is none.
+   !> The quantity that is given for a load, for by_pressure, by_mean_gap, by_contact_area, by_yield and by_approach of
+   !> wavycon_scene in this order; 0: not a quantity of the solution's record.
    integer, parameter :: quantity_of(*) = [0, mean_gap, contact_area, 0, approach]
 
 contains
 
-   !> Orders the loads from the highest to the lowest, so that each can start from the last one, and deals them to the
-   !> ranks if these share them.
+   !> Sorts the loads from the highest to the lowest, so that each can start from the solution of the last one, and
+   !> assigns them to the ranks if these share the loads.
    subroutine order_loads(results)
-      type(results_type), intent(inout) :: results   !! with the solver started
+      type(results_type), intent(inout) :: results   !! with the started solver; gets `order`
 
-      integer(c_size_t) :: places(size(results%scene%target))
+      integer(c_size_t) :: sorted(size(results%scene%target))
+      real(dp) :: sort_key(size(sorted))   ! rises as the load falls
 
-      associate (target => results%scene%target)
-         call gsl_sort_index(places, merge(target, -target, results%scene%loads_by == by_mean_gap), 1_c_size_t, &
-                             size(places, kind=c_size_t))
-      end associate
-      results%order = int(places) + 1
+      sort_key = -results%scene%target
+      if (results%scene%loads_by == by_mean_gap) sort_key = results%scene%target
+      call gsl_sort_index(sorted, sort_key, 1_c_size_t, size(sorted, kind=c_size_t))
+      results%order = int(sorted) + 1
       call results%sharing%deal_loads(results%order, length_of_block(results))
    end subroutine order_loads
 
+   !> The number of loads that one rank solves in a row: 1 if no load depends on the one before.
    pure integer function length_of_block(results) result(length)
       type(results_type), intent(in) :: results
 
-      length = merge(block_length, 1, results%traits%continues_last_load)
+      length = 1
+      if (results%traits%continues_last_load) length = block_length
    end function length_of_block
 
-   !> Solves and measures all loads that are not known. Where the loads are distributed, solves the own ones and takes
-   !> the measures of the others.
+   !> Solves all loads that are not known. If the loads are distributed, each rank solves its own loads and then gets
+   !> the numbers of the others.
    subroutine solve_loads(results, known, checkpoint, log)
       type(results_type), intent(inout) :: results       !! after order_loads
-      logical, intent(in) :: known(:)                    !! of each load: whether the results have its solution
-      type(checkpoint_file), intent(inout) :: checkpoint !! the solutions computed here are added to it
+      logical, intent(in) :: known(:)                    !! whether the results already have the solution of each load
+      type(checkpoint_file), intent(inout) :: checkpoint !! gets the solutions computed here
       type(run_log), intent(inout), target :: log        !! shows the progress
 
       integer :: i, load
-      integer(int64), allocatable :: words(:)   ! the measures of all loads
+      integer(int64), allocatable :: words(:)   ! the records of all loads
       logical :: are_distributed
       type(log_progress), target :: progress
 
@@ -97,7 +102,7 @@ contains
       end associate
       if (.not. are_distributed) return
       call results%sharing%work_alone(.false.)
-      ! A rank keeps the solutions of its own loads as they are.
+      ! Exchange the records: the numbers of a solution without its fields. A rank keeps the solutions of its own loads.
       allocate (words, source=[(transfer(results%loads(load)%solution_record, [0_int64]), load=1, size(results%loads))])
       call results%sharing%share_loads(words)
       do load = 1, size(results%loads)
@@ -106,13 +111,13 @@ contains
       end do
    end subroutine solve_loads
 
-   !> Solves one load, or finds the load of a given mean gap, approach, area or stress.
+   !> Solves one load, or finds and solves the load that has a given mean gap, approach, area or stress.
    subroutine solve_target(solver, loads_by, target, solution, setting)
       class(contact_solver), intent(inout) :: solver
-      integer, intent(in) :: loads_by     !! a name of wavycon_scene
-      real(dp), intent(in) :: target      !! as of scene_type
+      integer, intent(in) :: loads_by     !! by_pressure or another name of wavycon_scene
+      real(dp), intent(in) :: target      !! the given value, as in the component of scene_type
       type(contact_solution), intent(out) :: solution
-      type(stress_setting), intent(in), optional :: setting   !! needed by_yield, with yield stresses
+      type(stress_setting), intent(in), optional :: setting   !! with yield stresses; needed for by_yield
 
       if (loads_by == by_yield) then
          call solve_for_yield(solver, setting, target, solution)
@@ -123,8 +128,8 @@ contains
       end if
    end subroutine solve_target
 
-   !> Finds the largest von Mises stress and the largest shear stress of each load and body, of the own loads, and
-   !> takes those of the others.
+   !> Finds the largest von Mises stress and the largest shear stress of each load and body. If the loads are
+   !> distributed, each rank does so for its own loads and then gets the stresses of the others.
    subroutine find_stresses(results, log)
       type(results_type), intent(inout) :: results   !! with a group &stress and all loads solved with their fields
       type(run_log), intent(inout) :: log            !! shows the progress
@@ -166,11 +171,12 @@ contains
          'grid_points')
    end subroutine find_stresses
 
-   !> Solves partial slip of all loads and tangential loads, and the curve of the contact with adhesion.
+   !> Solves partial slip under all loads and tangential loads, and the contact with adhesion, as far as the deck asks
+   !> for them.
    subroutine find_interface(results, log, table)
       type(results_type), intent(inout) :: results   !! with a group &interface and all loads solved with their fields
       type(run_log), intent(inout) :: log            !! shows the progress
-      character(*), intent(in) :: table              !! the one table that it is for; '': all
+      character(*), intent(in) :: table              !! name of the one table that needs the results; '': all tables
 
       associate (setting => results%scene%interface_setting)
          if (setting%friction > 0.0_dp .and. (table == '' .or. index(table, 'slip') > 0)) then
@@ -184,11 +190,13 @@ contains
       end associate
    end subroutine find_interface
 
+   !> Solves partial slip under all loads and tangential loads.
    subroutine find_slip(results, log)
-      type(results_type), intent(inout) :: results
+      type(results_type), intent(inout) :: results   !! gets `slip`
       type(run_log), intent(inout) :: log
 
       integer :: bad, i, load
+      real(dp) :: tangential
 
       associate (setting => results%scene%interface_setting)
          if (abs(setting%beta) > 0.0_dp) call log%note('partial slip neglects the coupling of normal and '// &
@@ -199,8 +207,9 @@ contains
                do i = 1, size(setting%tangential)
                   call log%say_progress('partial slip of '//integer_text(load)//' of '// &
                                         integer_text(size(results%loads))//' loads')
-                  call solve_partial_slip(results%solver, setting%friction, solution, setting%tangential(i)* &
-                                          merge(solution%pbar_over_pstar, 1.0_dp, setting%over_mean_pressure), &
+                  tangential = setting%tangential(i)
+                  if (setting%over_mean_pressure) tangential = tangential*solution%pbar_over_pstar
+                  call solve_partial_slip(results%solver, setting%friction, solution, tangential, &
                                           results%scene%interface%slip_loop%is_true, results%slip(i, load))
                   if (results%slip(i, load)%slides) call log%note( &
                      'under load '//integer_text(load)//' tangential load '//integer_text(i)// &
@@ -214,13 +223,14 @@ contains
       end associate
    end subroutine find_slip
 
-   !> The loads are the mean pressures of the contact with adhesion.
+   !> Computes the curve of the contact with adhesion and its contacts at the deck's loads. Mean pressures, gaps,
+   !> approaches or areas of the deck are those of the contact with adhesion.
    subroutine find_adhesion(results, log)
-      type(results_type), intent(inout) :: results
+      type(results_type), intent(inout) :: results   !! gets `adhesion` and `adhesive_loads`
       type(run_log), intent(inout) :: log
 
-      character(:), allocatable :: words   ! the load, with free edges as a force, and the area
-      integer :: bad, i, which
+      character(:), allocatable :: words   ! load and area of a critical point; with free edges the load is a force
+      integer :: bad, given, i   ! given: which value of a point on the curve the loads give
       real(dp) :: mean_pressure
       real(dp), allocatable :: loads(:)
 
@@ -231,19 +241,19 @@ contains
          loads = results%scene%target
          select case (results%scene%loads_by)
          case (by_pressure)
-            which = at_load
+            given = at_load
          case (by_approach)
-            which = at_approach
+            given = at_approach
          case (by_mean_gap)
-            which = at_approach
+            given = at_approach
             loads = 1.0_dp - loads
          case default
-            which = 0   ! the contact area fraction
+            given = 0   ! the contact area fraction
          end select
          call follow_curve(surface, accuracy, work, maxval(results%loads%pbar_over_pstar), curve)
          do i = 1, size(loads)
-            call add_load(curve, which, loads(i), i)
-            call find_adhesive_solution(curve, which, i, results%adhesive_loads(i))
+            call add_load(curve, given, loads(i), i)
+            call find_adhesive_solution(curve, given, i, results%adhesive_loads(i))
          end do
          call log%say('adhesion: the contacts of the loads are in the table of adhesion, those above are without it')
          bad = count(.not. is_good_status(curve%at_loads%status))

@@ -1,11 +1,11 @@
-!> The groups of a deck as records: each key is a component with its value. The tables of `program/deck` describe the
-!> keys and fill them, once; what reads them afterwards names components.
+!> The groups of a deck as records, in which each key is a component. The directory `program/deck` describes the keys in
+!> tables and sets the components from the deck. Afterwards other code reads the components by their names.
 module wavycon_scene_groups
    use wavycon_key_group, only: key_group, key_value
    implicit none (type, external)
    private
 
-   !> Most tables that a key of &output asks for.
+   !> Most tables that have a key in &output.
    integer, parameter, public :: most_tables = 40
 
    type, extends(key_group), public :: scene_group
@@ -17,7 +17,8 @@ module wavycon_scene_groups
    end type material_group
 
    type, extends(key_group), public :: surface_group
-      character(:), allocatable :: deck_unit   !! the deck's label of lengths; not allocated: it gives none
+      !> The deck's label of the unit of lengths; empty if the deck gives none.
+      character(:), allocatable :: deck_unit
       type(key_value) :: kind, amplitude, wavelength, wavelength_y, amplitude1, wavelength1, amplitude2, wavelength2
       type(key_value) :: length_x, length_y, amplitudes, waves_x, waves_y, phases
       type(key_value) :: file, file_format, missing_value, height_scale, crop_missing, despike, detrend, fill_missing
@@ -47,7 +48,7 @@ module wavycon_scene_groups
 
    type, extends(key_group), public :: output_group
       type(key_value) :: directory, line_points, map_points, map_format, histogram_bins
-      type(key_value) :: tables(most_tables)   !! the keys that ask for tables, by the numbers of these
+      type(key_value) :: tables(most_tables)   !! the key of each table in the order of `all_tables`, if it has one
    end type output_group
 
 end module wavycon_scene_groups

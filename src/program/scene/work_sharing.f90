@@ -1,4 +1,5 @@
-!> How the ranks share the work of a scene: what each does, and what they tell each other between the steps of a run.
+!> How the ranks, the processes of the parallel program, share the work of a scene, and what they exchange between the
+!> steps of a run.
 module wavycon_work_sharing
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solver, only: solver_traits
@@ -13,24 +14,24 @@ module wavycon_work_sharing
 
    public :: work_sharing, choose_sharing
 
-   !> All ranks work on each load: those of grids that are distributed have their columns, all else is computed by each.
+   !> All ranks work on each load: each has its columns of distributed grids, and each does all other work itself.
    integer, parameter, public :: distributed_grids = 1
    !> Each rank solves loads of its own.
    integer, parameter, public :: distributed_loads = 2
-   !> The first rank works, the others wait.
+   !> The first rank works alone, and the others wait.
    integer, parameter, public :: first_rank_only = 3
 
-   !> Given grids of so many points are distributed even where loads could be: a grid on each rank takes too much
-   !> memory.
+   !> If the deck gives a grid of at least so many points, the grid is distributed even if the loads could be: one grid
+   !> on each rank would take too much memory.
    integer(int64), parameter :: large_grid = 2_int64**22
 
    type :: work_sharing
       integer :: kind = first_rank_only   !! one of the names above
-      integer :: ranks = 1                !! their number
-      integer :: rank = 0                 !! the number of this one, from 0
-      logical :: is_first = .true.        !! whether this one writes log and tables
+      integer :: ranks = 1                !! number of ranks
+      integer :: rank = 0                 !! number of this rank, from 0
+      logical :: is_first = .true.        !! whether this rank writes log and tables
       logical :: is_shared = .false.      !! whether more than one rank works
-      integer, allocatable, private :: rank_of_load(:)   !! the rank that solves each load, if these are distributed
+      integer, allocatable, private :: rank_of_load(:)   !! the rank that solves each load, if loads are distributed
    contains
       procedure :: memory_of_each
       procedure :: words
@@ -38,22 +39,22 @@ module wavycon_work_sharing
       procedure :: is_own_load
       procedure :: share_loads
       procedure, nopass :: share_numbers
-      !> Says whether each rank works on something else from now on, without exchange.
+      !> Begins or ends a time in which each rank works by itself, without exchange.
       procedure, nopass :: work_alone
-      !> Adds words of all ranks, one by one.
+      !> Sums arrays of integers over the ranks, element by element.
       procedure, nopass :: add => add_integers_over_ranks
-      !> Whether something is true on any rank.
+      !> Whether a condition holds on any rank.
       procedure, nopass :: any => any_rank
-      !> Makes an error of any rank that of all.
+      !> Returns an error of any rank on all ranks.
       procedure, nopass :: share_error
    end type work_sharing
 
 contains
 
-   !> Decides how the ranks share the work. The decision depends on the deck and the number of ranks alone.
+   !> Decides how the ranks share the work. The decision depends only on the deck and on the number of ranks.
    type(work_sharing) function choose_sharing(traits, loads, need_fields, need_stresses) result(sharing)
-      type(solver_traits), intent(in) :: traits     !! of the started solver
-      integer, intent(in) :: loads                  !! their number
+      type(solver_traits), intent(in) :: traits     !! traits of the started solver
+      integer, intent(in) :: loads                  !! number of loads
       logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
       logical, intent(in) :: need_stresses          !! whether loads are found by stresses, or the interface is computed
 
@@ -76,7 +77,7 @@ contains
       sharing%is_shared = sharing%kind /= first_rank_only
    end function choose_sharing
 
-   !> The memory that is available to each rank that works, on this machine [byte]; -1: unknown.
+   !> The memory of this machine that is available to each rank that works on it [byte]; -1 if unknown.
    integer(int64) function memory_of_each(self) result(bytes)
       class(work_sharing), intent(in) :: self
 
@@ -84,12 +85,12 @@ contains
       if (self%is_shared .and. bytes >= 0) bytes = bytes/ranks_on_this_machine()
    end function memory_of_each
 
-   !> Deals the loads to the ranks in blocks, if they are distributed: the digits do not depend on the number of ranks
-   !> where each block is solved by itself.
+   !> Assigns the loads to the ranks in blocks, if loads are distributed. If each block is solved without the solutions
+   !> of other blocks, the digits do not depend on the number of ranks.
    subroutine deal_loads(self, order, block)
       class(work_sharing), intent(inout) :: self
-      integer, intent(in) :: order(:)   !! the loads in the order in which they are solved
-      integer, intent(in) :: block      !! loads of a block, >= 1
+      integer, intent(in) :: order(:)   !! numbers of the loads in the order of their solution
+      integer, intent(in) :: block      !! number of loads of a block, >= 1
 
       integer :: i
 
@@ -101,19 +102,20 @@ contains
    !> Whether this rank solves a load.
    pure logical function is_own_load(self, load)
       class(work_sharing), intent(in) :: self
-      integer, intent(in) :: load
+      integer, intent(in) :: load   !! number of the load in the deck's order
 
       is_own_load = .true.
       if (allocated(self%rank_of_load)) is_own_load = self%rank_of_load(load) == self%rank
    end function is_own_load
 
-   !> Gives all ranks what each has of its own loads.
+   !> Gives all ranks the data that each rank has of its own loads. On return the data of all loads are the same on all
+   !> ranks.
    !>
-   !> It travels as 8-byte words: sums of words of which all but one are zero are exact, of real numbers those of NaN
-   !> and of -0 are not.
+   !> The data are sent as 8-byte integers and summed, with zeros for the loads of other ranks: such sums are exact.
+   !> Sums of real numbers would change NaN and -0.
    subroutine share_loads(self, words)
       class(work_sharing), intent(in) :: self   !! after deal_loads, with distributed loads
-      integer(int64), intent(inout), contiguous :: words(:)   !! equally many of each load
+      integer(int64), intent(inout), contiguous :: words(:)   !! data of the loads, as many words for each load
 
       integer :: load, n
 
@@ -124,10 +126,10 @@ contains
       call add_integers_over_ranks(words)
    end subroutine share_loads
 
-   !> Gives all ranks the numbers that one of them has, bit by bit.
+   !> Gives all ranks the numbers that one rank has, exactly, also NaN and -0.
    subroutine share_numbers(is_own, numbers)
-      logical, intent(in) :: is_own   !! on one rank
-      real(dp), intent(inout), contiguous :: numbers(:, :)
+      logical, intent(in) :: is_own   !! whether this rank has the numbers: .true. on one rank
+      real(dp), intent(inout), contiguous :: numbers(:, :)   !! the same shape on all ranks
 
       integer(int64), allocatable :: words(:)
 
@@ -137,7 +139,7 @@ contains
       numbers = reshape(transfer(words, numbers), shape(numbers))
    end subroutine share_numbers
 
-   !> The decision for the log; empty for one rank.
+   !> How the ranks share the work, in words for the log; empty if there is one rank.
    function words(self)
       class(work_sharing), intent(in) :: self
       character(:), allocatable :: words

@@ -1,4 +1,5 @@
-!> What decks say about solvers: their names, their keys of &method, what they refuse, and how values start them.
+!> The solvers as a deck names them: their names, their keys in &method, which surfaces they cannot solve, and how a
+!> solver is started from the values of its keys.
 module wavycon_methods
    use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
       last_choice, points_are_given, points_are_of_the_map
@@ -27,20 +28,21 @@ module wavycon_methods
    !> All solvers, in the order of the key reference.
    character(*), parameter :: names = 'auto beale series fitted grid closed_form'
 
-   !> Largest values of the series accepted from a deck, for 1-D and 2-D waves, so that a mistyped number does not run
-   !> for hours.
+   !> Largest numbers of harmonics and, for 1-D and 2-D waves, of constraint points that a deck may give. With larger
+   !> numbers, which are most likely mistyped, the series would take hours.
    integer, parameter :: most_harmonics = 60, most_constraint_points(2) = [6001, 601]
-   !> Most elements of its constraints' matrix. A few copies of it exist at a time, each of 160 MB.
+   !> Most elements of the matrix of the series' constraints. A few copies of the matrix exist at a time, each of at
+   !> most 160 MB.
    real(dp), parameter :: most_elements = 2.0e7_dp
 
 contains
 
    !> The keys of &method.
    subroutine list_method_keys(values, keys)
-      type(method_group), intent(in), target :: values
+      type(method_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
-      type(qp_options) :: default
+      type(qp_options) :: usual   ! the defaults of the series
 
       keys = key_list('method', 'how the contact is computed', values%key_group, selector='solver')
       call keys%add(values%solver, key_type(choice_value, 'solver', "'auto'", '', &
@@ -62,7 +64,7 @@ contains
       call keys%add(values%symmetry, key_type(choice_value, 'symmetry', "'full'", '', &
          "in 2-D, symmetry of the pressure. 'full': alike in x and y and at both crests (29 unknowns, 196 points "// &
          "by default); 'diagonal': at both crests (49, 378); 'none' (99, 729).", choices='full diagonal none'))
-      call keys%add(values%edge_level, key_type(real_value, 'edge_level', short_number(default%edge_level), 'p*', &
+      call keys%add(values%edge_level, key_type(real_value, 'edge_level', short_number(usual%edge_level), 'p*', &
          'the isobar that is taken as the edge of contact.', above=0, below=1))
       keys%of = 'grid fitted auto'
       call keys%add(values%accuracy, key_type(real_value, 'accuracy', short_number(default_accuracy), '-', &
@@ -80,14 +82,15 @@ contains
          'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=11))
    end subroutine list_method_keys
 
-   !> Sets the defaults that depend on the surface and checks the keys against the solver.
+   !> Sets the defaults that depend on the surface and checks the keys against the solver. A solver that cannot solve
+   !> the surface is reported.
    subroutine check_method_group(values, surface)
       type(method_group), intent(inout) :: values
-      type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it has problems
+      type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it could not be made
 
       character(:), allocatable :: solver, words
 
-      ! Without a surface the remaining checks would report problems that are not there.
+      ! All checks need the surface.
       if (.not. allocated(surface) .or. values%solver%is_bad) return
       solver = values%solver%text
       words = refusal(solver, surface)
@@ -103,9 +106,10 @@ contains
       end select
    end subroutine check_method_group
 
-   !> Why a solver cannot solve a surface, as the end of a sentence such as 'is for the 1-D wave'; empty if it can.
+   !> Why a solver cannot solve a surface, as the predicate of a sentence, such as 'is for the 1-D wave'; empty if it
+   !> can.
    function refusal(solver, surface) result(words)
-      character(*), intent(in) :: solver
+      character(*), intent(in) :: solver   !! its name
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
@@ -129,11 +133,12 @@ contains
          words = 'has no solution with a hardness'
    end function refusal
 
-   !> The solvers that can solve a surface, such as "'grid' or 'auto'"; of these only those whose solutions have
-   !> details, or the coefficients of a series: '' if there is none.
+   !> The solvers that can solve a surface and have a trait, such as "'grid' or 'auto'"; empty if there is none.
    function solvers_for(surface, trait) result(words)
       type(surface_type), intent(in) :: surface
-      character(*), intent(in), optional :: trait   !! 'details' or 'coefficients'
+      !> The trait: solutions with 'details', or with the 'coefficients' of a Fourier series; absent: no trait is
+      !> needed.
+      character(*), intent(in), optional :: trait
       character(:), allocatable :: words
 
       character(name_length), allocatable :: solvers(:)
@@ -143,15 +148,20 @@ contains
       allocate (solvers, source=words_of(names))
       solvers = pack(solvers, [(refusal(trim(solvers(i)), surface) == '', i=1, size(solvers))])
       traits = [(traits_of(solvers(i)), i=1, size(solvers))]
-      if (present(trait)) solvers = pack(solvers, merge(traits%has_details, traits%has_coefficients, &
-                                                        trait == 'details'))
+      if (present(trait)) then
+         if (trait == 'details') then
+            solvers = pack(solvers, traits%has_details)
+         else
+            solvers = pack(solvers, traits%has_coefficients)
+         end if
+      end if
       words = ''
       if (size(solvers) > 0) words = listed(in_quotes(solvers), ' or ')
    end function solvers_for
 
    !> The traits of a solver before it is started.
    type(solver_traits) function traits_of(name) result(traits)
-      character(*), intent(in) :: name   !! of a solver
+      character(*), intent(in) :: name   !! name of the solver
 
       class(contact_solver), allocatable :: solver
 
@@ -159,6 +169,7 @@ contains
       if (allocated(solver)) traits = solver%traits()
    end function traits_of
 
+   !> Allocates the solver of a name, without starting it.
    subroutine allocate_solver(name, solver)
       character(*), intent(in) :: name
       class(contact_solver), allocatable, intent(out) :: solver   !! not allocated if no solver has the name
@@ -177,13 +188,14 @@ contains
       end select
    end subroutine allocate_solver
 
-   !> Makes the solver that &method names and starts it. Not allocated if no solver has that name.
+   !> Makes the solver that &method names, and starts it with a surface and the values of its keys.
    subroutine start_solver(surface, values, keep_fields, solver, description)
-      type(surface_type), intent(in) :: surface      !! which the solver does not refuse
-      type(method_group), intent(in) :: values       !! of &method, without problems
+      type(surface_type), intent(in) :: surface      !! a surface that the solver can solve (`refusal`)
+      type(method_group), intent(in) :: values       !! the values of &method, without problems
       logical, intent(in) :: keep_fields             !! whether fields, edges or details of solutions will be needed
-      class(contact_solver), allocatable, intent(out) :: solver
-      character(:), allocatable, intent(out), optional :: description   !! the discretisation, for log and tables
+      class(contact_solver), allocatable, intent(out) :: solver   !! not allocated if no solver has that name
+      !> The discretisation in words, for the log and the heads of tables.
+      character(:), allocatable, intent(out), optional :: description
 
       character(*), parameter :: closed_form(2) = [character(36) :: "closed form (Westergaard's solution)", &
                                                    "closed form (Hertz's contact)"]
@@ -211,7 +223,7 @@ contains
          call solver%start(surface, values%accuracy%number, keep_fields)
          words = fitted
       class is (grid_contact)
-         ! auto_contact extends it.
+         ! Both the grid's solver and auto_contact, which extends that.
          call solver%start(surface, grid_options(values%accuracy%number, points_of_grid(values, surface), &
                                                 values%residual%number), keep_fields)
          traits = solver%traits()
@@ -224,9 +236,9 @@ contains
       if (present(description)) call move_alloc(words, description)
    end subroutine start_solver
 
-   !> Why the solvers were taken, as a sentence for --check; empty for other solvers than 'auto'.
+   !> Why solver = 'auto' chose its solvers, in words for --check; empty for other solvers.
    pure function why_chosen(traits) result(words)
-      type(solver_traits), intent(in) :: traits   !! of the started solver
+      type(solver_traits), intent(in) :: traits   !! traits of the started solver
       character(:), allocatable :: words
 
       character(112) :: reasons(0:last_choice)
@@ -242,11 +254,13 @@ contains
       words = trim(reasons(traits%choice))
    end function why_chosen
 
-   !> Sets the defaults that depend on the surface, and reports numbers that do not fit each other or the memory.
+   !> Checks the keys of the series. Defaults that depend on the surface are set; numbers of harmonics and constraint
+   !> points that contradict each other or need too much memory are reported.
    subroutine check_series_keys(values, surface)
       type(method_group), intent(inout) :: values
       type(surface_type), intent(in) :: surface
 
+      character(:), allocatable :: origin
       integer :: constraints, harmonics, points, unknowns
 
       call values%harmonics%set_default([real(paper_harmonics(surface%dimension), dp)])
@@ -255,7 +269,7 @@ contains
       if (surface%dimension == 1) then
          values%symmetry%in_effect = .false.
          if (values%symmetry%is_given) call values%complain(values%symmetry, &
-                                                          'symmetry means nothing in 1-D: leave it out')
+                                                          'symmetry is a key of 2-D surfaces: leave it out')
       end if
       if (values%harmonics%is_bad .or. values%constraint_points%is_bad) return
       harmonics = nint(values%harmonics%number)
@@ -265,9 +279,11 @@ contains
             integer_text(most_constraint_points(surface%dimension))//' in '//integer_text(surface%dimension)// &
             '-D, got '//integer_text(points))
       else if (points <= harmonics) then
+         origin = ' (the default)'
+         if (values%harmonics%is_given) origin = ''
          call values%problems%add(max(values%harmonics%place, values%constraint_points%place), &
             'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
-            integer_text(harmonics)//trim(merge('              ', ' (the default)', values%harmonics%is_given)))
+            integer_text(harmonics)//origin)
       else if (.not. values%symmetry%is_bad) then
          call find_size(values, surface, unknowns, constraints)
          if (real(unknowns, dp)*constraints*merge(2, 1, surface%has_hardness()) > most_elements) &
@@ -278,11 +294,12 @@ contains
       end if
    end subroutine check_series_keys
 
-   !> The size of the quadratic programme.
+   !> The size of the quadratic programme that the series solves.
    subroutine find_size(values, surface, unknowns, constraints)
       type(method_group), intent(in) :: values
       type(surface_type), intent(in) :: surface
-      integer, intent(out) :: unknowns, constraints   !! without those of a hardness, which are as many again
+      integer, intent(out) :: unknowns      !! number of coefficients of the pressure
+      integer, intent(out) :: constraints   !! number of constraints p >= 0; a hardness adds as many
 
       type(fourier_terms) :: terms
       integer, allocatable :: k(:), l(:)
@@ -293,6 +310,7 @@ contains
       constraints = size(k)
    end subroutine find_size
 
+   !> The symmetry of the pressure: symmetry_full, symmetry_diagonal or symmetry_none of wavycon_fourier_terms.
    pure integer function symmetry_of(values) result(symmetry)
       type(method_group), intent(in) :: values
 
@@ -301,20 +319,21 @@ contains
       if (values%symmetry%text == 'none') symmetry = symmetry_none
    end function symmetry_of
 
-   !> The grid to solve, on the whole cell, along x and y. Zeros if the accuracy decides.
+   !> The numbers of points of the given grid along x and y, on the whole cell with mirror images; zeros if the accuracy
+   !> decides on the grids.
    pure function points_of_grid(values, surface) result(points)
-      type(method_group), intent(in) :: values     !! of &method, after its check
+      type(method_group), intent(in) :: values     !! the values of &method after check_method_group
       type(surface_type), intent(in) :: surface
       integer :: points(2)
 
       points = surface%parts()*nint(values%grid_points%pair)
    end function points_of_grid
 
-   !> Sets grid_points in full, by default to the points that the surface was given on unless the deck gives an
-   !> accuracy: a grid that is given is solved in place of the accuracy. Reports a residual without a given grid, and
-   !> odd numbers of points.
+   !> Checks the keys of grids and sets grid_points along x and y. If the deck gives neither grid_points nor an
+   !> accuracy, a surface that is given at points is solved at these. A given grid takes the place of the accuracy. A
+   !> residual without a given grid, and odd numbers of points, are reported.
    subroutine check_grid_keys(values, surface)
-      type(method_group), intent(inout) :: values  !! of &method
+      type(method_group), intent(inout) :: values  !! the values of &method
       type(surface_type), intent(in) :: surface
 
       real(dp) :: points(2)
@@ -336,9 +355,9 @@ contains
       end associate
    end subroutine check_grid_keys
 
-   !> The grid in words.
+   !> The grid, or how grids are refined, in words for the log and the heads of tables.
    pure function grid_in_words(values, surface) result(words)
-      type(method_group), intent(in) :: values     !! of &method
+      type(method_group), intent(in) :: values     !! the values of &method
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 

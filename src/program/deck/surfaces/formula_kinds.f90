@@ -1,5 +1,6 @@
-!> The kinds of surface that are formulas: cosine waves, 'wave_1d', 'wave_2d', 'crossed_1d' and 'hexagonal' of one, two
-!> or three and 'sum' of any; and 'ball', a ball, or a body with two radii of curvature, pressed on a half-space.
+!> The kinds of surface that are formulas. Sums of cosine waves are 'wave_1d', 'wave_2d', 'crossed_1d' and 'hexagonal',
+!> of one to three waves, and 'sum', of any waves. 'ball' is a ball, or a body with two radii of curvature, on a
+!> half-space.
 module wavycon_formula_kinds
    use wavycon_constants, only: pi
    use wavycon_free_edges, only: surface_of_ball
@@ -14,12 +15,13 @@ module wavycon_formula_kinds
 
    public :: check_sum, formula_surface, radii_of
 
-   !> The waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21).
+   !> The waves of Johnson, Greenwood & Higginson (1985), eqs. (3) and (21), in the words of decks.
    character(*), parameter, public :: paper_waves = 'wave_1d, wave_2d with one wavelength, crossed_1d with equal waves'
 
 contains
 
-   !> Sets the defaults of 'sum', and reports lists of unlike lengths and waves without wave numbers.
+   !> Sets the defaults of kind = 'sum'. Lists of different lengths, and waves whose two wave numbers are 0, are
+   !> reported.
    subroutine check_sum(values)
       type(surface_group), intent(inout) :: values
 
@@ -42,6 +44,7 @@ contains
 
    contains
 
+      !> Reports a list that does not have one value for each amplitude.
       subroutine check_size(key, name)
          type(key_value), intent(in) :: key
          character(*), intent(in) :: name
@@ -55,9 +58,9 @@ contains
 
    end subroutine check_sum
 
-   !> The surface of a kind of this module.
+   !> The surface of one of these kinds.
    function formula_surface(values) result(surface)
-      type(surface_group), intent(inout) :: values   !! of &surface, without problems
+      type(surface_group), intent(inout) :: values   !! the values of &surface, without problems
       type(surface_type) :: surface
 
       select case (values%kind%text)
@@ -81,9 +84,9 @@ contains
       end select
    end function formula_surface
 
-   !> The radii along x and y that keys give, both at once or each [length]; huge where they give none.
+   !> The radii of curvature along x and y that keys give [length]; huge(radii) where no key gives the radius.
    pure function radii_of(both, x, y) result(radii)
-      type(key_value), intent(in) :: both, x, y
+      type(key_value), intent(in) :: both, x, y   !! the key of both radii, of that along x, and of that along y
       real(dp) :: radii(2)
 
       radii = huge(radii)

@@ -1,4 +1,4 @@
-!> kind = 'file': a height map.
+!> kind = 'file': the surface is a height map, read from a file or given in memory.
 module wavycon_height_map_kind
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
@@ -22,28 +22,29 @@ module wavycon_height_map_kind
 
 contains
 
-   !> Reads the map. Errors: exit_file_trouble if the file cannot be read, exit_bad_input if it is not a map, its holes
-   !> are not to be filled, its heights are out of range, its unit is unknown, or the deck gives sides of the cell
-   !> beside those of the file, which may be in another unit.
+   !> Reads the height map of a file and makes the surface. Errors: exit_file_trouble if the file cannot be read.
+   !> exit_bad_input if the file is not a map, if heights are missing and are not to be filled, if heights are out of
+   !> range, if the unit is unknown, or if deck and file both give the sides of the cell: their units may differ.
    subroutine surface_of_file(values, surface, map, error)
-      type(surface_group), intent(inout) :: values
+      type(surface_group), intent(inout) :: values     !! the values of &surface, without problems
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
 
       type(measured_map) :: heights
       character(:), allocatable :: file, path
-      real(dp), allocatable :: missing_value   ! not allocated: the argument is absent
+      real(dp), allocatable :: missing_value   ! if not allocated, the optional argument is absent
 
       file = values%file%text
-      ! Beside the deck or, if it is not there, where the program was started.
+      ! The file is beside the deck or, if not, in the directory where the program was started.
       path = file
       if (file(1:1) /= '/') path = values%deck_path(:index(values%deck_path, '/', back=.true.))//file
       if (path_kind(path) == path_absent) then
          if (path_kind(file) /= path_absent) path = file
       end if
       if (values%missing_value%is_given) missing_value = values%missing_value%number
-      ! Holes, their frame and spikes are found in the whole map.
+      ! To fill holes, to crop borders and to find spikes each rank needs the whole map; otherwise the map is read in
+      ! slabs, one for each rank.
       call read_height_map(path, values%file_format%text, heights, error, missing_value, &
                            in_slabs=values%fill_missing%text == 'none' .and. .not. &
                                     (values%crop_missing%is_true .or. values%despike%is_true))
@@ -60,12 +61,14 @@ contains
       if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
    end subroutine surface_of_file
 
-   !> The surface of heights in memory in place of those of the file, whose name messages use. Errors: exit_bad_input
-   !> for another kind of surface, for keys that only a file can have, and as of `surface_of_file`; exit_file_trouble
-   !> without memory. One row or column is a profile.
+   !> Makes the surface of heights in memory. They take the place of those of the key `file`, whose value serves as a
+   !> name in messages. Errors: exit_bad_input for another kind of surface, for keys that only a file can have, and as
+   !> in `surface_of_file`; exit_file_trouble if there is not enough memory.
    subroutine surface_of_heights(values, heights, surface, map, error)
-      type(surface_group), intent(inout) :: values     !! of &surface, as for `surface_of_file`
-      real(dp), intent(in) :: heights(:, :)   !! upwards to the other body, NaN: missing; x first
+      type(surface_group), intent(inout) :: values     !! the values of &surface, without problems
+      !> Heights, upwards to the other body, NaN where a height is missing, shape (points along x, points along y). One
+      !> row or one column is a profile.
+      real(dp), intent(in) :: heights(:, :)
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
@@ -94,10 +97,10 @@ contains
       call make_of(source, values, measured, surface, map, error)
    end subroutine surface_of_heights
 
-   !> Makes the surface of heights, prepared as the keys say. Errors: as of `surface_of_file`.
+   !> Prepares heights as the keys say, and makes the surface. Errors: those of `surface_of_file`.
    subroutine make_of(source, values, heights, surface, map, error)
-      character(*), intent(in) :: source              !! of the heights, for messages
-      type(surface_group), intent(inout) :: values
+      character(*), intent(in) :: source              !! name of the heights' file, for messages
+      type(surface_group), intent(inout) :: values    !! the values of &surface
       type(measured_map), intent(inout) :: heights
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
@@ -118,20 +121,21 @@ contains
       if (.not. allocated(error)) map%assumed_sides = assumed_sides
    end subroutine make_of
 
-   !> The sides of the cell: those of the file, those of the deck, or assumed ones. Errors: exit_bad_input if file and
-   !> deck give one.
+   !> Finds the sides of the cell: those of the file, or those of the deck, or assumed ones. A side for which the file
+   !> has its format's default may be given by the deck. Errors: exit_bad_input if file and deck both give a side.
    subroutine take_sides(values, path, heights, length, assumed, error)
-      type(surface_group), intent(inout) :: values
-      character(*), intent(in) :: path
-      type(measured_map), intent(in) :: heights
-      real(dp), intent(out) :: length(2)           !! L_x, L_y [length]; of a profile the second is not used
-      character(:), allocatable, intent(out) :: assumed   !! the sides that neither gives, in words; empty if none
+      type(surface_group), intent(inout) :: values   !! the values of &surface
+      character(*), intent(in) :: path               !! name of the file, for messages
+      type(measured_map), intent(in) :: heights      !! the map with the steps that its file gives
+      real(dp), intent(out) :: length(2)             !! L_x, L_y [length]; of a profile the second is not used
+      !> Words about sides that neither file nor deck gives; empty if there are none.
+      character(:), allocatable, intent(out) :: assumed
       type(error_type), allocatable, intent(out) :: error
 
       character(*), parameter :: names(2) = ['length_x', 'length_y']
       character(:), allocatable :: sides, unit
       integer :: d
-      logical :: is_given(2)   ! by the deck
+      logical :: is_given(2)   ! whether the deck gives length_x, length_y
       type(grid_slab) :: slab
 
       assumed = ''
@@ -149,7 +153,7 @@ contains
             if (any(is_given .and. .not. heights%is_usual_side)) &
                call fatal_error(error, exit_bad_input, escaped(path)//': the file gives the sides of the cell, '// &
                                 sides//unit//': leave out length_x and length_y')
-            do d = 1, merge(1, 2, n == 1)
+            do d = 1, min(n, 2)   ! a profile, n = 1, has one side
                if (is_given(d) .or. .not. heights%is_usual_side(d)) cycle
                assumed = clauses(assumed, names(d)//' = '//short_number(length(d))// &
                   unit//' is assumed: the file does not give it, and 1 is the default of .gsf files')

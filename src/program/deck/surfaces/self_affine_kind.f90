@@ -1,4 +1,4 @@
-!> kind = 'self_affine': a random rough surface, made from its spectrum.
+!> kind = 'self_affine': the surface is a random rough one, made from its spectrum.
 module wavycon_self_affine_kind
    use wavycon_error, only: error_type
    use wavycon_formula_kinds, only: radii_of
@@ -14,15 +14,15 @@ module wavycon_self_affine_kind
 
    public :: check_self_affine, self_affine_of
 
-   !> Most points along a side that a deck without `points` gets.
-   integer, parameter :: most_default_points = 8192
-   integer, parameter :: least_points = 4
+   !> Most points along a side if the deck does not give `points`; fewest points along a side.
+   integer, parameter :: most_default_points = 8192, least_points = 4
 
 contains
 
-   !> The least power of two with four points to the shortest wave.
+   !> The number of points along a side: the least power of two that gives at least four points to the shortest wave,
+   !> but at most `most_default_points`.
    elemental integer function default_points(waves) result(points)
-      real(dp), intent(in) :: waves   !! of the shortest wavelength along a side
+      real(dp), intent(in) :: waves   !! length of the side over the shortest wavelength
 
       points = least_points
       do while (points < 4*waves .and. points < most_default_points)
@@ -30,23 +30,25 @@ contains
       end do
    end function default_points
 
-   !> Sets the defaults that depend on other keys. Reports cut-offs out of order, too few points, and cut-offs between
-   !> which the cell has no wave.
+   !> Sets the defaults that depend on other keys. Cut-off wavelengths in the wrong order, too few points, and cut-offs
+   !> between which the cell has no wave are reported.
    subroutine check_self_affine(values)
       type(surface_group), intent(inout) :: values
 
       integer :: points(2)
-      real(dp) :: length(2)
+      real(dp) :: length(2), longest
       type(self_affine_spectrum) :: spectrum
 
       points = 0
       if (values%points%is_given .and. .not. values%points%is_bad) points = nint(values%points%pair)
       length = values%length_x%number
-      ! Without length_y points are as far apart along y as along x.
+      ! If the deck does not give length_y, points are equally far apart along x and y.
       if (points(2) > 1) length(2) = length(1)*points(2)/points(1)
       call values%length_y%set_default(length(2:))
       length(2) = values%length_y%number
-      call values%long_wavelength%set_default([merge(length(1), maxval(length), points(2) == 1)])
+      longest = maxval(length)
+      if (points(2) == 1) longest = length(1)
+      call values%long_wavelength%set_default([longest])
       call values%rolloff_wavelength%set_default(values%long_wavelength%numbers)
       call values%short_wavelength%set_default(values%rolloff_wavelength%numbers/64)
       if (points(1) == 0) points = default_points(length/values%short_wavelength%number)
@@ -69,11 +71,11 @@ contains
 
    contains
 
-      !> Reports a length that is longer than another one.
+      !> Reports a wavelength that is longer than its limit.
       subroutine check_order(key, name, length, most_words, most)
          type(key_value), intent(in) :: key
-         character(*), intent(in) :: name, most_words
-         real(dp), intent(in) :: length, most
+         character(*), intent(in) :: name, most_words   !! name of the key; the limit in words
+         real(dp), intent(in) :: length, most           !! the wavelength; its limit [length]
 
          if (length > most) call values%complain(key, name//' = '//short_number(length)// &
                                                  ' must not be longer than '//most_words//', '//short_number(most))
@@ -81,12 +83,12 @@ contains
 
    end subroutine check_self_affine
 
-   !> Reports numbers of points that are too small, by themselves or for the shortest wave.
+   !> Reports numbers of points that are less than `least_points` or too few for the shortest wave.
    subroutine check_points(values, spectrum)
       type(surface_group), intent(inout) :: values
       type(self_affine_spectrum), intent(in) :: spectrum
 
-      !> Factor for a wave longer than two steps, within the digits of a message.
+      !> Factor that makes a wave longer than two steps by an amount that a message's six digits show.
       real(dp), parameter :: longer = 1.001_dp
       character(:), allocatable :: advice
       integer :: least(2), points(2)
@@ -115,22 +117,24 @@ contains
       integer :: points(2)
 
       points = nint(values%points%numbers)
-      spectrum%dimension = merge(1, 2, points(2) == 1)
+      spectrum%dimension = 2
+      if (points(2) == 1) spectrum%dimension = 1
       spectrum%length = [values%length_x%number, values%length_y%number]
       spectrum%hurst = values%hurst%number
       spectrum%longest = values%long_wavelength%number
       spectrum%rolloff = values%rolloff_wavelength%number
       spectrum%shortest = values%short_wavelength%number
       spectrum%by_slope = values%rms_slope%is_given
-      spectrum%rms = merge(values%rms_slope%number, values%rms_height%number, spectrum%by_slope)
+      spectrum%rms = values%rms_height%number
+      if (spectrum%by_slope) spectrum%rms = values%rms_slope%number
       if (values%spectral_density%is_given) spectrum%density = values%spectral_density%number
       spectrum%random_amplitudes = values%spectrum%text == 'random'
       spectrum%seed = nint(values%seed%number)
    end function spectrum_of
 
-   !> Makes the surface. Errors: as of self_affine_surface.
+   !> Makes the surface. Errors: those of self_affine_surface.
    subroutine self_affine_of(values, surface, map, error)
-      type(surface_group), intent(inout) :: values
+      type(surface_group), intent(inout) :: values   !! the values of &surface, without problems
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
