@@ -92,8 +92,8 @@ contains
       rounding = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
       mean_p = mean(p)
       call energies(self, surface, p, g, rounding, half_pu, ph, dual)
-      ! The pressure is multiplied by a factor that gives it the mean P. With a hardness a factor above 1 might exceed H;
-      ! then the uniform pressure share*H is added instead, which has no elastic energy, and factor + share = 1.
+      ! The pressure is multiplied by a factor that gives it the mean P. With a hardness a factor above 1 might exceed
+      ! H; then the uniform pressure share*H is added instead, which has no elastic energy, and factor + share = 1.
       factor = pbar_over_pstar/mean_p
       share = 0.0_dp
       if (surface%has_hardness() .and. factor > 1.0_dp) then
