@@ -1,8 +1,8 @@
-!> One contact with adhesion in the limit of Johnson, Kendall & Roberts, of a given area. Equations (I..) are those of
-!> README.md in this directory.
+!> The contact with adhesion, in the limit of Johnson, Kendall & Roberts (JKR), that has a given contact area. Equations
+!> (I..) are those of README.md in this directory.
 !>
-!> The 1-D wave and the round ball have closed forms. Waves on a lattice have exact solutions by expansions with a
-!> singular edge, one branch of separate spots and one of separate pools.
+!> The 1-D wave and the round ball have closed forms. Waves on a lattice are solved by expansions with a singular edge,
+!> on two branches: one of separate contact spots and one of separate pools of gap.
 module wavycon_adhesive_contact
    use wavycon_ball_source, only: ball_source
    use wavycon_closed_form_contact, only: closed_form_source
@@ -24,8 +24,8 @@ module wavycon_adhesive_contact
 
    public :: adhesive_point, adhesive_problem, start_adhesive_problem
 
-   !> What a point is. Under a given load a contact is stable where P rises with its area, at a given approach where the
-   !> approach does.
+   !> The kinds of points of the curve of contacts, (I19) and the table of section 4. A contact is stable under a given
+   !> load if P rises with the area, and stable at a given approach if the approach does.
    integer, parameter, public :: unstable_point = 0, stable_point = 1, approach_stable = 2, pull_off_point = 3, &
       jump_to_spots = 4, jump_to_pools = 5, jump_to_full = 6, approach_pull_off = 7, approach_jump = 8, &
       end_of_branch = 9, separated = 10, closed = 11, not_solved = 12, jump_to_bands = 13
@@ -34,35 +34,37 @@ module wavycon_adhesive_contact
       'pull_off_by_approach', 'jump_by_approach', 'end_of_branch', 'separated', 'full_contact', 'not_solved', &
       'jump_to_bands']
 
-   !> The numbers of a point that have zeros along the curve: P [p*], the approach [Delta], and their derivatives with
-   !> respect to the area fraction.
+   !> Positions in the component `value` of a point: P [p*], the approach [Delta], and the derivatives of both by the
+   !> contact area fraction. The curve searches for points at which one of these has a given value.
    integer, parameter, public :: at_load = 1, at_approach = 2
    integer, parameter :: load_slope = 3, approach_slope = 4
 
+   !> One contact: a point of the curve.
    type :: adhesive_point
-      logical :: exists = .false.
-      integer :: kind = unstable_point
-      integer :: number = 0                   !! of the load asked for, from 1
-      logical :: pools = .false.              !! of the branch of separate pools
-      real(dp) :: area = 0.0_dp               !! the contact area fraction, by which the curve is followed
-      real(dp) :: area_error = 0.0_dp
-      real(dp) :: value(4) = unknown          !! P, approach and their slopes
-      real(dp) :: slope_error(2) = 0.0_dp     !! of the slopes
-      real(dp) :: error(2) = unknown          !! of P and approach
-      real(dp) :: energy = unknown            !! elastic [p* Delta]: the mean of p u/2
-      real(dp) :: energy_error = unknown
-      integer :: status = converged           !! a name of wavycon_contact_status
-      type(fitted_answer), allocatable :: answer   !! of a lattice, from which other points start
+      logical :: exists = .false.             !! whether there is a solution
+      integer :: kind = unstable_point        !! one of the kinds above
+      integer :: number = 0                   !! number of the deck's load that the point belongs to, from 1; 0 if none
+      logical :: pools = .false.              !! true: on the branch of separate pools; false: of separate spots
+      real(dp) :: area = 0.0_dp               !! contact area fraction
+      real(dp) :: area_error = 0.0_dp         !! error estimate of the area fraction
+      real(dp) :: value(4) = unknown          !! P, approach, dP/dA, d approach/dA [p*, Delta]
+      real(dp) :: slope_error(2) = 0.0_dp     !! error estimates of the two derivatives
+      real(dp) :: error(2) = unknown          !! error estimates of P [p*] and approach [Delta]
+      real(dp) :: energy = unknown            !! elastic energy [p* Delta]: the mean of p u/2
+      real(dp) :: energy_error = unknown      !! error estimate of the energy [p* Delta]
+      integer :: status = converged           !! a status of wavycon_contact_status
+      !> The solution by expansions, from which other points start. Only of waves on a lattice.
+      type(fitted_answer), allocatable :: answer
    end type adhesive_point
 
    !> A surface with a work of adhesion.
    type :: adhesive_problem
       type(surface_type) :: surface
-      logical :: has_closed_form = .true.
-      type(fitted_frame) :: frame        !! of a wave on a lattice, which has no closed form
-      real(dp) :: pull = 0.0_dp          !! F_c of a ball (I17) over p* A_0
-      real(dp) :: work = 0.0_dp          !! w' > 0 [p* Delta]
-      real(dp) :: accuracy = 0.0_dp      !! largest error of P [p*] and approach [Delta], > 0
+      logical :: has_closed_form = .true.   !! true for the 1-D wave and the ball, false for waves on a lattice
+      type(fitted_frame) :: frame           !! units and lattice of a wave on a lattice
+      real(dp) :: pull = 0.0_dp             !! of a ball: pull-off force F_c over p* A_0, (I17)
+      real(dp) :: work = 0.0_dp             !! work of adhesion w' > 0 [p* Delta]
+      real(dp) :: accuracy = 0.0_dp         !! largest allowed error of P [p*] and of the approach [Delta], > 0
    contains
       procedure :: find_point
       procedure :: make_solution
@@ -70,11 +72,12 @@ module wavycon_adhesive_contact
 
 contains
 
+   !> Prepares the contacts of a surface with a work of adhesion.
    subroutine start_adhesive_problem(problem, surface, work, accuracy)
       type(adhesive_problem), intent(out) :: problem
-      type(surface_type), intent(in) :: surface   !! a wave of one dimension, a round ball or one with a frame
-      real(dp), intent(in) :: work                !! w' > 0 [p* Delta]
-      real(dp), intent(in) :: accuracy            !! > 0, of P [p*] and approach [Delta]
+      type(surface_type), intent(in) :: surface   !! a 1-D wave, a round ball, or a wave on a lattice (find_frame)
+      real(dp), intent(in) :: work                !! work of adhesion w' > 0 [p* Delta]
+      real(dp), intent(in) :: accuracy            !! largest allowed error of P [p*] and of the approach [Delta], > 0
 
       problem%surface = surface
       problem%work = work
@@ -85,13 +88,13 @@ contains
          problem%pull = 1.5_dp*pi*work*surface%amplitude*maxval(ball_radii(surface))/surface%nominal_area()
    end subroutine start_adhesive_problem
 
-   !> The point of a branch at a contact area fraction.
+   !> Finds the point of a branch with a given contact area. point%exists is .false. if no solution was found.
    subroutine find_point(self, pools, area, point, start)
       class(adhesive_problem), intent(in) :: self
-      logical, intent(in) :: pools
-      real(dp), intent(in) :: area                          !! 0 < area < 1
+      logical, intent(in) :: pools                          !! the branch: true of pools, false of spots
+      real(dp), intent(in) :: area                          !! contact area fraction, 0 < area < 1
       type(adhesive_point), intent(out) :: point
-      type(fitted_answer), intent(in), optional :: start    !! of another area of the branch
+      type(fitted_answer), intent(in), optional :: start    !! solution of another area of the branch, to start from
 
       point%pools = pools
       point%area = area
@@ -108,10 +111,11 @@ contains
       if (.not. maxval(point%error) <= self%accuracy) point%status = not_accurate
    end subroutine find_point
 
-   !> By (I17), (I18): the load P1 of Hertz's contact of the same area less the tension T = 2 sqrt(F_c P1).
+   !> The contact of a round ball, by (I17), (I18). Its load is that of Hertz's contact of the same area, P1, less the
+   !> tension T = 2 sqrt(F_c P1).
    subroutine find_point_of_ball(self, point)
       class(adhesive_problem), intent(in) :: self
-      type(adhesive_point), intent(inout) :: point
+      type(adhesive_point), intent(inout) :: point   !! on entry with its area
 
       real(dp) :: delta, p1, tension
       type(hertz_ball) :: contact
@@ -123,7 +127,7 @@ contains
       end associate
       tension = 2*sqrt(self%pull*p1)
       point%exists = .true.
-      ! P1 goes with the power 3/2 of the area, T with 3/4, Hertz's approach with 1.
+      ! For the derivatives: P1 is proportional to A^(3/2), T to A^(3/4), and Hertz's approach to A.
       point%value = [p1 - tension, delta*(1.0_dp - 2*tension/(3*p1)), (1.5_dp*p1 - 0.75_dp*tension)/point%area, &
                      delta*(1.0_dp - tension/(6*p1))/point%area]
       point%error = 0.0_dp
@@ -131,10 +135,11 @@ contains
       point%energy_error = 0.0_dp
    end subroutine find_point_of_ball
 
-   !> By (I16), (I18): Johnson (1995). P1 = sin^2 psi is the load of the same strip without adhesion, psi = pi area/2.
+   !> The contact of the 1-D wave, by (I16), (I18), after Johnson (1995). P1 = sin^2 psi, psi = pi A/2, is the load of a
+   !> strip of the same width without adhesion.
    subroutine find_point_of_line_wave(self, point)
       class(adhesive_problem), intent(in) :: self
-      type(adhesive_point), intent(inout) :: point
+      type(adhesive_point), intent(inout) :: point   !! on entry with its area
 
       real(dp) :: p1, slope, tension
 
@@ -151,20 +156,27 @@ contains
       point%energy_error = 0.0_dp
    end subroutine find_point_of_line_wave
 
-   !> By expansions with a singular edge: src/core/fitted/README.md, section 15.
+   !> The contact of a wave on a lattice, by expansions with a singular edge: src/core/fitted/README.md, section 15.
    subroutine find_point_of_lattice(self, point, start)
       class(adhesive_problem), intent(in) :: self
-      type(adhesive_point), intent(inout) :: point
-      type(fitted_answer), intent(in), optional :: start
+      type(adhesive_point), intent(inout) :: point          !! on entry with its area and branch
+      type(fitted_answer), intent(in), optional :: start    !! as of find_point
 
-      real(dp) :: cell   ! of one spot or pool, with the sign of d(contact area)
+      !> The area of the cell of one spot; of one pool minus this, as contact shrinks where a pool grows. The area of
+      !> the spot or pool. Both in the lattice's units.
+      real(dp) :: cell, area
 
       allocate (point%answer)
       associate (lattice => self%frame%lattice, unit => self%frame%pressure_unit, answer => point%answer)
-         cell = lattice%area
-         if (point%pools) cell = -lattice%area/lattice%troughs
-         call solve_adhesive(lattice, point%pools, self%work/unit, merge(point%area - 1.0_dp, point%area, point%pools) &
-                             *cell, self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, start)
+         if (point%pools) then
+            cell = -lattice%area/lattice%troughs
+            area = (point%area - 1.0_dp)*cell
+         else
+            cell = lattice%area
+            area = point%area*cell
+         end if
+         call solve_adhesive(lattice, point%pools, self%work/unit, area, &
+                             self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, start)
          if (answer%status > fitted_less_exact) return
          point%exists = .true.
          point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]
@@ -175,12 +187,12 @@ contains
       end associate
    end subroutine find_point_of_lattice
 
-   !> A point as a solution, whose source has its fields, (I22), and its edge. Bodies that are separated, or whose load
-   !> is not known, have no fields: the status is not_found.
+   !> Makes a contact_solution of a point, with the source of its fields, (I22), and of its edge. Separated bodies and
+   !> points without a solution have no fields, and get the status not_found.
    subroutine make_solution(self, point, solution)
       class(adhesive_problem), intent(in) :: self
-      type(adhesive_point), intent(in) :: point         !! of this problem
-      type(contact_solution), intent(out) :: solution   !! numbers: load, area, approach and mean gap
+      type(adhesive_point), intent(in) :: point         !! a point of this problem
+      type(contact_solution), intent(out) :: solution   !! has load, area, approach and mean gap
 
       type(fitted_source), allocatable :: fitted
       type(hertz_ball) :: contact

@@ -1,6 +1,7 @@
-!> The contact with adhesion in the limit of Johnson, Kendall & Roberts: its curve of load, approach and area, which is
-!> followed by the area of contact, so that it has no turning points on the way. Pull-off, jumps and the contacts of
-!> given loads are zeros along it. Equations (I..) are those of README.md in this directory.
+!> The curve of load, approach and area of the contact with adhesion in the limit of Johnson, Kendall & Roberts. The
+!> curve is followed by the contact area, in which it has no turning points: load and approach have extremes along the
+!> curve. Pull-off, jumps and the contacts of given loads are found as zeros along the curve. Equations (I..) are those
+!> of README.md in this directory.
 module wavycon_adhesive_curve
    use wavycon_adhesive_contact, only: adhesive_point, adhesive_problem, approach_jump, approach_pull_off, &
       approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
@@ -19,34 +20,40 @@ module wavycon_adhesive_curve
    public :: adhesive_curve, add_load, find_adhesive_solution, follow_curve
 
    type :: adhesive_curve
-      type(adhesive_point), allocatable :: points(:)     !! of spots by rising area, then of pools by falling area
-      type(adhesive_point), allocatable :: critical(:)   !! pull-off, jumps, and where a branch ends
-      type(adhesive_point), allocatable :: at_loads(:)   !! the contacts of the loads asked for
-      !> Points and extremes in their order along the branches: P and approach are monotonic between two of a branch.
+      !> Points of the curve: the branch of spots by rising contact area, then the branch of pools by falling one.
+      type(adhesive_point), allocatable :: points(:)
+      type(adhesive_point), allocatable :: critical(:)   !! extremes of load and approach, and the ends of branches
+      type(adhesive_point), allocatable :: at_loads(:)   !! contacts at the loads of the deck, added by `add_load`
+      !> Points and extremes in their order along the branches. P and approach are monotonic between two neighbours of
+      !> one branch.
       type(adhesive_point), allocatable, private :: knots(:)
       type(adhesive_problem), private :: problem
    end type adhesive_curve
 
-   !> Points of a curve in closed form.
+   !> Number of points of a curve in closed form.
    integer, parameter :: closed_form_points = 95
-   !> Largest step of a spot's or pool's radius over that of a circle as large as its cell, and over itself.
+   !> Largest step of the radius of a spot or pool: over the radius of a circle as large as its cell, and over the
+   !> radius itself.
    real(dp), parameter :: radius_step = 0.025_dp, radius_growth = 0.2_dp
-   !> Largest growth of the merging ratio in a step, over what is left of it, and the ratio from which a branch ends
-   !> once the approach falls: the last extremes are at .83 and more. Otherwise it ends where a step is this part of the
-   !> largest one. A growth of 0.2 loses the last extreme of the pools of the square wave, w' = .05, at 1e-3.
-   real(dp), parameter :: ratio_growth = 0.12_dp, ratio_of_extremes = 0.6_dp, least_step = 0.02_dp
-   !> Step to the last extreme of the approach, over the distance that the last slopes let expect.
+   !> Largest growth of the merging ratio (1 where spots touch) in a step, over 1 less the ratio. With 0.2 the last
+   !> extreme of the pools of the square wave with w' = 0.05 is lost at the accuracy 1e-3.
+   real(dp), parameter :: ratio_growth = 0.12_dp
+   !> The branch ends where the approach falls at a merging ratio above this. The last extremes are at 0.83 and more.
+   real(dp), parameter :: ratio_of_extremes = 0.6_dp
+   !> The branch also ends if the step becomes smaller than this part of the largest step.
+   real(dp), parameter :: least_step = 0.02_dp
+   !> Step towards the last extreme of the approach, over the distance that is extrapolated from the last slopes.
    real(dp), parameter :: beyond_extreme = 1.3_dp
 
 contains
 
-   !> Follows the curve of a wave to full contact, that of a ball to the largest load or, if that is light, beyond zero
-   !> load.
+   !> Computes the curve: of the 1-D wave to nearly full contact; of waves on a lattice both branches to their last
+   !> extremes; of a ball to the largest load of the deck or, if that is light, to a load beyond zero.
    subroutine follow_curve(surface, accuracy, work, largest_load, curve)
-      type(surface_type), intent(in) :: surface   !! a wave of one dimension, a round ball or one with a frame
-      real(dp), intent(in) :: accuracy            !! > 0, of P [p*] and approach [Delta]
-      real(dp), intent(in) :: work                !! w' > 0 [p* Delta]
-      real(dp), intent(in) :: largest_load        !! P of the loads that will be asked for [p*]
+      type(surface_type), intent(in) :: surface   !! a 1-D wave, a round ball, or a wave on a lattice (find_frame)
+      real(dp), intent(in) :: accuracy            !! largest allowed error of P [p*] and of the approach [Delta], > 0
+      real(dp), intent(in) :: work                !! work of adhesion w' > 0 [p* Delta]
+      real(dp), intent(in) :: largest_load        !! largest P for which `add_load` will be called [p*]
       type(adhesive_curve), intent(out) :: curve
 
       allocate (curve%points(0), curve%critical(0), curve%at_loads(0), curve%knots(0))
@@ -60,12 +67,13 @@ contains
       call name_jumps(curve)
    end subroutine follow_curve
 
-   !> By equal steps of ln P1, P1 the load of the same contact without adhesion; of a wave of ln(P1/(1 - P1)).
+   !> Computes the points of a curve in closed form, at equal steps of ln P1 for a ball and of ln(P1/(1 - P1)) for the
+   !> 1-D wave, where P1 is the load of the contact of the same area without adhesion.
    subroutine follow_closed_form(curve, largest_load)
       type(adhesive_curve), intent(inout) :: curve
-      real(dp), intent(in) :: largest_load
+      real(dp), intent(in) :: largest_load   !! as of follow_curve
 
-      !> P1 of the first point over that of pull-off, or over w' of a wave (I21).
+      !> P1 of the first point over P1 at pull-off, for a wave over w', (I21).
       real(dp), parameter :: least_over_pull = 1e-3_dp
       real(dp) :: area, least, most, p1
       integer :: i
@@ -74,7 +82,8 @@ contains
 
       if (is_ball(curve%problem%surface)) then
          least = least_over_pull*curve%problem%pull
-         ! Twice the largest load's: at the approach of Hertz's contact under it adhesion makes P1 larger.
+         ! Twice the P1 that belongs to the largest load. The deck may also give the approach of Hertz's contact under
+         ! this load, at which P1 is larger with adhesion.
          most = 2*curve%problem%pull*(1.0_dp + sqrt(1.0_dp + max(largest_load/curve%problem%pull, 4.0_dp)))**2
       else
          least = min(2*least_over_pull*curve%problem%work, 1e-4_dp)
@@ -96,20 +105,24 @@ contains
       end do
    end subroutine follow_closed_form
 
-   !> By steps of the radius, from one smaller than that of pull-off from spots or of the jump from pools, (I20), until
-   !> the approach has its last extreme, which is before spots or pools touch.
+   !> Follows one branch of a wave on a lattice by steps of the radius of a circle of the spot's or pool's area. The
+   !> first radius is smaller than that of pull-off of a spot, or of the largest load of a pool, (I20). The branch ends
+   !> past the last extreme of the approach, before spots or pools touch.
    subroutine follow_branch(curve, pools)
       type(adhesive_curve), intent(inout) :: curve
-      logical, intent(in) :: pools
+      logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
 
       real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp
-      real(dp) :: cell, full_step, next, open_cell, radius, ratio, step
+      !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
+      !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
+      real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
       type(adhesive_point) :: point
       type(fitted_answer) :: start
 
       associate (lattice => curve%problem%frame%lattice, work => curve%problem%work/curve%problem%frame%pressure_unit)
-         open_cell = lattice%area/merge(lattice%troughs, 1, pools)
-         cell = sqrt(open_cell/pi)
+         cell_area = lattice%area
+         if (pools) cell_area = lattice%area/lattice%troughs
+         cell_radius = sqrt(cell_area/pi)
          associate (curvature => sqrt(product(lattice%curvatures(pools))))
             if (pools) then
                radius = (0.75_dp*sqrt(0.5_dp*work)/curvature)**0.4_dp
@@ -117,22 +130,23 @@ contains
                radius = (9*pi**2*work/(8*curvature**2))**(1.0_dp/3)
             end if
          end associate
-         radius = min(first_over_critical*radius, largest_first*cell)
+         radius = min(first_over_critical*radius, largest_first*cell_radius)
       end associate
       ratio = 0.0_dp
       step = radius
       full_step = radius
       do
-         associate (part => pi*radius**2/open_cell)
-            call curve%problem%find_point(pools, merge(1.0_dp - part, part, pools), point, start)
-         end associate
-         ! Next to the end of a branch a solution may be far less accurate than asked for: a shorter step leads to one.
+         part = pi*radius**2/cell_area
+         if (pools) part = 1.0_dp - part
+         call curve%problem%find_point(pools, part, point, start)
+         ! Near the end of a branch a solution may be much less accurate than asked for. A shorter step then leads to a
+         ! solution that is accurate.
          if (point%exists .and. maxval(point%error) <= worst_error*curve%problem%accuracy) then
             call add_point(curve, point)
             start = point%answer
-            ! Past its last extreme the approach falls: nothing is stable from there on.
+            ! Past its last extreme the approach falls with the radius, and no contact is stable from there on.
             if (start%merging_ratio > ratio_of_extremes .and. .not. point%value(2 + at_approach) > 0.0_dp) exit
-            full_step = min(radius_step*cell, radius_growth*radius)
+            full_step = min(radius_step*cell_radius, radius_growth*radius)
             associate (growth => max(start%merging_ratio - ratio, epsilon(ratio)))
                step = min(full_step, step*ratio_growth*(1.0_dp - start%merging_ratio)/growth)
             end associate
@@ -141,7 +155,8 @@ contains
                associate (newest => curve%points(size(curve%points) - 2:))
                   next = interpolated(newest%area, newest%value(2 + at_approach))
                end associate
-               next = sqrt(max(merge(1.0_dp - next, next, pools), 0.0_dp)*open_cell/pi)
+               if (pools) next = 1.0_dp - next
+               next = sqrt(max(next, 0.0_dp)*cell_area/pi)
                if (next > radius) step = min(step, beyond_extreme*(next - radius))
             end if
          else
@@ -157,15 +172,16 @@ contains
       curve%critical = [curve%critical, point]
    end subroutine follow_branch
 
-   !> Adds a point at the end of its branch, and the extremes of load and approach between it and the one before.
+   !> Adds a point at the end of its branch, and before the point the extremes of load and approach that lie between the
+   !> last point and this one.
    subroutine add_point(curve, point)
       type(adhesive_curve), intent(inout) :: curve
       type(adhesive_point), intent(in) :: point
 
-      !> Of a minimum and of a maximum, for load and approach.
+      !> Kinds of extremes: (1, :) of a minimum, (2, :) of a maximum; (:, 1) of the load, (:, 2) of the approach.
       integer, parameter :: kinds(2, 2) = reshape([pull_off_point, jump_to_full, approach_pull_off, &
                                                    approach_jump], [2, 2])
-      integer :: n, which
+      integer :: n, which   ! which: at_load or at_approach
       type(adhesive_point) :: before, extreme(2)
 
       n = size(curve%points)
@@ -175,8 +191,10 @@ contains
             associate (slope => [before%value(2 + which), point%value(2 + which)])
                if (slope(1)*slope(2) >= 0.0_dp) cycle
                call find_zero(curve, 2 + which, 0.0_dp, before, point, extreme(which))
-               ! A maximum has the rise at the smaller area.
-               extreme(which)%kind = kinds(merge(2, 1, (slope(1) > 0.0_dp) .neqv. point%pools), which)
+               ! At a maximum the slope is positive on the side of the smaller area: before it on the branch of spots,
+               ! after it on that of pools.
+               extreme(which)%kind = kinds(1, which)
+               if ((slope(1) > 0.0_dp) .neqv. point%pools) extreme(which)%kind = kinds(2, which)
             end associate
          end do
          if (all(extreme%exists)) then
@@ -189,8 +207,9 @@ contains
       curve%knots = [curve%knots, point]
    end subroutine add_point
 
-   !> Names the extremes of the load by the stable contact that the bodies jump to under this load: at a maximum the one
-   !> with the next larger area, at a minimum with the next smaller one.
+   !> Names each extreme of the load by the stable contact that the bodies jump to under this load. At a maximum this is
+   !> the stable contact with the next larger area, at a minimum that with the next smaller area. Without one the
+   !> extreme keeps its name, pull-off or jump to full contact.
    subroutine name_jumps(curve)
       type(adhesive_curve), intent(inout) :: curve
 
@@ -203,14 +222,17 @@ contains
                associate (here => curve%knots(k), after => curve%knots(k + 1))
                   if (.not. is_between(here, after, at_load, point%value(at_load)) .or. &
                       .not. (after%value(at_load) > here%value(at_load) .neqv. after%area < here%area)) cycle
-                  ! The knots next to an extreme meet its load at the extreme itself.
+                  ! The intervals beside the extreme have its load at the extreme itself, which is not a jump.
                   if (min(abs(here%area - point%area), abs(after%area - point%area)) <= 0.0_dp) cycle
-                  if (here%area > point%area .neqv. point%kind == pull_off_point) &
-                     point%kind = merge(jump_to_pools, jump_to_spots, here%pools)
+                  if (here%area > point%area .neqv. point%kind == pull_off_point) then
+                     point%kind = jump_to_spots
+                     if (here%pools) point%kind = jump_to_pools
+                  end if
                end associate
                if (all(point%kind /= [pull_off_point, jump_to_full])) exit
             end do
-            ! Where spots are stable under lighter loads only, and pools under heavier ones, there are bands between.
+            ! If spots are stable under lighter loads only, and pools under heavier ones, the contact between them
+            ! consists of bands.
             if (any(point%kind == [pull_off_point, jump_to_full]) .and. &
                 any((curve%knots%pools .neqv. point%pools) .and. curve%knots%value(2 + at_load) > 0.0_dp .and. &
                     (curve%knots%value(at_load) > point%value(at_load) .neqv. point%pools)) .and. &
@@ -219,31 +241,32 @@ contains
       end do
    end subroutine name_jumps
 
-   !> Whether two knots are of one branch and a value lies between theirs.
+   !> Whether two neighbouring knots are on one branch and a value of the load or approach lies between theirs.
    pure logical function is_between(here, after, which, target)
       type(adhesive_point), intent(in) :: here, after
-      integer, intent(in) :: which
-      real(dp), intent(in) :: target
+      integer, intent(in) :: which       !! position in point%value, such as at_load
+      real(dp), intent(in) :: target     !! the value
 
       is_between = (here%pools .eqv. after%pools) .and. &
                    ((here%value(which) < target) .neqv. (after%value(which) < target))
    end function is_between
 
-   !> Adds the contacts of a load, an approach or an area: spots by rising area, then pools by falling area. If none of
-   !> them is stable, the bodies are separated or in full contact.
+   !> Adds to `at_loads` all contacts at a given load, approach or area: those of spots by rising area, then those of
+   !> pools by falling area. If none of them is stable, a point is added that says whether the bodies are separated or
+   !> in full contact.
    subroutine add_load(curve, which, target, number)
       type(adhesive_curve), intent(inout) :: curve
-      integer, intent(in) :: which     !! at_load, at_approach, or 0 for the contact area fraction
+      integer, intent(in) :: which     !! what is given: at_load, at_approach, or 0 for the contact area fraction
       real(dp), intent(in) :: target   !! P [p*], approach [Delta] or area fraction
-      integer, intent(in) :: number    !! of the load
+      integer, intent(in) :: number    !! number of the deck's load
 
       integer :: i, known
-      logical :: is_found   ! an area whether it is stable or not
+      logical :: is_found   ! whether a stable contact is found; of a given area, which may be unstable, always true
       type(adhesive_point) :: point
 
       known = size(curve%at_loads)
       if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
-         ! The formulas reach beyond the ends of the curve.
+         ! The closed forms hold at any area, also beyond the ends of the computed curve.
          call curve%problem%find_point(.false., target, point)
          curve%at_loads = [curve%at_loads, point]
          curve%at_loads(known + 1)%number = number
@@ -267,12 +290,13 @@ contains
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
 
-   !> The contact of a load as a solution with fields: of those that are stable, under the load or at the approach if
-   !> that is given, the one of the largest area, which unloading meets. If an area is given it may be unstable.
+   !> The contact at a load of the deck as a solution with fields. Of several stable contacts the one with the largest
+   !> area is taken, which the bodies reach by unloading. If an approach is given, contacts that are stable at the
+   !> approach count as well. If an area is given, the contact may be unstable.
    subroutine find_adhesive_solution(curve, which, number, solution)
       type(adhesive_curve), intent(in) :: curve
       integer, intent(in) :: which     !! as of add_load
-      integer, intent(in) :: number    !! of a load that was added
+      integer, intent(in) :: number    !! number of a load for which add_load was called
       type(contact_solution), intent(out) :: solution
 
       integer :: chosen
@@ -287,13 +311,15 @@ contains
       end associate
    end subroutine find_adhesive_solution
 
-   !> What the bodies are where no partial contact is stable.
+   !> The state of the bodies at a load or approach at which no partial contact is stable: separated, in full contact,
+   !> or not solved.
    pure type(adhesive_point) function beyond_extremes(curve, which, target) result(point)
       type(adhesive_curve), intent(in) :: curve
-      integer, intent(in) :: which
-      real(dp), intent(in) :: target
+      integer, intent(in) :: which       !! as of add_load
+      real(dp), intent(in) :: target     !! as of add_load
 
-      real(dp), allocatable :: stable(:)   ! the values of stable contacts
+      real(dp), allocatable :: stable(:)   ! loads or approaches of the stable contacts
+      real(dp) :: largest                  ! above this value there is full contact
 
       point%kind = not_solved
       point%status = not_found
@@ -303,8 +329,9 @@ contains
          if (target < minval(stable)) point = adhesive_point(exists=.true., kind=separated)
       end if
       if (point%kind == not_solved .and. .not. is_ball(curve%problem%surface)) then
-         if (target > maxval([stable, merge(1.0_dp, -huge(1.0_dp), which == at_approach)])) &
-            point = adhesive_point(exists=.true., kind=closed, area=1.0_dp)
+         largest = -huge(1.0_dp)
+         if (which == at_approach) largest = 1.0_dp
+         if (target > maxval([stable, largest])) point = adhesive_point(exists=.true., kind=closed, area=1.0_dp)
       end if
       if (.not. point%exists) return
       point%value(which) = target
@@ -318,30 +345,40 @@ contains
       end if
    end function beyond_extremes
 
-   !> The point between two of a branch at which one of the numbers has a value: by Newton's method for loads and
-   !> approaches, by inverse interpolation of the last points for their extremes, or else by halving a bracket of the
-   !> area. All solutions start from that of the last point, so that they take the same degrees. Where there is no
-   !> solution on the way the point does not exist.
+   !> Finds the point between two points of a branch at which load, approach or one of their derivatives has a given
+   !> value.
+   !>
+   !> The area is the unknown. A load or an approach is found by Newton's method, an extreme by inverse interpolation of
+   !> the last three slopes. A step that would leave the bracket is replaced by bisection. All solutions start from that
+   !> of the point `last`, so that they have the same degrees and their differences are smooth. The last step to an
+   !> extreme is taken by the derivatives alone. If this point has too large an error, the search goes on once more with
+   !> a smaller accuracy. If there is no solution at an area of the search, point%exists is .false.
    subroutine find_zero(curve, which, target, first, last, point)
       type(adhesive_curve), intent(in) :: curve
-      integer, intent(in) :: which                 !! of point%value
-      real(dp), intent(in) :: target               !! between those of both points
+      integer, intent(in) :: which                    !! position in point%value: 1, 2 load, approach; 3, 4 their slopes
+      real(dp), intent(in) :: target                  !! the value, between those of `first` and `last`; 0 for a slope
       type(adhesive_point), intent(in) :: first, last
       type(adhesive_point), intent(out) :: point
 
       integer, parameter :: most_steps = 60
+      !> The search ends if the next step changes load and approach by less than `part_of_error` of their errors. The
+      !> accuracy of a repeated search is the last one times a factor from `least_tightening` to `tightening`.
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp, tightening = 0.3_dp, &
          least_tightening = 0.01_dp
       integer :: n
+      !> Whether a slope is to become 0; whether the search is repeated with a smaller accuracy.
       logical :: is_extreme, is_last
-      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, miss(most_steps), next, spread, told(2)
+      !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
+      !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
+      !> of the last point. `curvature`, `distance`: the derivative of the slope, from two areas so far apart.
+      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, distance, errors(2), miss(most_steps), next
       type(adhesive_problem) :: problem
 
       problem = curve%problem
       is_extreme = which > 2
       area(:2) = [first%area, last%area]
       miss(:2) = [first%value(which), last%value(which)] - target
-      ! The worse one is the first that interpolation forgets.
+      ! The end with the larger miss comes first, because interpolation drops the first point first.
       if (abs(miss(1)) < abs(miss(2))) then
          area(:2) = area([2, 1])
          miss(:2) = miss([2, 1])
@@ -359,22 +396,22 @@ contains
          if (.not. (is_last .or. (next - bracket(1))*(next - bracket(2)) < 0.0_dp)) next = 0.5_dp*sum(bracket)
          if (n > 2) then
             changes = abs(point%value(3:)*(next - area(n)))
-            told = point%error
+            errors = point%error
             if (is_extreme) then
-               ! What a step by the derivatives leaves, and what the slope's error does. The derivative of the slope is
-               ! that of two points so far apart.
+               ! The changes are those that a step by the derivatives leaves out, and the errors have that of the slope
+               ! besides.
                if (.not. is_last) then
-                  spread = area(n) - area(min(n - 1, 3))
-                  curvature = (miss(n) - miss(min(n - 1, 3)))/spread
+                  distance = area(n) - area(min(n - 1, 3))
+                  curvature = (miss(n) - miss(min(n - 1, 3)))/distance
                end if
                changes = changes*left_over()
-               told = told + abs(point%value(3:)*point%slope_error(which - 2)/curvature)
+               errors = errors + abs(point%value(3:)*point%slope_error(which - 2)/curvature)
             end if
             if (is_last .or. abs(next - area(n)) <= rounding*next .or. &
-                all(changes <= max(part_of_error*told, epsilon(next)*abs(point%value(:2))))) then
+                all(changes <= max(part_of_error*errors, epsilon(next)*abs(point%value(:2))))) then
                if (is_extreme) call step_to_extreme()
                if (is_last .or. .not. is_extreme .or. maxval(point%error) <= curve%problem%accuracy) exit
-               ! The slope is not known well enough: once more, to a smaller error.
+               ! The slope is not known accurately enough. Its error falls with the accuracy of the solutions.
                problem%accuracy = problem%accuracy &
                   *max(least_tightening, tightening*problem%accuracy/maxval(point%error))
             end if
@@ -390,12 +427,14 @@ contains
 
    contains
 
-      !> The part of the step to `next` that it misses the extreme by: the curve bends over the distance of both points.
+      !> An estimate of the relative error of the step to `next`: the curvature is taken as constant, but changes over
+      !> the distance of `first` and `last`.
       real(dp) function left_over()
-         left_over = (abs(next - area(n)) + abs(spread))/abs(last%area - first%area)
+         left_over = (abs(next - area(n)) + abs(distance))/abs(last%area - first%area)
       end function left_over
 
-      !> The last step, to `next`, by the derivatives; and the errors that the area's makes.
+      !> Takes the last step, to `next`, by the derivatives instead of a solution, and adds to the errors of load,
+      !> approach and energy those that the error of the area causes.
       subroutine step_to_extreme()
          real(dp) :: change(2), energy_slope, step
 
@@ -414,26 +453,26 @@ contains
 
    end subroutine find_zero
 
-   !> The place where a function is 0 by inverse interpolation of its values (Neville).
-   pure real(dp) function interpolated(places, values) result(place)
-      real(dp), intent(in) :: places(:), values(:)
+   !> The argument at which a function is 0, by inverse interpolation of its values (Neville's algorithm).
+   pure real(dp) function interpolated(arguments, values) result(zero)
+      real(dp), intent(in) :: arguments(:), values(:)   !! arguments of the function and its values there
 
-      real(dp) :: p(size(places))
+      real(dp) :: p(size(arguments))
       integer :: i, k
 
-      p = places
+      p = arguments
       do k = 1, size(p) - 1
          do i = 1, size(p) - k
             p(i) = (values(i + k)*p(i) - values(i)*p(i + 1))/(values(i + k) - values(i))
          end do
       end do
-      place = p(1)
+      zero = p(1)
    end function interpolated
 
-   !> Hertz's contact of a ball under a load [p*]; over p* and Delta the modulus does not matter.
+   !> Hertz's contact of a ball under a load. The modulus is set to 1, as it does not matter in units of p* and Delta.
    pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: load
+      type(surface_type), intent(in) :: surface   !! a ball
+      real(dp), intent(in) :: load                !! P [p*]
 
       contact = hertz_contact(ball_radii(surface), 1.0_dp, &
                               force=load*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())

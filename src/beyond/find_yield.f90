@@ -1,8 +1,8 @@
-!> Finds the least load at which a body reaches its yield stress, or a given part of it.
+!> Finds the least load at which a body reaches its yield stress, or a given part of the yield stress.
 !>
-!> Equation (S8) of src/core/stress/README.md: the secant method for ln r(P) = ln r, r the largest equivalent stress
-!> over the yield stress. It begins at a light load, where r is a power of P, and approaches the root from below: beyond
-!> the first one r may fall again.
+!> Let r(P) be the largest equivalent stress over the yield stress. Equation (S8) of src/core/stress/README.md,
+!> ln r(P) = ln(target), is solved for ln P by the secant method. The search begins at a light load, where r is a power
+!> of P, and approaches the root from below, because r may fall again at loads above the least root.
 module wavycon_find_yield
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_solution, only: contact_solution
@@ -20,27 +20,30 @@ module wavycon_find_yield
 
    public :: solve_for_yield
 
-   !> Loads at which the search begins, and above which no contact is looked for.
+   !> The load at which the search begins, and the largest load that is tried [p*].
    real(dp), parameter :: first_load = 0.01_dp, last_load = 1e6_dp
 
-   !> Loads closer than this to the hardness, as ln(H/P), are not looked at: P must be below H.
+   !> The least ln(H/P) of the loads that are tried, H the hardness: P must be below H.
    real(dp), parameter :: below_hardness = 1e-3_dp
 
 contains
 
-   !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. If no load
-   !> reaches it there is no solution, with the status not_found and the load of the largest stress met.
+   !> Solves for the load at which the largest equivalent stress is a given part of the yield stress. If no load is
+   !> found, the solution has no numbers, the status not_found, and the load at which the largest stress was found.
+   !>
+   !> If the solver has coarser grids, the search is done on each of them first, from the coarsest on. Each search
+   !> begins at the last load and slope of the one before.
    subroutine solve_for_yield(solver, setting, target, solution)
-      class(contact_solver), intent(inout) :: solver        !! started with keep_fields
-      type(stress_setting), intent(in) :: setting           !! with yield stresses
-      real(dp), intent(in) :: target                        !! r > 0, stress over yield stress; 1: first yield
-      type(contact_solution), intent(out) :: solution   !! of the load found
+      class(contact_solver), intent(inout) :: solver    !! started with keep_fields
+      type(stress_setting), intent(in) :: setting       !! with yield stresses
+      real(dp), intent(in) :: target                    !! stress over yield stress, > 0; 1 is first yield
+      type(contact_solution), intent(out) :: solution   !! the contact at the load found
 
       real(dp) :: first_log_p, log_p, slope
       type(solver_traits) :: traits
       integer :: level
 
-      ! Below the hardness, which may be a small part of p*.
+      ! The first load must be below the hardness, which may be a small part of p*.
       first_log_p = log(min(first_load, 0.5_dp*solver%surface%hardness))
       log_p = first_log_p
       slope = light_slope(solver)
@@ -59,24 +62,28 @@ contains
       solver%level = 0
    end subroutine solve_for_yield
 
-   !> The secant method. A step that would leave the bracket of the root or reach the hardness is replaced by bisection.
+   !> Solves ln r(P) = log_target on one grid by the secant method. A step that would leave the bracket of the root or
+   !> reach the hardness is replaced by bisection.
    subroutine find_root(solver, setting, log_target, log_p, slope, solution)
       class(contact_solver), intent(inout) :: solver
       type(stress_setting), intent(in) :: setting
       real(dp), intent(in) :: log_target
-      real(dp), intent(inout) :: log_p               !! ln P of the first load; on return of the last one
+      real(dp), intent(inout) :: log_p               !! ln P: of the first load on entry, to begin the next grid on exit
       real(dp), intent(inout) :: slope               !! d ln r/d ln P there
       type(contact_solution), intent(out) :: solution
 
       class(stress_fields), allocatable :: fields
       type(solver_traits) :: traits
-      real(dp) :: at_hardness, at_largest, enough, error, high, largest, last_log_p, last_miss, low, miss, next, ratio
+      !> Values of ln P: the bracket of the root, the hardness, the last and the next load, that of the largest stress.
+      real(dp) :: low, high, at_hardness, last_log_p, next, at_largest
+      !> Values of ln r - log_target: now, at the last load, the largest one, and the allowed one; the error of ln r; r.
+      real(dp) :: miss, last_miss, largest, tolerance, error, ratio
       integer :: i
-      logical :: jumps
+      logical :: jumps           ! whether the bracket of a coarser grid is so narrow that r jumps over the target in it
       !> Rounding of the logarithm of a stress.
       real(dp), parameter :: rounding = 1e-10_dp
-      !> A bracket narrower than this part of the tolerance has a jump.
-      real(dp), parameter :: part_of_enough = 0.1_dp
+      !> A bracket narrower than this part of the tolerance contains a jump of r.
+      real(dp), parameter :: part_of_tolerance = 0.1_dp
 
       traits = solver%traits()
       low = -huge(low)
@@ -94,17 +101,18 @@ contains
          if (.not. ieee_is_finite(ratio)) exit   ! NaN if the load has no solution
          miss = log(ratio) - log_target
          error = error/ratio
-         ! Without estimates there is nothing to compare with; an estimate that is unknown meets no accuracy.
+         ! A solver without error estimates is taken as exact. An estimate that is not known meets no accuracy.
          if (.not. ieee_is_finite(error)) error = merge(unknown, 0.0_dp, traits%has_errors)
          if (miss > largest + rounding) then
             largest = miss
             at_largest = log_p
          end if
-         enough = min(max(fraction_of_error*error, least_fraction), largest_fraction)
-         if (solver%level > 0) enough = max(enough, min(error, coarse_fraction))
+         tolerance = min(max(fraction_of_error*error, least_fraction), largest_fraction)
+         if (solver%level > 0) tolerance = max(tolerance, min(error, coarse_fraction))
          if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
-         ! Where a hardness bounds the stress r hardly grows: the secant would lead to loads far too light, or up.
+         ! Where a hardness bounds the pressure, r hardly grows with the load. The slope of the secant is then nearly
+         ! zero, and its step would lead to a much too light load.
          if (low <= -huge(low) .and. miss > max(0.0_dp, longest_rise*slope)) &
             slope = max(slope, 0.5_dp*light_slope(solver))
          last_log_p = log_p
@@ -116,20 +124,21 @@ contains
          next = min(next, log_p + longest_rise)
          if (next <= low .or. next >= high) next = min(0.5_dp*(low + high), log_p + longest_rise)
          jumps = solver%level > 0 .and. high < at_hardness .and. high - low <= coarse_fraction
-         if (abs(miss) <= enough .or. jumps) then
-            ! The next level begins with the last step. The secant of a jump may have any slope; jumps are those of
-            ! rough surfaces, whose slope is less than that of one crest.
+         if (abs(miss) <= tolerance .or. jumps) then
+            ! The next grid begins at the end of the last secant step. The secant of a jump may have any slope, and is
+            ! replaced by half of the slope of a single crest: jumps occur on rough surfaces, whose slope is smaller.
             if (slope > 0.0_dp .and. next < at_hardness - below_hardness) log_p = max(next, log_p - longest_rise)
             if (jumps) slope = 0.5_dp*light_slope(solver)
             return
          end if
          if (next > min(log(last_load), at_hardness - below_hardness)) exit
          if (abs(next - log_p) <= epsilon(next)*max(1.0_dp, abs(next)) &
-             .or. (high < at_hardness .and. high - low <= part_of_enough*enough)) then
-            ! The slope of a jump is none for the next level.
+             .or. (high < at_hardness .and. high - low <= part_of_tolerance*tolerance)) then
+            ! The slope of a jump says nothing for the next grid.
             slope = light_slope(solver)
-            ! The stress of a solution on a grid jumps by rounding and the tolerance of the solver: the target may lie
-            ! within a jump. This is good enough if the distance is within the error estimate.
+            ! The stress of a solution on a grid jumps by rounding and by the tolerance of the solver, and the target
+            ! may lie within a jump. The solution is accurate if its distance from the target is within the error
+            ! estimate.
             if (solution%is_good() .and. abs(miss) > error) solution%status = not_accurate
             return
          end if
@@ -139,7 +148,7 @@ contains
       solution%solution_record = no_solution(exp(at_largest), traits%solver, not_found)
    end subroutine find_root
 
-   !> d ln r/d ln P of a line contact or of a point contact at light load.
+   !> d ln r/d ln P at light load: 1/2 for a line contact, 1/3 for point contacts.
    pure real(dp) function light_slope(solver)
       class(contact_solver), intent(in) :: solver
 

@@ -1,6 +1,6 @@
-!> Partial slip under a fixed normal load, by Ciavarella's and Jaeger's superposition: the tangential tractions are
-!> friction times the difference of two normal contacts; and how unlike bodies shear. Equations (I..) are those of
-!> README.md in this directory.
+!> Partial slip under a fixed normal load, by the superposition of Ciavarella and Jaeger: the tangential tractions are
+!> the coefficient of friction times the difference of two normal pressures, (I9). Also the elastic constants of unlike
+!> bodies in shear. Equations (I..) are those of README.md in this directory.
 module wavycon_partial_slip
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
@@ -14,87 +14,92 @@ module wavycon_partial_slip
 
    public :: partial_slip, solve_partial_slip, cycle_energy, relative_displacement, dundurs_beta, shear_factors
 
-   !> Loads of the loading curve, from no tangential load to the whole.
+   !> Number of points of the loading curve, from no tangential load to the whole one.
    integer, parameter :: curve_points = 33
 
    type :: partial_slip
-      real(dp) :: tangential = 0.0_dp   !! Q [p*]
+      real(dp) :: tangential = 0.0_dp   !! mean tangential traction Q [p*]
       logical :: slides = .false.       !! whether Q > f P
-      integer :: status = not_found     !! of the normal load, or if that is solved as requested of `stick`
-      !> The contact at P* = P - Q/f (I9), whose area sticks. Without numbers where the bodies slide.
+      !> The status of the normal load's solution or, if this one is good, of `stick`; not_found if the bodies slide.
+      integer :: status = not_found
+      !> The contact at the load P* = P - Q/f, (I9), whose area sticks. It has no numbers if the bodies slide.
       type(contact_solution) :: stick
-      !> The approach less that at P* [Delta] at equal steps of the tangential load; not allocated unless asked for.
+      !> At equal steps of the tangential load up to Q: the approach at P less that at P* of the step [Delta]. Allocated
+      !> only if the curve is asked for.
       real(dp), allocatable :: approach_change(:)
    end type partial_slip
 
 contains
 
-   !> Solves one tangential load.
+   !> Solves the contact under one tangential load.
    subroutine solve_partial_slip(solver, friction, solution, tangential, with_curve, slip)
-      class(contact_solver), intent(inout) :: solver
-      real(dp), intent(in) :: friction                      !! f > 0
-      type(contact_solution), intent(in) :: solution        !! of the normal load
+      class(contact_solver), intent(inout) :: solver        !! that of the normal load
+      real(dp), intent(in) :: friction                      !! coefficient of friction f > 0
+      type(contact_solution), intent(in) :: solution        !! solution of the normal load P
       real(dp), intent(in) :: tangential                    !! Q >= 0 [p*]
-      logical, intent(in) :: with_curve
-      type(partial_slip), intent(inout) :: slip
+      logical, intent(in) :: with_curve                     !! whether to compute approach_change
+      type(partial_slip), intent(inout) :: slip             !! on entry as initialised
 
-      !> Q = f P up to rounding is full slip.
+      !> Q = f P up to this relative rounding is full slip, P* = 0.
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-      type(contact_solution) :: on_the_way
-      real(dp) :: rest
+      type(contact_solution) :: on_curve
+      real(dp) :: stick_load   ! P*
       integer :: i
 
       slip%tangential = tangential
-      rest = solution%pbar_over_pstar - tangential/friction
-      if (abs(rest) <= rounding*solution%pbar_over_pstar) rest = 0.0_dp
-      slip%slides = rest < 0.0_dp
-      slip%status = merge(not_found, solution%status, slip%slides .and. solution%is_good())
-      slip%stick%solution_record = no_solution(rest, solution%solver, slip%status)
+      stick_load = solution%pbar_over_pstar - tangential/friction
+      if (abs(stick_load) <= rounding*solution%pbar_over_pstar) stick_load = 0.0_dp
+      slip%slides = stick_load < 0.0_dp
+      slip%status = solution%status
+      if (slip%slides .and. solution%is_good()) slip%status = not_found
+      slip%stick%solution_record = no_solution(stick_load, solution%solver, slip%status)
       if (slip%slides .or. .not. solution%has_numbers()) return
-      call solver%solve(rest, slip%stick)
+      call solver%solve(stick_load, slip%stick)
       if (solution%is_good()) slip%status = slip%stick%status
       if (.not. with_curve) return
       allocate (slip%approach_change(curve_points), source=0.0_dp)
       associate (change => slip%approach_change)
          do i = 2, curve_points - 1
-            associate (part => real(i - 1, dp)/(curve_points - 1))
-               call solver%solve(solution%pbar_over_pstar - part*tangential/friction, on_the_way)
+            associate (fraction => real(i - 1, dp)/(curve_points - 1))
+               call solver%solve(solution%pbar_over_pstar - fraction*tangential/friction, on_curve)
             end associate
-            change(i) = solution%value(approach) - approach_of(on_the_way)
+            change(i) = solution%value(approach) - approach_of(on_curve)
          end do
          change(curve_points) = solution%value(approach) - approach_of(slip%stick)
       end associate
    end subroutine solve_partial_slip
 
-   !> The approach [Delta]; NaN without numbers.
+   !> The approach of a solution [Delta]; NaN if it has no numbers.
    pure real(dp) function approach_of(solution)
       type(contact_solution), intent(in) :: solution
 
-      approach_of = or_nan(merge(solution%value(approach), unknown, solution%has_numbers()))
+      approach_of = or_nan(unknown)
+      if (solution%has_numbers()) approach_of = or_nan(solution%value(approach))
    end function approach_of
 
-   !> The relative tangential displacement of the bodies over kappa f [Delta] (I11), and its error estimate.
+   !> The relative tangential displacement of the bodies over kappa f, (I11), and its error estimate [Delta].
    pure function relative_displacement(solution, stick) result(answer)
-      type(contact_solution), intent(in) :: solution   !! at P
-      type(contact_solution), intent(in) :: stick      !! at P*
-      real(dp) :: answer(2)
+      type(contact_solution), intent(in) :: solution   !! the contact at P
+      type(contact_solution), intent(in) :: stick      !! the contact at P*
+      real(dp) :: answer(2)                            !! value, error
 
       answer(1) = solution%value(approach) - stick%value(approach)
-      ! With rounding: each approach is 1 - G unless there are free edges.
+      ! The last term is rounding: each approach is computed as 1 - G unless there are free edges.
       answer(2) = solution%error(mean_gap) + stick%error(mean_gap) + epsilon(1.0_dp)* &
                   (2.0_dp + solution%value(approach) + stick%value(approach))
    end function relative_displacement
 
-   !> The energy that a cycle between Q and -Q takes per nominal area, over kappa f^2 [p* Delta], and its error
-   !> estimate: by (I14a) or, where that is more accurate because little slips, (I14b). The approach stands for -G,
-   !> which free edges do not have.
+   !> The energy that a cycle between Q and -Q dissipates per nominal area, over kappa f^2, and its error estimate
+   !> [p* Delta]: by (I14a) or, if its error is smaller, by (I14b), as where little slips. The approach takes the place
+   !> of -G, which surfaces with free edges do not have.
    pure function cycle_energy(solution, stick, slopes) result(answer)
-      type(contact_solution), intent(in) :: solution   !! at P
-      type(contact_solution), intent(in) :: stick      !! at P*
-      type(quantities), intent(in) :: slopes(2)  !! of both
-      real(dp) :: answer(2)
+      type(contact_solution), intent(in) :: solution   !! the contact at P
+      type(contact_solution), intent(in) :: stick      !! the contact at P*
+      type(quantities), intent(in) :: slopes(2)        !! G' and G'' at P and at P*
+      real(dp) :: answer(2)                            !! value, error
 
-      real(dp) :: bend, errors(2), half, rise
+      !> Of (I14b): h; r and h b; the errors of these two.
+      real(dp) :: half, rise, bend, errors(2)
 
       answer = (solution%pbar_over_pstar + stick%pbar_over_pstar)*relative_displacement(solution, stick)
       associate (u => solution%value(elastic_energy), u_stick => stick%value(elastic_energy))
@@ -114,10 +119,11 @@ contains
       end associate
    end function cycle_energy
 
-   !> kappa for shear across and along the ridges of a wave (I12), and their mean (I13).
+   !> The ratio kappa of tangential to normal compliance for shear across the ridges of a wave, along them, (I12), and
+   !> the mean of both, (I13).
    pure function shear_factors(e, nu) result(kappa)
-      real(dp), intent(in) :: e(:)    !! Young's moduli of the bodies that are not rigid
-      real(dp), intent(in) :: nu(:)   !! their Poisson's ratios
+      real(dp), intent(in) :: e(:)    !! Young's moduli of the bodies that are not rigid, shape (1) or (2)
+      real(dp), intent(in) :: nu(:)   !! their Poisson's ratios, of the same shape
       real(dp) :: kappa(3)
 
       kappa(1) = 1.0_dp
@@ -125,10 +131,10 @@ contains
       kappa(3) = 0.5_dp*(kappa(1) + kappa(2))
    end function shear_factors
 
-   !> Dundurs' second parameter (I14) of two bodies; of one and a rigid body.
+   !> Dundurs' second parameter, (I14), of two bodies, or of one body and a rigid one.
    pure real(dp) function dundurs_beta(e, nu) result(beta)
-      real(dp), intent(in) :: e(:)    !! Young's moduli, shape (1 or 2)
-      real(dp), intent(in) :: nu(:)   !! Poisson's ratios
+      real(dp), intent(in) :: e(:)    !! Young's moduli of the bodies that are not rigid, shape (1) or (2)
+      real(dp), intent(in) :: nu(:)   !! their Poisson's ratios, of the same shape
 
       integer :: i
 

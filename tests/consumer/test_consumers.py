@@ -174,6 +174,13 @@ class Consumers(unittest.TestCase):
         self.assertEqual(row["status"], self.expected[9][-1])
         self.assertLess(float(row["contact_area"]), 4e-3*3e-3)
 
+    def test_tables_are_drawn(self):
+        if not shutil.which("gnuplot"):
+            self.skipTest("there is no gnuplot")
+        self.assertIn("usage: wavycon-plot", run(self.prefix/"bin"/"wavycon-plot", "--help"))
+        run(self.prefix/"bin"/"wavycon-plot", self.folder/"deck.summary.dat")
+        self.assertTrue((self.folder/"deck.summary.png").is_file())
+
     def test_fortran_with_the_shared_library(self):
         self.assertEqual(self.expected, numbers(run(self.folder / "project" / "consumer_fortran_shared")))
 

@@ -133,7 +133,7 @@ class Examples(PackageTest):
         with contextlib.redirect_stdout(printed):
             for example in examples:
                 exec(example, names)
-        for words in "did you mean 'amplitude'", "status='converged'", r"\(256, 256\)", "load.mean_pressure":
+        for words in "error 1 of 2: wavelength", "status='converged'", r"\(256, 256\)", "load.mean_pressure":
             self.assertRegex(printed.getvalue(), words)
 
     @unittest.skipUnless(importlib.util.find_spec("ContactMechanics"), "needs ContactMechanics")
@@ -329,7 +329,7 @@ class Digits(PackageTest):
         self.assertEqual([1, 2, 3], frame.load.tolist())
         given = matplotlib.pyplot.subplots()[1]
         self.assertIs(given, results.plot(ax=given))
-        self.assertEqual("mean pressure [pressure]", given.get_xlabel())
+        self.assertEqual("mean pressure [p*]", given.get_xlabel())
         self.assertEqual("y [length]", results[1].plot_map("gap").get_ylabel())
         self.assertEqual("depth [length]", results[1].plot_stress_section().get_ylabel())
         self.assertEqual(1, len(solve_small()[0].plot_map().lines))
@@ -560,10 +560,12 @@ except ImportError as error: print(error)"""
         for words, surface in {"3 to 1048576": wc.heights(numpy.zeros((2, 2))),
                                "missing": wc.heights([[1.0, numpy.nan]*4]*4),
                                "heights are up to Infinity in size": wc.heights([[1.0, numpy.inf]*4]*4),
-                               "there is no key": wc.wave_2d(amplitud=1),
                                "must be": wc.wave_2d(amplitude="x"), "length_x": wc.heights(numpy.eye(8), length_x=-1),
                                "there is no such file": wc.file(file="none.txt"), "kind": wc.Surface({})}.items():
             self.refuse(words, wc.solve, surface, pbar_over_pstar=0.1, error=(ValueError, OSError))
+        numpy.save("h.npy", numpy.eye(8))
+        for make, first in (wc.wave_2d, []), (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]):
+            self.refuse("there is no key 'lengt_x'", make, *first, lengt_x=1)
         with self.assertRaises(AttributeError):
             wc.wave_3d
         locked = numpy.eye(8)

@@ -2,10 +2,9 @@
 !>
 !>     f_k(u, v) = sum over i, j of c_ijk T_i(u) T_j(v),   -1 <= u, v <= 1.
 !>
-!> One such table is what is left of a sum over a lattice where the singular terms near by are taken out, whatever they
-!> are: of the kernel, README.md (F22), of maps, section 12, and of stresses, section 13. What is left is even in x and
-!> in y, so that u = 2 (x/a)^2 - 1, and v of y alike, on the rectangle |x| <= a, |y| <= b. Series outside of one spot or
-!> pool, (F49), are another.
+!> A sum over a lattice, less its singular terms near by, is such a table: the kernel, README.md (F22), maps of fields,
+!> section 12, and stresses, section 13. These functions are even in x and in y. So u = 2 (x/a)^2 - 1 and v = 2 (y/b)^2
+!> - 1 on the rectangle |x| <= a, |y| <= b. The series outside of one spot or pool, (F49), is such a table too.
 module wavycon_chebyshev_table
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -16,9 +15,10 @@ module wavycon_chebyshev_table
    public :: chebyshev_nodes, chebyshev_polynomials, chebyshev_table, square_argument, square_nodes
 
    type :: chebyshev_table
-      real(dp), allocatable :: c(:, :, :)                  !! shape (0:., 0:., functions)
-      real(dp), allocatable, private :: power(:, :)        !! coefficients of u^i v^k of the first function, if made
-      integer, allocatable, private :: degree(:)           !! in u for each power of v
+      real(dp), allocatable :: c(:, :, :)                  !! c_ijk, shape (0:n_u - 1, 0:n_v - 1, functions)
+      !> Coefficients of u^i v^k of the first function; allocated by `set_powers`.
+      real(dp), allocatable, private :: power(:, :)
+      integer, allocatable, private :: degree(:)           !! for each power of v the degree of its polynomial in u
    contains
       procedure :: set
       procedure :: at
@@ -28,11 +28,12 @@ module wavycon_chebyshev_table
 
 contains
 
-   !> Interpolates values at the nodes of both variables.
+   !> Sets the coefficients of the functions that have given values at Chebyshev's nodes of u and v.
    pure subroutine set(self, values, rounding)
       class(chebyshev_table), intent(inout) :: self
       real(dp), intent(in) :: values(:, :, :)        !! shape (n_u, n_v, functions)
-      real(dp), intent(in), optional :: rounding     !! of the values: no smaller coefficients of the highest degrees
+      !> Rounding of the values. Coefficients of the highest degrees in u that are no larger are set to zero.
+      real(dp), intent(in), optional :: rounding
 
       integer :: j, k
 
@@ -49,7 +50,7 @@ contains
       end associate
    end subroutine set
 
-   !> All functions at a place.
+   !> The values of all functions at a point u, v.
    pure function at(self, u, v) result(values)
       class(chebyshev_table), intent(in) :: self
       real(dp), intent(in) :: u, v
@@ -64,10 +65,11 @@ contains
       end associate
    end function at
 
-   !> Makes `power` of the first function for `evaluate_even`.
+   !> Converts the first function to powers of u and v, as `evaluate_even` takes them. Its coefficients of the highest
+   !> degrees that are no larger than rounding are set to zero.
    pure subroutine set_powers(self, rounding)
       class(chebyshev_table), intent(inout) :: self
-      real(dp), intent(in) :: rounding         !! of its values: coefficients beyond the last larger one are dropped
+      real(dp), intent(in) :: rounding         !! rounding of the function's values
 
       real(dp) :: of_chebyshev(0:max(size(self%c, 1), size(self%c, 2)), 0:max(size(self%c, 1), size(self%c, 2)))
       integer :: j, m, n, terms(0:ubound(self%c, 2))
@@ -79,7 +81,8 @@ contains
          of_chebyshev(1:, j) = 2*of_chebyshev(:ubound(of_chebyshev, 1) - 1, j - 1)
          of_chebyshev(:, j) = of_chebyshev(:, j) - of_chebyshev(:, j - 2)
       end do
-      ! T_j(v) contains lower powers of v, so a degree in u must not be less than those of higher powers of v.
+      ! T_j(v) contains lower powers of v too. So the degree in u of a power of v must be at least that of any higher
+      ! one.
       m = ubound(self%c, 1)
       n = ubound(self%c, 2)
       do j = 0, n
@@ -87,17 +90,18 @@ contains
          self%c(terms(j):, j, 1) = 0.0_dp
       end do
       self%degree = max(pack(terms, terms > 0 .or. [(j == 0, j=0, n)]) - 1, 0)
-      ! The coefficients fall much faster than those of Chebyshev's polynomials grow: no digits are lost.
+      ! No digits are lost: the coefficients c fall much faster with the degree than those of Chebyshev's polynomials
+      ! grow.
       self%power = matmul(of_chebyshev(:m, :m), matmul(self%c(:, :, 1), transpose(of_chebyshev(:n, :n))))
    end subroutine set_powers
 
-   !> The first function at n places of a rectangle, where it is even, and its gradient if that is given room: by
-   !> Horner's scheme. With products of matrices in its place loads took a quarter more time.
+   !> The first function, which is even in x and y, at n points of the rectangle, and its gradient if the arguments are
+   !> present. Horner's scheme is used: with products of matrices the solution of a load took a quarter more time.
    pure subroutine evaluate_even(self, half, n, x, y, value, slope_x, slope_y)
-      class(chebyshev_table), intent(in) :: self    !! with powers
-      real(dp), intent(in) :: half(2)               !! of the rectangle's sides along x and y [s]
+      class(chebyshev_table), intent(in) :: self    !! after set_powers
+      real(dp), intent(in) :: half(2)               !! half the rectangle's sides along x and y, a and b [s]
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)            !! in the rectangle [s]
+      real(dp), intent(in) :: x(n), y(n)            !! points in the rectangle [s]
       real(dp), intent(out) :: value(n)
       real(dp), intent(out), optional :: slope_x(n), slope_y(n)   !! both or none [1/s]
 
@@ -105,7 +109,7 @@ contains
       real(dp) :: a, scale(2)
       integer :: i, j, k
 
-      ! As square_argument, with fewer quotients.
+      ! The arguments of square_argument, with fewer divisions.
       scale = 2/half**2
       u = scale(1)*x**2 - 1.0_dp
       v = scale(2)*y**2 - 1.0_dp
@@ -137,17 +141,17 @@ contains
       slope_y = 2*scale(2)*y*dv
    end subroutine evaluate_even
 
-   !> The argument u of x, or v of y, where the function is even.
+   !> The argument u that belongs to x, or v that belongs to y, of an even function.
    elemental real(dp) function square_argument(x, half)
-      real(dp), intent(in) :: x, half      !! |x| <= half
+      real(dp), intent(in) :: x, half      !! the coordinate and half the side of the rectangle, |x| <= half
 
       square_argument = 2*(x/half)**2 - 1.0_dp
    end function square_argument
 
-   !> The places of which these are the n nodes.
+   !> The coordinates x >= 0 whose arguments u are the n nodes of Chebyshev's interpolation.
    pure function square_nodes(n, half) result(x)
       integer, intent(in) :: n             !! >= 1
-      real(dp), intent(in) :: half
+      real(dp), intent(in) :: half         !! half the side of the rectangle
       real(dp) :: x(n)
 
       x = half*sqrt(0.5_dp*(1.0_dp + chebyshev_nodes(n)))
@@ -175,7 +179,7 @@ contains
       end do
    end function coefficients
 
-   !> T_0 to T_(n-1).
+   !> The values of Chebyshev's polynomials T_0 to T_(n-1).
    pure function chebyshev_polynomials(x, n) result(t)
       real(dp), intent(in) :: x
       integer, intent(in) :: n             !! >= 2

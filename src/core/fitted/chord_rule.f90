@@ -1,22 +1,23 @@
-!> The singular integral over a mapped disc for a target inside, however near its edge: of f/|z - z'|, and Hadamard's
-!> finite part of that of f/|z - z'|^3.
+!> Quadrature of singular integrals over a mapped disc, for a target z = z(w_t) inside the disc, at any distance from
+!> the edge: the integral of f/|z - z'|, and Hadamard's finite part of the integral of f/|z - z'|^3.
 !>
-!> Points are on chords w = w_t + t e^(i phi) of the disc through the target. The area element is |t| dt dphi, and
-!> 1 - |w|^2 is the product of the distances to the chord's ends, so that with the weight (1 - |w|^2)^power a
+!> The points lie on chords w = w_t + t e^(i phi) of the disc through the target. The area element is |t| dt dphi. On a
+!> chord 1 - |w|^2 is the product of the distances to the chord's ends. So for the weight (1 - |w|^2)^power a
 !> Gauss-Gegenbauer rule along the chord is exact for polynomials. In phi the midpoint rule over half a turn converges
-!> exponentially. With J the map's Jacobian and Q = (z(w) - z(w_t))/(t e^(i phi)) its divided difference, which does not
-!> vanish, the integral over all chords, dt dphi, is that of
+!> exponentially. Let J be the map's Jacobian and Q = (z(w) - z(w_t))/(t e^(i phi)) its divided difference, which does
+!> not vanish. Then the integrand over all chords, dt dphi, is
 !>
 !>     f J/|Q|   for f/|z - z'|, power 1/2: the area element cancels the singularity, README.md (F28), (F30);
 !>     f J/(t^2 |Q|^3)   for f/|z - z'|^3, power 3/2, as Hadamard's finite part, README.md (F29), (F31).
 !>
-!> For the finite part let xi be the place along a chord, from -1 to 1, and xi_0 the target's. Then, by (F33),
+!> For the finite part let xi be the coordinate along a chord, from -1 to 1, and xi_0 that of the target. Then, by
+!> (F33),
 !>
 !>     finite part of the integral of (1 - xi^2)^(3/2) C_m(xi)/(xi - xi_0)^2 dxi = (pi/2)(m+1)(m+3) T_(m+2)(xi_0),
 !>
-!> with Gegenbauer's polynomials C_m of this weight, whose squares have the integrals (pi/8)(m+1)(m+3) (F34), and
-!> Chebyshev's T_m. The part left out about the target is round in the image, not in the disc; what that changes is odd
-!> in t and cancels.
+!> with Chebyshev's polynomials T_m and the Gegenbauer polynomials C_m of this weight, whose squares have the integrals
+!> (pi/8)(m+1)(m+3) (F34). The neighbourhood of the target that the finite part leaves out is a circle in the image, not
+!> in the disc. The difference is odd in t and cancels.
 module wavycon_chord_rule
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials
@@ -31,17 +32,19 @@ module wavycon_chord_rule
 
    type :: chord_rule
       private
-      integer :: kernel_power = 1                         !! of 1/|z - z'|: 1 or 3
-      real(dp) :: edge_power = 0.5_dp                     !! of the weight
+      integer :: kernel_power = 1                         !! power of 1/|z - z'|: 1 or 3
+      real(dp) :: edge_power = 0.5_dp                     !! power of 1 - |w|^2 in the weight
       real(dp), allocatable :: node(:), node_weight(:)    !! Gauss's rule along a chord, -1 to 1, shape (n)
-      real(dp), allocatable :: gegenbauer(:, :)           !! what C_m weighs at the nodes, shape (n, 0:n-1), or none
+      !> For the kernel power 3 only. The weights of the nodes are the sum over m of gegenbauer(:, m) T_(m+2)(xi_0),
+      !> (F32), or with adhesion of gegenbauer(:, m) U_m(xi_0), (F68). Shape (n, 0:n-1).
+      real(dp), allocatable :: gegenbauer(:, :)
       complex(dp), allocatable :: direction(:)            !! e^(i phi) of each chord, shape (m)
-      real(dp), allocatable :: turn(:, :)                 !! e^(2 i phi) by real and imaginary part, shape (n m, 2)
-      ! Of the last target at the n m points; they keep their place in memory. Real and imaginary parts are apart, so
-      ! that loops vectorise and BLAS sums the terms.
-      real(dp), allocatable :: values(:, :)               !! of the basis, shape (n m, N)
+      real(dp), allocatable :: turn(:, :)                 !! e^(2 i phi), real and imaginary part, shape (n m, 2)
+      ! Work space for the n m points of a target, which is kept from target to target. Real and imaginary parts are
+      ! apart, so that loops vectorise and BLAS sums the terms.
+      real(dp), allocatable :: values(:, :)               !! values of the basis, shape (n m, N)
       real(dp), allocatable :: difference(:, :, :)        !! q_(fold k - 1) of README.md (F27), shape (n m, 2, K)
-      real(dp), allocatable :: power(:, :, :)             !! as of linearise_slopes, shape (n m, 2, K)
+      real(dp), allocatable :: power(:, :, :)             !! `terms` of linearise_slopes, shape (n m, 2, K)
    contains
       procedure :: rows
       procedure :: place_points
@@ -49,16 +52,15 @@ module wavycon_chord_rule
 
 contains
 
-   !> Prepares for a basis, a number of shape terms, and a number of chords and of points on each.
-   !>
-   !> A spot's pressure has the kernel 1/|z - z'|, a pool's gap 1/|z - z'|^3.
+   !> Prepares a rule for a basis, a number of shape terms, a number of chords, and a number of points on each chord.
+   !> The kernel is 1/|z - z'| for a spot's pressure and 1/|z - z'|^3 for a pool's gap.
    subroutine start_chord_rule(rule, pool, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
-      logical, intent(in) :: pool
-      type(disc_polynomials), intent(in) :: basis      !! with the power of wavycon_expansion, edge_power
-      integer, intent(in) :: shape_terms  !! K >= 1
-      integer, intent(in) :: angles       !! number of chords, >= 1
-      integer, intent(in) :: points       !! n, on a chord, >= 2
+      logical, intent(in) :: pool                      !! true: a pool's gap; false: a spot's pressure
+      type(disc_polynomials), intent(in) :: basis      !! its power is `edge_power` of wavycon_expansion
+      integer, intent(in) :: shape_terms               !! K >= 1
+      integer, intent(in) :: angles                    !! number m of chords, >= 1
+      integer, intent(in) :: points                    !! number n of points on a chord, >= 2
 
       integer :: m
 
@@ -94,14 +96,14 @@ contains
       end associate
    end subroutine start_chord_rule
 
-   !> The integral for one target, README.md (F30) or (F31), for each polynomial of a basis, and its derivatives with
-   !> respect to the shape for a sum of them.
+   !> For one target the integral, README.md (F30) or (F31), of each polynomial of a basis, and the derivatives of the
+   !> integral of a sum of them with respect to the shape.
    !>
-   !> N.B. The derivatives are at fixed w_t: the target moves with the shape.
+   !> N.B. The derivatives are at fixed w_t: the target z(w_t) moves with the shape.
    subroutine rows(self, basis, shape, target, c, row, shape_row)
       class(chord_rule), intent(inout) :: self
       type(disc_polynomials), intent(in) :: basis      !! the one that the rule was prepared for
-      type(shape_map), intent(in) :: shape
+      type(shape_map), intent(in) :: shape             !! the map of the disc
       complex(dp), intent(in) :: target                !! w_t, |w_t| <= 1
       real(dp), intent(in) :: c(:)                     !! coefficients of the sum, shape (N)
       real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N) [s, 1/s with power 3]
@@ -133,7 +135,7 @@ contains
          f_slope = self%kernel_power*jacobian*f_slope
          f = jacobian*density
          call dgemv('T', n, basis%terms, 1.0_dp, self%values, n, f, 1, 0.0_dp, row, 1)
-         ! README.md (F39): by the Jacobian, dJ/db_k, and by the distance, -p J/|Q|^2 Re(conj(Q) dQ/db_k).
+         ! README.md (F39): the Jacobian contributes dJ/db_k, the distance -p J/|Q|^2 Re(conj(Q) dQ/db_k).
          call dgemv('N', n, basis%terms, 1.0_dp, self%values, n, c, 1, 0.0_dp, f, 1)
          density = density*f
          f_slope = density*f_slope
@@ -148,13 +150,13 @@ contains
       call dgemv('T', 2*n, terms, -1.0_dp, self%difference, 2*n, total, 1, 1.0_dp, shape_row(1:), 1)
    end subroutine rows
 
-   !> Points and weights for a target, chord after chord.
+   !> Sets the points and weights of the rule for a target, chord after chord.
    pure subroutine place_points(self, target, points, w, weight)
       class(chord_rule), intent(in) :: self
-      complex(dp), intent(in) :: target
-      integer, intent(in) :: points           !! of all chords
-      complex(dp), intent(out) :: w(points)
-      real(dp), intent(out) :: weight(points)
+      complex(dp), intent(in) :: target            !! w_t
+      integer, intent(in) :: points                !! number of points on all chords, n m
+      complex(dp), intent(out) :: w(points)        !! points of the disc
+      real(dp), intent(out) :: weight(points)      !! weights of the integral dt dphi
 
       real(dp) :: factor, half, middle, of_chord(size(self%node)), t(2)
       integer :: i, j, k, n
@@ -172,7 +174,8 @@ contains
          end associate
          of_chord = self%node_weight
          if (self%kernel_power == 3) then
-            ! omega_j(xi_0), README.md (F32), from T_0 and T_1 at the target, xi_0; (F68), from U_(-2) and U_(-1).
+            ! omega_j(xi_0), README.md (F32), by the recurrence of T_m(xi_0) from T_0 and T_1; with adhesion (F68), by
+            ! that of U_m(xi_0) from U_(-2) and U_(-1).
             of_chord = 0.0_dp
             t = [1.0_dp, -middle/half]
             if (self%edge_power < 1.0_dp) t = [-1.0_dp, 0.0_dp]
@@ -181,7 +184,7 @@ contains
                of_chord = of_chord + t(2)*self%gegenbauer(:, j)
             end do
          end if
-         ! The chord's half length to the power 2 beta + 1, of the finite part 2 beta - 1: 2 without adhesion, 0 with.
+         ! A factor half^(2 beta + 1), or half^(2 beta - 1) for the finite part: 2 without adhesion, 0 with adhesion.
          factor = pi/size(self%direction)
          if (nint(2*self%edge_power) == self%kernel_power) factor = factor*half**2
          weight(k + 1:k + n) = factor*of_chord

@@ -1,16 +1,20 @@
-!> The equations of contact of one spot below merging, or of one open pool above, at points of the mapped disc.
+!> The equations of contact of one of several separate spots, or of one of several separate pools, at points of the
+!> mapped disc.
 !>
-!> Spot: its pressure p and that of all its images displace the surface by u, and u + h = delta in contact. The pressure
-!> bears the load, P times the area of a cell: README.md (F8) and (F9). Pool: its gap g makes the pressure vanish in
-!> it. In full contact the pressure is P + the sum of a_i |k_i| cos 2 pi k_i.x; a gap changes it by -(1/4 pi^2) times
-!> the finite part of the integral of g and the Laplacian of Gp. Therefore
+!> Spot: the pressure p of the spot and of all its images displaces the surface by u, and u + h = delta in contact. The
+!> pressure carries the load, P times the area of a cell: README.md (F8) and (F9).
+!>
+!> Pool: the gap g makes the pressure vanish in the pool. In full contact the pressure is P + the sum of
+!> a_i |k_i| cos 2 pi k_i.x. A gap changes the pressure by -(1/4 pi^2) times the finite part of the integral of g times
+!> the Laplacian of Gp. Therefore
 !>
 !>     (1/4 pi^2) integral of Laplacian(Gp) g = pressure rise from the trough - (closing pressure - P).   (F12)
 !>
-!> The weight (1 - |w|^2)^power leaves out the singular term that a wrong edge would bring in, so that the equations
-!> can only be met with the right edge. With adhesion the weight has this term, and the equations of the edge (F67) give
-!> it the strength that the work of adhesion asks for. The equations are more than the unknowns, which are the
-!> coefficients, a spot's approach or, with adhesion, a pool's load, and the shape.
+!> The solution for a wrong edge has a singular term at the edge, which the weight (1 - |w|^2)^power excludes. So the
+!> equations can only be met with the right edge. With adhesion the weight includes this term, and the equations of the
+!> edge (F67) give the term the strength that the work of adhesion requires. The unknowns are the coefficients of the
+!> expansion, the approach of a spot or, with adhesion, the load of a pool, and the coefficients of the shape. There are
+!> more equations than unknowns, which are met in the sense of least squares.
 module wavycon_contact_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
@@ -31,20 +35,24 @@ module wavycon_contact_equations
 
    type :: contact_equations
       integer :: unknowns = 0
-         !! N coefficients, a spot's approach or an adhesive pool's load, 1+K of the shape
-      integer :: before_shape = 0                !! unknowns before those of the shape
-      integer :: constraints = 0                 !! 1: a spot's load or, with adhesion, the area; 0 of a pool without
-      type(chord_rule) :: chords                 !! for the spot or pool itself
-      type(disc_rule) :: rule                    !! for its images and for integrals over it
+         !! number of unknowns: N coefficients, a spot's approach or an adhesive pool's load, 1+K of the shape
+      integer :: before_shape = 0                !! number of unknowns before those of the shape
+      !> Number of constraints that a step meets exactly: 1, a spot's load or, with adhesion, the area; 0 for a pool
+      !> without adhesion.
+      integer :: constraints = 0
+      type(chord_rule) :: chords                 !! rule of the singular integral over the spot or pool itself
+      type(disc_rule) :: rule                    !! rule of the integrals with the images, and of those without a kernel
       complex(dp), allocatable :: target(:)      !! points of collocation in the disc, shape (m)
       complex(dp), allocatable :: edge(:)        !! points of the edge, |w| = 1, shape (e); e = 0 without adhesion
-      real(dp), allocatable :: values(:, :)      !! of the basis at the rule's points, shape (n, N)
-      real(dp), allocatable :: edge_values(:, :) !! of the basis at the edge's points, shape (e, N)
+      real(dp), allocatable :: values(:, :)      !! the basis at the rule's points, shape (n, N)
+      real(dp), allocatable :: edge_values(:, :) !! the basis at the edge's points, shape (e, N)
       real(dp), allocatable :: matrix(:, :)      !! derivatives of the left sides, shape (m + e, unknowns)
-      real(dp), allocatable :: residual(:)       !! right sides less left sides, shape (m + e) [Delta], a pool's [p*]
-      !> Derivatives of the integral of p, the left side of README.md (F9), or of g, shape (unknowns).
+      !> Right sides less left sides, shape (m + e) [Delta, for a pool pi E* Delta/s].
+      real(dp), allocatable :: residual(:)
+      !> Derivatives of the integral of p, the left side of README.md (F9), or of the integral of g, shape (unknowns).
       real(dp), allocatable :: load_row(:)
-      type(lattice_images) :: images             !! kept by start_equations: prepared for the shape, or sums only
+      !> The kernel of the images, with or without a series: see `prepare` there. start_equations keeps this component.
+      type(lattice_images) :: images
    contains
       procedure :: linearise
       procedure :: integral
@@ -52,11 +60,12 @@ module wavycon_contact_equations
 
 contains
 
-   !> Chooses points of collocation and rules for expansions like the one given.
+   !> Chooses points of collocation and rules for expansions of the same degree, number of shape terms and symmetry as a
+   !> given one.
    subroutine start_equations(equations, like, merging_ratio)
       type(contact_equations), intent(inout) :: equations
-      type(expansion), intent(in) :: like
-      real(dp), intent(in) :: merging_ratio   !! of the shape: 0 for a point, 1 where it touches its neighbours
+      type(expansion), intent(in) :: like     !! the given expansion
+      real(dp), intent(in) :: merging_ratio   !! merging ratio of the shape: 0 for a point, 1 where neighbours touch
 
       type(contact_equations) :: new
       real(dp) :: phi
@@ -72,7 +81,8 @@ contains
       equations%unknowns = equations%before_shape + size(like%shape%b)
       ! The rule of chords for the singular integral and the rule over the disc for the images.
       associate (degree => like%basis%degree, b => like%shape%b)
-         ! Sharp tips make the quotient on the chords less smooth, near neighbours the kernel.
+         ! Sharp tips make the divided difference on the chords less smooth. Near neighbours make the images' kernel
+         ! less smooth.
          angles = int(chords_per_degree*degree) + 4
          if (merging_ratio > sharp_quadrature_ratio) angles = int(sharp_chords_per_degree*degree) + min(20, degree)
          ! On an ellipse the coefficients of 1/|Q| in the angle fall as the powers of b_1/b_0.
@@ -80,7 +90,7 @@ contains
          call start_chord_rule(equations%chords, like%pool, like%basis, ubound(b, 1), angles, &
                                merge(degree + 1, degree/2 + extra_chord_points, like%pool .and. like%work > 0.0_dp))
          finer = merge(1, 0, merging_ratio > sharp_quadrature_ratio)
-         ! Low degrees are not accurate enough to need many more.
+         ! Low degrees are not accurate enough to need many more points.
          if (merging_ratio > near_images_ratio) finer = min(6, degree/4)
          call start_disc_rule(equations%rule, like%basis%power, fold, degree/2 + 2 + finer, &
                               degree/fold + extra_disc_angles + finer)
@@ -88,14 +98,14 @@ contains
       n = size(equations%rule%point)
       allocate (equations%values(n, like%basis%terms))
       call like%basis%evaluate(n, equations%rule%point, equations%values)
-      ! Points of collocation, README.md, section 8: on rays at the midpoints of equal angles, clustered towards the
-      ! edge along each. At least two more radii than round functions have unknowns: with as many the size of the shape
-      ! is not determined.
+      ! Points of collocation, README.md, section 8: they lie on rays at the midpoints of equal angles, and on each ray
+      ! they are dense towards the edge. There are at least two more radii than axisymmetric functions have unknowns.
+      ! With as many radii as unknowns the size of the shape would not be determined.
       radii = like%basis%degree/2 + merge(pool_extra_radii, spot_extra_radii, like%pool)
       angles = like%basis%degree/fold + merge(pool_extra_angles, spot_extra_angles, like%pool)
       if (merging_ratio > sharp_collocation_ratio) angles = int(sharp_collocation_factor*angles)
-      ! For a round shape each term b_k is one harmonic of the angle; with K angles the last one vanishes at all of
-      ! them.
+      ! For a round shape each term b_k is one harmonic of the angle. With only K angles the last harmonic would vanish
+      ! at all of them.
       angles = max(angles, ubound(like%shape%b, 1) + 1)
       n = radii*angles
       associate (e => merge(angles, 0, like%work > 0.0_dp))
@@ -111,11 +121,11 @@ contains
       end do
    end subroutine start_equations
 
-   !> Sets the matrix, the residual, README.md (F37) or (F38), and the load's derivatives at an expansion.
+   !> Sets the matrix and the residual, README.md (F37) or (F38), and the derivatives `load_row`, for an approximation.
    subroutine linearise(self, lattice, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now      !! like the one the equations were started for
+      type(expansion), intent(in) :: now      !! the approximation, of the kind that the equations were started for
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
       real(dp) :: known, shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
@@ -133,8 +143,8 @@ contains
                                    self%matrix(:m, first:), self%load_row(:terms), self%load_row(first:))
          if (now%pool) self%matrix(:m, :) = self%matrix(:m, :)/(4*pi**2)
          call dgemv('N', m, terms, -1.0_dp, self%matrix, size(self%residual), now%c, 1, 0.0_dp, self%residual, 1)
-         ! What does not depend on the coefficients: a spot's approach and undeformed gap, the pressure that a pool
-         ! would have in full contact; and how they change with the targets' places.
+         ! The terms that do not depend on the coefficients: for a spot the approach and the undeformed gap, for a pool
+         ! the pressure of full contact. They also change with the positions of the targets.
          known = now%approach
          if (now%pool) known = now%load - lattice%closing_pressure
          if (self%constraints == 1) self%matrix(:m, self%before_shape) = -1.0_dp
@@ -149,11 +159,12 @@ contains
       if (size(self%edge) > 0) call linearise_edge(self, now)
    end subroutine linearise
 
-   !> The equations of the edge, README.md (F67), after those of the targets: sum of c_i Psi_i(w) = the strength that
-   !> the work of adhesion asks for. They are scaled to be as large as the others.
+   !> Sets the equations of the edge, README.md (F67), behind those of the targets: at points of the edge the sum of
+   !> c_i Psi_i(w) is the strength of the singular term that the work of adhesion requires. The equations are scaled to
+   !> the size of the others.
    subroutine linearise_edge(self, now)
       class(contact_equations), intent(inout) :: self
-      type(expansion), intent(in) :: now
+      type(expansion), intent(in) :: now   !! as of `linearise`
 
       real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, scale, strength
       integer :: i, row
@@ -164,7 +175,7 @@ contains
          row = size(self%target) + i
          call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
          if (.not. ratio > 0.0_dp) then
-            ! The map folds: there is no step.
+            ! The map folds at the edge. NaN tells the caller that there is no step.
             self%residual(row) = ieee_value(ratio, ieee_quiet_nan)
             return
          else if (now%pool) then
@@ -180,10 +191,10 @@ contains
       end do
    end subroutine linearise_edge
 
-   !> Integral over the spot or pool of an expansion, p or g, times a function of the place.
+   !> The integral over the spot or pool of the expansion, p or g, times a function of the position.
    real(dp) function integral(self, now, factor)
       class(contact_equations), intent(in) :: self
-      type(expansion), intent(in) :: now            !! like the one the equations were started for
+      type(expansion), intent(in) :: now            !! of the kind that the equations were started for
       real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
 
       real(dp) :: product(size(self%rule%point))

@@ -1,7 +1,8 @@
-!> Polynomials on the unit disc, orthonormal with the weight (1 - |w|^2)^power, with the symmetry of a contact.
+!> Polynomials on the unit disc that are orthonormal with the weight (1 - |w|^2)^power and have the symmetry of a
+!> contact: they do not change under rotation by 1/fold of a full turn and under reflection at the x axis.
 !>
 !> They are multiples of Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, with Jacobi's
-!> polynomials P, README.md (F24): invariant under turns by 1/fold of a full turn and under reflection at the x axis.
+!> polynomials P: README.md (F24).
 module wavycon_disc_polynomials
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -11,10 +12,10 @@ module wavycon_disc_polynomials
    public :: disc_polynomials, start_disc_polynomials
 
    type :: disc_polynomials
-      integer :: fold = 4                   !! of the symmetry, >= 1
-      integer :: degree = 0                 !! >= 0
-      integer :: terms = 0                  !! N
-      real(dp) :: power = 0.5_dp            !! of the weight, > -1
+      integer :: fold = 4                   !! order of the rotational symmetry, >= 1
+      integer :: degree = 0                 !! highest degree of the polynomials, >= 0
+      integer :: terms = 0                  !! number N of polynomials
+      real(dp) :: power = 0.5_dp            !! power of 1 - |w|^2 in the weight, > -1
       integer, allocatable :: angular(:)    !! fold k of each term, shape (N)
       integer, allocatable :: radial(:)     !! l of each term, shape (N)
       real(dp), allocatable, private :: recurrence(:, :)  !! p_l = (r1 x + r2) p_(l-1) + r3 p_(l-2), shape (3, N)
@@ -25,12 +26,13 @@ module wavycon_disc_polynomials
 
 contains
 
-   !> Sets the terms and their three-term recurrences in l, those of Jacobi's polynomials scaled to unit norm.
+   !> Sets the terms and their three-term recurrences in l, which are those of Jacobi's polynomials scaled to the norm
+   !> 1.
    subroutine start_disc_polynomials(basis, fold, degree, power)
       type(disc_polynomials), intent(out) :: basis
-      integer, intent(in) :: fold     !! >= 1
-      integer, intent(in) :: degree   !! >= 0
-      real(dp), intent(in) :: power   !! > -1
+      integer, intent(in) :: fold     !! component of the same name, >= 1
+      integer, intent(in) :: degree   !! component of the same name, >= 0
+      real(dp), intent(in) :: power   !! component of the same name, > -1
 
       real(dp) :: a, b, norm, previous_norm, s
       integer :: k, l, n
@@ -69,21 +71,22 @@ contains
       end do
    end subroutine start_disc_polynomials
 
-   !> Norm of a term, README.md (F25): the root of the integral over the disc of its square times the weight.
+   !> The norm of a term before scaling, README.md (F25): the root of the integral over the disc of its square times the
+   !> weight.
    pure real(dp) function norm_over_disc(k, l, a) result(norm)
-      integer, intent(in) :: k     !! fold k of the term
-      integer, intent(in) :: l
-      real(dp), intent(in) :: a    !! power of the weight
+      integer, intent(in) :: k     !! `angular` of the term: fold times its k
+      integer, intent(in) :: l     !! `radial` of the term
+      real(dp), intent(in) :: a    !! power of 1 - |w|^2 in the weight
 
       norm = log_gamma(l + a + 1) + log_gamma(l + k + 1.0_dp) - log_gamma(l + 1.0_dp) - log_gamma(l + a + k + 1)
       norm = sqrt(merge(pi, 0.5_dp*pi, k == 0)*exp(norm)/(2*l + a + k + 1))
    end function norm_over_disc
 
-   !> All terms at n points; polynomials, they are defined outside the disc as well.
+   !> The values of all terms at n points. The points may also lie outside of the disc.
    pure subroutine evaluate(self, n, w, values)
       class(disc_polynomials), intent(in) :: self
       integer, intent(in) :: n
-      complex(dp), intent(in) :: w(n)
+      complex(dp), intent(in) :: w(n)                  !! points x + i y
       real(dp), intent(out) :: values(n, self%terms)
 
       complex(dp), dimension(n) :: angular, step
@@ -108,7 +111,7 @@ contains
                values(:, t) = b*angular%re
                cycle
             end if
-            ! c is 0 for l = 1.
+            ! For l = 1 there is no term l - 2. Any term will do in its place, as c is 0.
             older = max(t - 2, 1)
             do i = 1, n
                values(i, t) = (a*x(i) + b)*values(i, t - 1) + c*values(i, older)
@@ -117,13 +120,13 @@ contains
       end do
    end subroutine evaluate
 
-   !> Gradients of all terms at n points.
+   !> The gradients of all terms at n points.
    pure subroutine slopes(self, n, w, values, slope_x, slope_y)
       class(disc_polynomials), intent(in) :: self
       integer, intent(in) :: n
-      complex(dp), intent(in) :: w(n)                            !! x + i y
-      real(dp), intent(in) :: values(n, self%terms)              !! as of evaluate
-      real(dp), intent(out), dimension(n, self%terms) :: slope_x, slope_y
+      complex(dp), intent(in) :: w(n)                            !! points x + i y
+      real(dp), intent(in) :: values(n, self%terms)              !! values of the terms, from `evaluate`
+      real(dp), intent(out), dimension(n, self%terms) :: slope_x, slope_y   !! derivatives along x and y
 
       complex(dp) :: power(n), step(n)
       real(dp) :: a, b, c, s

@@ -1,4 +1,5 @@
-!> Sources at the points of a rule over the mapped disc, and the copies of them that the symmetry makes.
+!> Point sources of pressure or gap at the points of a quadrature rule over the mapped disc, and their copies by
+!> symmetry.
 module wavycon_disc_sources
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
@@ -13,30 +14,30 @@ module wavycon_disc_sources
 
    !> A whole spot or pool as point sources.
    type :: disc_sources
-      integer :: source = of_pressure              !! what they are, as of wavycon_stress_kernel
-      real(dp), allocatable :: x(:), y(:)          !! from the centre, shape (n) [s]
+      integer :: source = of_pressure              !! kind of the sources, as of wavycon_stress_kernel
+      real(dp), allocatable :: x(:), y(:)          !! positions from the centre of the spot or pool, shape (n) [s]
       real(dp), allocatable :: strength(:, :)
-         !! times area, shape (n, 2): a spot's pressure or a pool's gap, and 0; or the gap's gradient
+         !! strengths times area, shape (n, 2): a spot's pressure or a pool's gap, and 0; or the gap's gradient
    contains
       procedure :: add_at
    end type disc_sources
 
 contains
 
-   !> Sets the sources of a rule over the whole disc.
+   !> Makes the sources of a solution at the points of a rule over the whole disc.
    subroutine start_disc_sources(sources, solution, gradient, radii, angles)
       type(disc_sources), intent(out) :: sources
       type(expansion), intent(in) :: solution
-      logical, intent(in) :: gradient      !! whether the gradient of a pool's gap is wanted; false for a spot
-      integer, intent(in) :: radii         !! points per radius, >= 1
-      integer, intent(in) :: angles        !! and per turn, rounded up to a multiple of 2 fold
+      logical, intent(in) :: gradient      !! whether the sources are the gradient of a pool's gap; false for a spot
+      integer, intent(in) :: radii         !! number of points on a radius, >= 1
+      integer, intent(in) :: angles        !! number of points in a full turn, rounded up to a multiple of 2 fold
 
       type(disc_rule) :: rule
       complex(dp), allocatable :: density(:), strength(:), z(:)
 
       if (solution%pool) sources%source = merge(of_gradient, of_gap, gradient)
       associate (fold => solution%basis%fold)
-         ! The gradient behaves as the root of 1 - |w|^2, as a pressure does.
+         ! At the edge the gradient of a gap is proportional to the root of 1 - |w|^2, as a pressure is.
          call start_disc_rule(rule, merge(0.5_dp, solution%basis%power, gradient), fold, radii, &
                               (angles + 2*fold - 1)/(2*fold))
          allocate (density(size(rule%point)))
@@ -44,7 +45,7 @@ contains
                            (1.0_dp - abs(rule%point))*(1.0_dp + abs(rule%point)), density)
          density = density*rule%weight/(2*fold)
          z = copies(fold, solution%shape%place(rule%point))
-         ! A gradient is turned and mirrored with its place.
+         ! A gradient is a vector: it is rotated and mirrored with its position.
          if (gradient) strength = copies(fold, density)
          if (.not. gradient) strength = reshape(density, [size(z)], pad=density)
       end associate
@@ -53,16 +54,17 @@ contains
       sources%strength = reshape([strength%re, strength%im], [size(z), 2])
    end subroutine start_disc_sources
 
-   !> The source times the Jacobian, over the power of 1 - |w|^2 that it has: J p, J g, or README.md (F54) for the gap's
-   !> gradient. A pressure and the gradient of a gap are the root of 1 - |w|^2 times a smooth function, so that one rule
+   !> The density of sources on the disc, without its singular factor: the source times the Jacobian, J p, J g or, for
+   !> the gap's gradient, README.md (F54), divided by the power of 1 - |w|^2 that the source is proportional to at the
+   !> edge. Without adhesion this power is 1/2 both for a pressure and for the gradient of a gap, so that one rule
    !> serves both: README.md, section 13.
    subroutine find_density(solution, gradient, n, w, inside, density)
       type(expansion), intent(in) :: solution
-      logical, intent(in) :: gradient              !! of the gap, whether it is that
+      logical, intent(in) :: gradient              !! whether the source is the gradient of the gap
       integer, intent(in) :: n
       complex(dp), intent(in) :: w(n)              !! points of the disc
-      real(dp), intent(in) :: inside(n)            !! 1 - |w|^2, exact also next to the edge
-      complex(dp), intent(out) :: density(n)       !! real without gradient
+      real(dp), intent(in) :: inside(n)            !! 1 - |w|^2, accurate also next to the edge
+      complex(dp), intent(out) :: density(n)       !! real unless the source is a gradient
 
       real(dp), dimension(n, solution%basis%terms) :: slope_x, slope_y, values
       complex(dp), dimension(n) :: conjugate_slope, f_slope, slope
@@ -80,11 +82,11 @@ contains
       end if
    end subroutine find_density
 
-   !> Adds the fields at a place.
+   !> Adds the fields of all sources at one point.
    pure subroutine add_at(self, kernel, place, depth, fields)
       class(disc_sources), intent(in) :: self
       integer, intent(in) :: kernel                     !! as of add_sources
-      complex(dp), intent(in) :: place                  !! from the centre [s]
+      complex(dp), intent(in) :: place                  !! x + i y of the point from the centre [s]
       real(dp), intent(in) :: depth                     !! >= 0 [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
@@ -92,10 +94,10 @@ contains
                        self%strength(:, 1), self%strength(:, 2), fields)
    end subroutine add_at
 
-   !> All copies of n places or vectors. For each turn by 2 pi g/fold, g = 0, .., fold-1, come first the n turned ones,
-   !> then those mirrored at the x axis before the turn.
+   !> All copies of n positions or vectors by the symmetry. For each rotation by 2 pi g/fold, g = 0, .., fold-1, the n
+   !> rotated ones come first, and then those that are mirrored at the x axis before the rotation.
    pure function copies(fold, z) result(all)
-      integer, intent(in) :: fold                  !! of the symmetry
+      integer, intent(in) :: fold                  !! order of the rotational symmetry
       complex(dp), intent(in) :: z(:)              !! x + i y, shape (n)
       complex(dp) :: all(2*fold*size(z))
 
@@ -110,12 +112,12 @@ contains
       end do
    end function copies
 
-   !> Strengths of the sources of one sector, which are the terms of an expansion times weight and area, and how
-   !> strengths and places change with the shape.
+   !> The strengths of the sources of one sector, which are the terms of an expansion times weight and area, and the
+   !> derivatives of strengths and positions with respect to the shape.
    pure subroutine linearise_sources(shape, rule, values, c, weighted, strength_slope, moment_x, moment_y)
       type(shape_map), intent(in) :: shape
-      type(disc_rule), intent(in) :: rule              !! with the weight of the expansion
-      real(dp), intent(in) :: values(:, :)             !! of the basis at the rule's points, shape (n, N)
+      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the expansion
+      real(dp), intent(in) :: values(:, :)             !! the basis at the rule's points, shape (n, N)
       real(dp), intent(in) :: c(:)                     !! coefficients of the expansion, shape (N)
       real(dp), intent(out) :: weighted(:, :)          !! strength of each term, shape (n, N) [s^2]
       real(dp), intent(out) :: strength_slope(:, 0:)   !! d(strength of the expansion)/d b_k, shape (n, 0:K) [s]

@@ -1,15 +1,16 @@
-!> A contact spot or an open pool as an expansion over the unit disc.
+!> The pressure on a contact spot or the gap over an open pool as an expansion over the unit disc.
 !>
-!> Below merging it is the pressure on one spot about a crest, above merging the gap over one pool about a trough:
+!> Where spots are separate the expansion is the pressure on one spot around a crest. Where pools are separate it is the
+!> gap over one pool around a trough. Both are
 !>
 !>     (1 - |w|^2)^power times the sum over i of c_i Psi_i(w),
 !>
-!> README.md (F23), with the disc polynomials Psi_i orthonormal with this weight, and the disc mapped to the spot or
-!> pool. The power is 1/2 of a spot and 3/2 of a pool; with adhesion it is less by 1, as pressures and slopes are
-!> singular at the edge (F65). Lengths in s, pressures in pi E* Delta/s, gaps in Delta; places from the centre of the
-!> spot or pool.
+!> README.md (F23), with the polynomials Psi_i that are orthonormal with this weight. The disc is mapped to the spot or
+!> pool. The power is 1/2 for a spot and 3/2 for a pool. With adhesion it is less by 1, because pressures and slopes are
+!> singular at the edge (F65). Lengths are in s, pressures in pi E* Delta/s, gaps in Delta. Positions are measured from
+!> the centre of the spot or pool.
 !>
-!> Without adhesion the load is given and the size follows; with adhesion the area is given and the load follows.
+!> Without adhesion the load is given and the size follows. With adhesion the area is given and the load follows.
 module wavycon_expansion
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
@@ -20,14 +21,14 @@ module wavycon_expansion
    public :: edge_power, expansion
 
    type :: expansion
-      logical :: pool = .false.            !! the gap over a pool; otherwise the pressure on a spot
-      type(disc_polynomials) :: basis
-      type(shape_map) :: shape
-      real(dp), allocatable :: c(:)          !! coefficients of the basis, shape (N)
-      real(dp) :: approach = 0.0_dp          !! delta of a spot, u + h = delta in contact [Delta]
-      real(dp) :: load = 0.0_dp              !! P, the mean pressure; < 0 is a tension [pi E* Delta/s]
-      real(dp) :: work = 0.0_dp              !! W, the work of adhesion, >= 0 [pi E* Delta^2/s]
-      real(dp) :: area = 0.0_dp              !! given with adhesion: of the spot or pool [s^2]
+      logical :: pool = .false.              !! true: the gap over a pool; false: the pressure on a spot
+      type(disc_polynomials) :: basis        !! the polynomials Psi_i
+      type(shape_map) :: shape               !! the map of the disc to the spot or pool
+      real(dp), allocatable :: c(:)          !! coefficients c_i, shape (N) [pi E* Delta/s, for a pool Delta]
+      real(dp) :: approach = 0.0_dp          !! for a spot: approach delta, u + h = delta in contact [Delta]
+      real(dp) :: load = 0.0_dp              !! mean pressure P; < 0 is a tension [pi E* Delta/s]
+      real(dp) :: work = 0.0_dp              !! work of adhesion W >= 0 [pi E* Delta^2/s]
+      real(dp) :: area = 0.0_dp              !! with adhesion only: given area of the spot or pool [s^2]
    contains
       procedure :: resized
       procedure :: at
@@ -35,22 +36,23 @@ module wavycon_expansion
 
 contains
 
-   !> The power of 1 - |w|^2: of a spot's pressure or a pool's gap at the edge, without or with adhesion.
+   !> The power of 1 - |w|^2 to which a spot's pressure or a pool's gap is proportional at the edge.
    pure real(dp) function edge_power(pool, adhesive)
-      logical, intent(in) :: pool, adhesive
+      logical, intent(in) :: pool, adhesive   !! a pool's gap (true) or a spot's pressure; with or without adhesion
 
       edge_power = 0.5_dp
       if (pool) edge_power = edge_power + 1.0_dp
       if (adhesive) edge_power = edge_power - 1.0_dp
    end function edge_power
 
-   !> The same function in a basis of another degree and with another number of shape terms. New coefficients are 0;
-   !> what has no place in a smaller basis is dropped. With another clustering the function changes a little.
+   !> The same function in a basis of another degree and with another number of shape terms. New coefficients are 0, and
+   !> those of polynomials that a smaller basis lacks are dropped. With another clustering the function changes a
+   !> little.
    function resized(self, degree, shape_terms, clustering) result(copy)
       class(expansion), intent(in) :: self
-      integer, intent(in) :: degree           !! of the new basis
-      integer, intent(in) :: shape_terms      !! K >= 1
-      real(dp), intent(in) :: clustering      !! tau of the shape, close to the one it has
+      integer, intent(in) :: degree           !! degree of the new basis
+      integer, intent(in) :: shape_terms      !! number K of the new shape's terms, >= 1
+      real(dp), intent(in) :: clustering      !! tau of the new shape, close to that of the old one
       type(expansion) :: copy
 
       integer :: i, n
@@ -69,7 +71,8 @@ contains
       n = min(shape_terms, ubound(self%shape%b, 1))
       copy%shape%b(:n) = self%shape%b(:n)
       copy%shape%clustering = clustering
-      ! README.md (F18): on a circle both changes sum to -2 i tau b_0 w sin(fold phi), which is along the edge.
+      ! README.md (F18): on a circle the changes of tau and b_1 together move a point of the edge by
+      ! -2 i tau b_0 w sin(fold phi), which is along the edge.
       copy%shape%b(1) = copy%shape%b(1) + (clustering - self%shape%clustering)*copy%shape%b(0)
       copy%approach = self%approach
       copy%load = self%load
@@ -77,8 +80,8 @@ contains
       copy%area = self%area
    end function resized
 
-   !> The value at a point of the disc, 0 outside and on the edge; at the centre a spot's peak pressure, or a pool's gap
-   !> at the trough.
+   !> The pressure or gap at a point of the disc; 0 outside and on the edge. The value at the centre is a spot's peak
+   !> pressure or a pool's gap at the trough.
    real(dp) function at(self, w)
       class(expansion), intent(in) :: self
       complex(dp), intent(in) :: w

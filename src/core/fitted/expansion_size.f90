@@ -1,5 +1,5 @@
-!> How large an expansion is: its sequence of degrees, its number of shape terms, and the clustering of its map; and how
-!> close a spot or a pool is to merging with its neighbours, on which they depend.
+!> Chooses the size of an expansion: the sequence of degrees, the number of shape terms, and the clustering of the map.
+!> They depend on the merging ratio, a measure of how close a spot or pool is to its neighbours, which is computed here.
 module wavycon_expansion_size
    use wavycon_expansion, only: expansion
    use wavycon_fitted_tuning, only: degree_per_shape_term, degree_per_shape_term_twofold, degree_step, first_degree, &
@@ -16,11 +16,12 @@ module wavycon_expansion_size
 
 contains
 
-   !> The part of the way to the midpoint towards the nearest neighbour that a spot or pool takes up: 0 for a point, 1
-   !> where it touches its neighbour, more where they overlap.
+   !> The merging ratio: the part of the distance from the centre to the midpoint between neighbours that a spot or pool
+   !> covers, in the direction where this part is largest. It is 0 for a point, 1 where neighbours touch, and larger
+   !> where they overlap.
    pure real(dp) function merging_ratio(lattice, now) result(ratio)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
+      type(expansion), intent(in) :: now          !! the spot or pool
 
       complex(dp), allocatable :: midpoints(:)
       integer :: i
@@ -33,35 +34,36 @@ contains
       ratio = maxval([(ratio_towards(now%shape, midpoints(i)), i=1, size(midpoints))])
    end function merging_ratio
 
-   !> The same towards one midpoint.
+   !> The merging ratio towards one midpoint.
    pure real(dp) function ratio_towards(shape, midpoint) result(ratio)
       type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: midpoint   !! from the shape's centre [s]
+      complex(dp), intent(in) :: midpoint   !! its position from the shape's centre [s]
 
-      !> Sine of an angle that counts as 0.
+      !> An angle whose sine is less than this counts as 0.
       real(dp), parameter :: rounding = 1e-12_dp
       complex(dp) :: direction
 
       direction = midpoint/abs(midpoint)
       associate (rotated => direction**shape%fold)
          if (abs(rotated%im) < rounding) then
-            ! On an axis of symmetry the edge's nearest point is that of the same angle in the disc.
+            ! The midpoint lies on an axis of symmetry. The edge's point in this direction is the image of the disc's
+            ! one.
             ratio = abs(shape%place(direction))/abs(midpoint)
          else
-            ! Tips off the axes, as long spots have, come to the midpoint from the side.
+            ! Long spots have tips off the axes, which approach the midpoint from the side.
             ratio = 1.0_dp - distance_from_edge(shape, edge_points(shape), midpoint)/abs(midpoint)
          end if
       end associate
    end function ratio_towards
 
-   !> The degree after this one: by a half or a full step.
+   !> The next degree of the sequence, a half or a full step higher.
    !>
-   !> Four-fold shapes take half steps at low degrees, and further on while they are round, where terms that vary with
-   !> the angle matter less. Other shapes are nearly of a higher symmetry than their own; half a step would add next to
-   !> nothing.
+   !> Four-fold shapes take half steps at low degrees. While they are round they do so up to higher degrees, because
+   !> terms that vary with the angle matter less. Other shapes have nearly a higher symmetry than their own, and half a
+   !> step would add next to nothing.
    pure integer function next_degree(degree, fold, merging_ratio)
-      integer, intent(in) :: degree, fold
-      real(dp), intent(in) :: merging_ratio   !! of the shape
+      integer, intent(in) :: degree, fold     !! the last degree; order of the rotational symmetry
+      real(dp), intent(in) :: merging_ratio   !! merging ratio of the shape
 
       logical :: half
 
@@ -70,30 +72,31 @@ contains
       next_degree = degree + merge(degree_step/2, degree_step, half)
    end function next_degree
 
-   !> Number K of terms of the shape for a degree of the polynomials.
+   !> The number K of terms of the shape for a degree of the polynomials.
    pure integer function shape_terms(degree, fold, merging_ratio)
-      integer, intent(in) :: degree, fold
-      real(dp), intent(in) :: merging_ratio   !! of the shape
+      integer, intent(in) :: degree, fold     !! degree of the polynomials; order of the rotational symmetry
+      real(dp), intent(in) :: merging_ratio   !! merging ratio of the shape
 
       if (fold == 2) then
-         ! Vary the number of terms with the degree; otherwise differences of degrees underestimate the area's error.
+         ! Each degree has a number of terms of its own. Otherwise differences between degrees underestimate the error
+         ! of the area.
          shape_terms = degree/degree_per_shape_term_twofold
          return
       end if
       shape_terms = degree/degree_per_shape_term + 1
-      ! Low degrees do not determine as many.
+      ! Low degrees do not determine so many terms.
       if (degree < 12) shape_terms = (degree + 1)/degree_per_shape_term
-      ! The highest power of conj(w) is about the same for all symmetries. More terms of six-fold shapes are not
-      ! determined, but for sharp tips.
+      ! Choose about the same highest power of conj(w) for all symmetries. More terms of six-fold shapes are determined
+      ! only if the tips are sharp.
       if (fold < 4 .or. merging_ratio < round_shape_ratio) shape_terms = nint(4.0_dp*shape_terms/fold)
    end function shape_terms
 
-   !> The map's clustering tau for the next degree, on the square lattice: a power of the merging ratio. Small changes
-   !> are not made, and rises are limited to what Newton's method follows.
+   !> The clustering tau of the map for the next degree, on the square lattice: a multiple of a power of the merging
+   !> ratio. Small changes are not made. Increases are limited, so that Newton's method still converges.
    pure real(dp) function next_clustering(tau, merging_ratio, pool)
-      real(dp), intent(in) :: tau             !! of the shape at hand
-      real(dp), intent(in) :: merging_ratio   !! of the shape
-      logical, intent(in) :: pool
+      real(dp), intent(in) :: tau             !! clustering of the present shape
+      real(dp), intent(in) :: merging_ratio   !! merging ratio of the present shape
+      logical, intent(in) :: pool             !! true: a pool; false: a spot
 
       associate (ratio => min(merging_ratio, 1.0_dp))
          next_clustering = merge(pool_clustering*ratio**pool_clustering_power, &

@@ -1,7 +1,8 @@
-!> Stresses in the half-space under one expansion and all its images: README.md, section 13.
+!> Stresses in the half-space below one expansion and all its images: README.md, section 13.
 !>
-!> At depth they are a Fourier series. Near the surface they are those of the spots or pools near the place, each by a
-!> rule over the disc or, next to it, along rays, and those of all others, which are smooth, by a table.
+!> At depth the stresses are a Fourier series. Near the surface they are the sum of two parts: the spots or pools near
+!> the point are integrated one by one, by a rule over the disc or, next to a spot or pool, along rays; the stresses of
+!> all others are smooth and are interpolated in a table.
 module wavycon_expansion_stress
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
@@ -21,11 +22,11 @@ module wavycon_expansion_stress
 
    type :: expansion_stress
       type(wave_lattice), private :: lattice
-      type(spot_integral) :: spot                            !! one of the spots or pools
-      complex(dp), allocatable, private :: centre(:)         !! of the spots or pools near the cell [s]
-      real(dp), allocatable, private :: half_turn(:)         !! 1, or -1 if turned by half a turn
-      complex(dp), allocatable, private :: edge(:)           !! edge_points of the shape
-      ! Made when first needed.
+      type(spot_integral) :: spot                            !! the integral over one spot or pool
+      complex(dp), allocatable, private :: centre(:)         !! centres of the spots or pools near the cell [s]
+      real(dp), allocatable, private :: half_turn(:)         !! for each of them 1, or -1 if rotated by half a turn
+      complex(dp), allocatable, private :: edge(:)           !! edge_points of the shape [s]
+      ! The series at depth and the table near the surface are made when they are first needed.
       type(stress_series), allocatable, private :: series
       type(far_stress), allocatable, private :: far
    contains
@@ -37,11 +38,13 @@ module wavycon_expansion_stress
 
 contains
 
+   !> Prepares the stresses below a solution, and lists the spots or pools near the rectangle to which positions are
+   !> reduced.
    subroutine start_expansion_stress(stress, lattice, solution, accuracy)
       type(expansion_stress), intent(out) :: stress
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: solution
-      real(dp), intent(in) :: accuracy             !! of the stresses over the peak pressure
+      type(expansion), intent(in) :: solution      !! the solution of the lattice, without adhesion
+      real(dp), intent(in) :: accuracy             !! error of the stresses over the peak pressure
 
       complex(dp), allocatable :: centre(:)
       complex(dp) :: first
@@ -50,7 +53,7 @@ contains
       stress%lattice = lattice
       call start_spot_integral(stress%spot, solution, accuracy, all_fields)
       stress%edge = edge_points(solution%shape)
-      ! Those near the rectangle that places are reduced to.
+      ! A cell may have two pools: the second is the first one rotated by half a turn about a crest.
       first = merge(lattice%trough, (0.0_dp, 0.0_dp), solution%pool)
       allocate (stress%centre(0), stress%half_turn(0))
       do k = 1, merge(lattice%troughs, 1, solution%pool)
@@ -60,12 +63,12 @@ contains
       end do
    end subroutine start_expansion_stress
 
-   !> The stresses at a place, less those of the mean pressure.
+   !> The stresses at a point, less those of the mean pressure.
    subroutine at(self, place, depth, parts)
       class(expansion_stress), intent(inout) :: self
-      complex(dp), intent(in) :: place                    !! from a crest [s]
-      real(dp), intent(in) :: depth                       !! >= 0 [s]
-      real(dp), intent(out) :: parts(6, 2)                !! as of stress_parts
+      complex(dp), intent(in) :: place                    !! x + i y of the point from a crest [s]
+      real(dp), intent(in) :: depth                       !! depth z >= 0 [s]
+      real(dp), intent(out) :: parts(6, 2)                !! as of stress_parts [pi E* Delta/s]
 
       complex(dp) :: z
       real(dp) :: fields(stress_fields)
@@ -93,10 +96,10 @@ contains
       parts = stress_parts(fields)
    end subroutine at
 
-   !> Distance on the surface from the nearest edge of a spot or pool [s].
+   !> The distance of a position on the surface from the nearest edge of a spot or pool [s].
    pure real(dp) function distance_from_edges(self, place) result(distance)
       class(expansion_stress), intent(in) :: self
-      complex(dp), intent(in) :: place                    !! from a crest [s]
+      complex(dp), intent(in) :: place                    !! x + i y from a crest [s]
 
       complex(dp) :: z
       integer :: i
@@ -110,7 +113,7 @@ contains
       end do
    end function distance_from_edges
 
-   !> Makes the Fourier series.
+   !> Makes the Fourier series for depths from `series_depth` on.
    subroutine prepare_series(self)
       class(expansion_stress), intent(inout) :: self
 
@@ -124,24 +127,26 @@ contains
       call start_series(self, self%series, sources, series_depth, self%spot%digits)
    end subroutine prepare_series
 
-   !> Starts the series of all spots or pools from the sources of one of them: pressure or gap.
+   !> Makes a Fourier series of all spots or pools from the point sources, pressure or gap, of one of them.
    subroutine start_series(stress, series, sources, depth, digits)
       type(expansion_stress), intent(in) :: stress
       type(stress_series), intent(out) :: series
-      type(disc_sources), intent(in) :: sources
+      type(disc_sources), intent(in) :: sources               !! sources of one spot or pool
       real(dp), intent(in) :: depth, digits                   !! as of start_stress_series
 
       complex(dp) :: centre
 
       associate (lattice => stress%lattice, pool => stress%spot%solution%pool)
          centre = merge(lattice%trough, (0.0_dp, 0.0_dp), pool)
-         ! The half-turn of a pool about a crest has the same even terms.
+         ! A pool and its image by half a turn about a crest have the same even terms. So the second pool of a cell is a
+         ! factor 2.
          call start_stress_series(series, lattice%rows, centre%re + sources%x, centre%im + sources%y, &
                                   merge(lattice%troughs, 1, pool)*sources%strength(:, 1), pool, depth, digits)
       end associate
    end subroutine start_series
 
-   !> Makes the table: at its nodes the series of all, less the sum of the near ones, of the same point sources.
+   !> Makes the table of the far spots or pools. At its nodes their stresses are the Fourier series of all less the sum
+   !> of the near ones. Both are those of the same point sources.
    subroutine prepare_far(self)
       class(expansion_stress), intent(inout) :: self
 

@@ -1,10 +1,11 @@
-!> What one spot or pool adds to the displacement or the pressure outside of it, as a series in coordinates that
-!> follow its edge:
+!> The displacement that one spot causes outside of itself, or the pressure that one pool causes, as a series in
+!> coordinates that follow its edge:
 !>
 !>     sum over j, k of I_jk cos(fold j arg v) T_k(X),   X = 2 (1 - 1/|v|)^(1/2) - 1,   README.md (F49), (F50),
 !>
-!> v the preimage of the place under the exterior map, T Chebyshev's polynomials. It holds from the edge to infinity. Of
-!> a pool with adhesion, next to which the pressure is singular, it is the pressure times (1 - 1/|v|)^(1/2).
+!> with the preimage v of the position under the exterior map and Chebyshev's polynomials T. The series holds from the
+!> edge to infinity. The pressure beside a pool with adhesion is singular at the edge: there the series is that of the
+!> pressure times (1 - 1/|v|)^(1/2).
 module wavycon_exterior_series
    use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_table
    use wavycon_constants, only: pi
@@ -18,32 +19,32 @@ module wavycon_exterior_series
    public :: exterior_series, start_exterior_series
 
    type :: exterior_series
-      type(chebyshev_table), private :: table     !! in cos(fold arg v) and X
-      logical, private :: is_singular = .false.   !! at the edge
+      type(chebyshev_table), private :: table     !! the series, in the variables cos(fold arg v) and X
+      logical, private :: is_singular = .false.   !! whether the field is singular at the edge
    contains
       procedure :: at
    end type exterior_series
 
-   !> Terms in the angle: of the first series, and most.
+   !> Number of terms in the angle: in the first fit, and the largest one.
    integer, parameter :: first_angles = 5, most_angles = 256
-   !> Fall of the terms in X of a round disc, README.md (F50): the logarithm of the factor.
+   !> For a round disc the terms in X fall by the factor exp(-1.22) from one to the next, README.md (F50).
    real(dp), parameter :: round_fall = 1.22_dp
-   !> Accuracy of the values over that of the series.
+   !> Error of the fitted values over the accuracy of the series.
    real(dp), parameter :: values_share = 0.05_dp
-   !> What is left out over the sum of the last two terms: at sharp tips terms fall slowly.
+   !> Estimate of all terms left out over the sum of the last two. At sharp tips terms fall slowly.
    real(dp), parameter :: rest = 3.0_dp
-   !> Range of the factor on the number of terms from one fit to the next.
+   !> Bounds of the factor on the number of terms from one fit to the next.
    real(dp), parameter :: least_factor = 1.15_dp, largest_factor = 2.5_dp
 
 contains
 
-   !> Makes the series, with more terms until the last ones are below the accuracy.
+   !> Makes the series. The number of terms is raised until the last ones are below the accuracy.
    subroutine start_exterior_series(series, solution, accuracy, most_places, found)
       type(exterior_series), intent(out) :: series
-      type(expansion), intent(in) :: solution
-      real(dp), intent(in) :: accuracy              !! over the largest term, > 0
-      integer, intent(in) :: most_places            !! most places that values may be taken at
-      logical, intent(out) :: found                 !! whether they were enough
+      type(expansion), intent(in) :: solution       !! the spot or pool
+      real(dp), intent(in) :: accuracy              !! error of the series over its largest coefficient, > 0
+      integer, intent(in) :: most_places            !! largest number of points at which the field may be integrated
+      logical, intent(out) :: found                 !! whether this number was enough; if not there is no series
 
       type(stress_rays) :: rays
       integer :: places, terms(2)
@@ -60,7 +61,7 @@ contains
          associate (c => abs(series%table%c(:, :, 1))/maxval(abs(series%table%c)))
             associate (last => rest*[sum(c(terms(1) - 1:, :)), sum(c(:, terms(2) - 1:))])
                if (all(last <= accuracy)) return
-               ! As many as bring the last ones below the accuracy if they go on to fall as they did.
+               ! So many terms that the last ones are below the accuracy if the terms keep falling at the same rate.
                terms = merge(terms, ceiling(terms*min(max(log(accuracy)/min(log(last), -0.1_dp), least_factor), &
                                                       largest_factor)), last <= accuracy)
             end associate
@@ -69,7 +70,7 @@ contains
 
    contains
 
-      !> Fits as many terms as values. Places with the same arg v take the same rays from the edge.
+      !> Determines the terms from as many values. Points with the same arg v share the rays from the edge.
       subroutine fit_terms()
          complex(dp) :: edge, v(terms(2))
          real(dp) :: fields(stress_fields, terms(2)), values(terms(1), terms(2), 1)
@@ -89,11 +90,11 @@ contains
 
    end subroutine start_exterior_series
 
-   !> The field at a place.
+   !> The field at a position outside.
    pure real(dp) function at(self, fold, v)
       class(exterior_series), intent(in) :: self
-      integer, intent(in) :: fold                   !! of the shape
-      complex(dp), intent(in) :: v                  !! preimage of the place, |v| >= 1
+      integer, intent(in) :: fold                   !! order of the shape's rotational symmetry
+      complex(dp), intent(in) :: v                  !! preimage of the position, |v| >= 1
 
       complex(dp) :: power
       real(dp) :: inverse, value(1)

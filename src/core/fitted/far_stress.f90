@@ -1,8 +1,9 @@
-!> Stresses near the surface below all spots or pools of a lattice but those nearest to a cell, as a table.
+!> Stresses near the surface that the far spots or pools of a lattice cause, all except those near one cell, as a table.
 !>
-!> The far ones' fields are analytic down to the surface and beyond, and even or odd in x, y and z: README.md, section
-!> 13. They are the difference of the Fourier series of all and the sum of the near ones, which is taken at some depth
-!> where the series is short. The same point sources stand for both, so that the difference is exact.
+!> The fields of the far spots or pools are analytic down to the surface and beyond, and even or odd in x, y and z:
+!> README.md, section 13. They are computed as the difference of the Fourier series of all and the sum of the near ones,
+!> at depths where the series is short. The same point sources are used for both, so that the difference is exactly that
+!> of the far sources.
 module wavycon_far_stress
    use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_polynomials, chebyshev_table, square_argument, &
       square_nodes
@@ -15,33 +16,34 @@ module wavycon_far_stress
 
    public :: far_stress, start_far_stress, set_far_values
 
-   !> Each field is x^a y^b (constant + z^c even(z)), with coefficients of Chebyshev's polynomials in x^2, y^2 and z^2.
+   !> Each field is x^a y^b (constant + z^c f(z^2)). The constant and f are sums of Chebyshev's polynomials in x^2 and
+   !> y^2, f also in z^2.
    type :: far_stress
-      real(dp), private :: sides(2) = 0.5_dp            !! of the quarter of the cell [s]
+      real(dp), private :: sides(2) = 0.5_dp            !! half the sides of the rectangle about a crest [s]
       integer, private :: regime = 1                    !! 1 below spots, 2 below pools
-      integer :: n(3) = 0                               !! terms in x, y and z; nodes are as many, in z one more
-      real(dp), allocatable :: node_x(:), node_y(:), node_z(:)   !! places at which the values are taken [s]
-      type(chebyshev_table), private :: planes          !! of each term in z, the constant last, and each field
+      integer :: n(3) = 0                               !! numbers of terms in x, y and z; in z there is a node more
+      real(dp), allocatable :: node_x(:), node_y(:), node_z(:)   !! coordinates at which the values are computed [s]
+      type(chebyshev_table), private :: planes          !! tables in x and y for each term in z, the constant last
    contains
       procedure :: add_at
    end type far_stress
 
-   !> The powers a and b of each field, and c below a spot and below a pool.
+   !> The powers a and b of each field, and the power c below spots and below pools.
    integer, parameter :: power_x(stress_fields) = [0, 0, 0, 1, 0, 1, 1, 0], power_y(stress_fields) = &
       [0, 0, 0, 1, 0, 1, 0, 1], power_z(stress_fields, 2) = &
       reshape([1, 1, 1, 1, 1, 1, 2, 2, 0, 2, 0, 0, 2, 2, 1, 1], [stress_fields, 2])
-   !> Whether a field has a constant: below a spot H and D^2 L.
+   !> Whether a field has the constant: H and D^2 L below spots do.
    logical, parameter :: has_constant(stress_fields, 2) = &
       reshape([.true., .false., .true., .true., spread(.false., 1, 12)], [stress_fields, 2])
 
 contains
 
-   !> Chooses terms and nodes. The fields are singular beyond the sides by near_clearance, and above the surface by as
-   !> much.
+   !> Chooses the numbers of terms and the nodes. The nearest singularities of the fields are at the distance
+   !> `near_clearance` from the rectangle, and as far above the surface.
    subroutine start_far_stress(table, sides, pool, digits)
       type(far_stress), intent(out) :: table
       real(dp), intent(in) :: sides(2)         !! half the sides of the rectangle about a crest, along x and y [s]
-      logical, intent(in) :: pool
+      logical, intent(in) :: pool              !! true: below pools; false: below spots
       real(dp), intent(in) :: digits           !! natural logarithm of 1/accuracy
 
       real(dp), parameter :: middle = 0.5_dp*(far_bottom**2 + far_top**2), half = 0.5_dp*(far_bottom**2 - far_top**2)
@@ -49,7 +51,7 @@ contains
       table%sides = sides
       table%regime = merge(2, 1, pool)
       table%n(:2) = ceiling(digits/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
-      ! At the surface, outside of the nodes, the polynomials have grown.
+      ! The nodes are below the surface. At the surface the polynomials have grown by the factor in the denominator.
       table%n(3) = ceiling(digits/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
       table%n = max(table%n, 4)
       table%node_x = square_nodes(table%n(1), sides(1))
@@ -57,18 +59,18 @@ contains
       table%node_z = sqrt(middle + half*chebyshev_nodes(table%n(3) + 1))
    end subroutine start_far_stress
 
-   !> Sum of the half axes of Bernstein's ellipse through x > 1: a function that is analytic inside has coefficients of
-   !> Chebyshev's polynomials that fall as its powers.
+   !> The sum q of the half axes of Bernstein's ellipse through x > 1, with the foci -1 and 1. If a function is analytic
+   !> inside of the ellipse, its coefficients of Chebyshev's polynomials fall as q^(-n) with the degree n.
    elemental real(dp) function ellipse(x)
-      real(dp), intent(in) :: x
+      real(dp), intent(in) :: x   !! > 1
 
       ellipse = x + sqrt(x**2 - 1.0_dp)
    end function ellipse
 
-   !> Sets the table, in z by least squares.
+   !> Sets the table from values at the nodes: by interpolation in x and y and by least squares in z.
    subroutine set_far_values(table, values)
       type(far_stress), intent(inout) :: table
-      real(dp), intent(in) :: values(:, :, :, :)   !! at the nodes, shape (n_x, n_y, n_z+1, 8)
+      real(dp), intent(in) :: values(:, :, :, :)   !! the eight fields at the nodes, shape (n_x, n_y, n_z+1, 8)
 
       real(dp) :: of_nodes(size(table%node_z), 0:table%n(3)), right(size(table%node_z), product(table%n(:2))), &
                   planes(table%n(1), table%n(2), 0:table%n(3), stress_fields), work(64*size(of_nodes) + size(right))
@@ -93,17 +95,17 @@ contains
       end associate
    end subroutine set_far_values
 
-   !> The argument of the polynomials for a depth.
+   !> The argument of the polynomials in z^2, from -1 to 1 between the depths far_top and far_bottom.
    pure real(dp) function depth_argument(depth)
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: depth   !! [s]
 
       depth_argument = (2*depth**2 - far_top**2 - far_bottom**2)/(far_bottom**2 - far_top**2)
    end function depth_argument
 
-   !> Adds the fields at a place.
+   !> Adds the fields of the far spots or pools at a point.
    subroutine add_at(self, x, y, depth, fields)
       class(far_stress), intent(in) :: self
-      real(dp), intent(in) :: x, y                        !! from a crest, in the rectangle about it [s]
+      real(dp), intent(in) :: x, y                        !! position from a crest, in the rectangle about the crest [s]
       real(dp), intent(in) :: depth                       !! between 0 and the lowest node [s]
       real(dp), intent(inout) :: fields(stress_fields)
 

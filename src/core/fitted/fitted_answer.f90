@@ -1,4 +1,4 @@
-!> The result of collocation fitted to the edge for one load.
+!> The solution of one load by collocation fitted to the edge.
 module wavycon_fitted_answer
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
@@ -12,7 +12,7 @@ module wavycon_fitted_answer
    integer, parameter, public :: fitted_solved = 0
       !! The estimated errors are within the accuracy.
    integer, parameter, public :: fitted_less_exact = 1
-      !! There is a solution; its estimated errors are larger than the accuracy.
+      !! There is a solution, but its estimated errors are larger than the accuracy.
    integer, parameter, public :: fitted_merged = 2
       !! Neither separate spots nor separate pools were found: only load and status are set.
    integer, parameter, public :: fitted_bad_input = 3
@@ -20,27 +20,27 @@ module wavycon_fitted_answer
    integer, parameter, public :: fitted_failed = 4
       !! No solution was found: only load and status are set.
 
-   !> Expansions of lower degrees that are kept at most.
+   !> The largest number of expansions of lower degrees that are kept.
    integer, parameter, public :: most_previous = 2
 
-   !> The quantities that it has are mean gap, area fraction, peak pressure, energy, here half the integral of p u per
-   !> cell, [Delta s^2], perimeter and degree. Lengths in the cell's shorter side s, pressures in pi E* Delta/s, gaps
+   !> The quantities that are set are mean gap, approach, area fraction, peak pressure, energy, perimeter and degree.
+   !> The energy is half the integral of p u over a cell [Delta s^2]. Lengths are in s, pressures in pi E* Delta/s, gaps
    !> and displacements in Delta.
    type, extends(quantities) :: fitted_answer
-      integer :: status = fitted_failed
-      real(dp) :: pbar_over_pstar = 0.0_dp            !! P, given or, with adhesion, found
-      real(dp) :: load_error = 0.0_dp                 !! of a load that is found
+      integer :: status = fitted_failed               !! one of the statuses above
+      real(dp) :: pbar_over_pstar = 0.0_dp            !! mean pressure P: given or, with adhesion, found
+      real(dp) :: load_error = 0.0_dp                 !! error estimate of a load that is found
       real(dp) :: area_slopes(2) = 0.0_dp
-         !! with adhesion: dP and d(approach) over d(area of the spot or pool) [pi E* Delta/s^3, Delta/s^2]
-      real(dp) :: area_slope_errors(2) = 0.0_dp       !! of area_slopes
-      real(dp), allocatable :: area_change(:)         !! the same of all unknowns of the solution, README.md (F70)
-      real(dp) :: residual = huge(1.0_dp)             !! largest of the equations [Delta], a pool's [p*]
+         !! with adhesion: derivatives of P and approach by the spot's or pool's area [pi E* Delta/s^3, Delta/s^2]
+      real(dp) :: area_slope_errors(2) = 0.0_dp       !! error estimates of these two derivatives
+      real(dp), allocatable :: area_change(:)         !! derivatives of all unknowns by the area, README.md (F70)
+      real(dp) :: residual = huge(1.0_dp)             !! largest residual [Delta], for a pool [pi E* Delta/s]
       real(dp) :: misfit_decay(2) = 1.0_dp            !! chi_n and chi_(n-1) of README.md (F43)
-      real(dp) :: merging_ratio = 0.0_dp              !! of the shape: 0 for a point, 1 where neighbours touch
-      integer :: iterations = 0                       !! Gauss-Newton steps of all degrees
-      logical :: pool = .false.                     !! above merging: the expansion is a pool's gap
+      real(dp) :: merging_ratio = 0.0_dp              !! merging ratio: 0 for a point, 1 where neighbours touch
+      integer :: iterations = 0                       !! number of Gauss-Newton steps of all degrees
+      logical :: pool = .false.                       !! true: the solution is a pool's gap; false: a spot's pressure
       type(expansion) :: solution
-      !> Solutions of the lower degrees that the estimates are from, the last one first, shape (1..most_previous).
+      !> Solutions of lower degrees, from which errors are estimated, the last one first, shape (1..most_previous).
       type(expansion), allocatable :: previous(:)
    end type fitted_answer
 

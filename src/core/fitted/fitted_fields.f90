@@ -1,8 +1,9 @@
 !> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
 !>
-!> Places are from a crest, in s. Inside the spot or pool the fields are the expansion and the condition of contact.
-!> Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10). Those over near images
-!> are taken by fine rules or along rays, and those over all others by one coarse rule: README.md, section 12.
+!> Positions are measured from a crest, in s. Inside the spot or pool the fields follow from the expansion and the
+!> condition of contact. Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10).
+!> The integrals over near images are computed by fine rules or along rays, the others by one coarse rule: README.md,
+!> section 12.
 module wavycon_fitted_fields
    use wavycon_chebyshev_table, only: chebyshev_table, square_argument, square_nodes
    use wavycon_constants, only: pi
@@ -25,17 +26,17 @@ module wavycon_fitted_fields
    type :: fitted_fields
       type(wave_lattice) :: lattice
       type(fitted_answer) :: answer
-      complex(dp) :: centre = 0.0_dp                     !! of the spot or the pool [s]
-      integer :: places = 1                              !! in a cell: the centre and, if there are two, -centre
+      complex(dp) :: centre = 0.0_dp                     !! centre of the spot or of the pool [s]
+      integer :: places = 1                              !! spots or pools in a cell; the second one is at -centre
       complex(dp), allocatable, private :: image(:)
-         !! centres of the spot or pool, 0, and its near images; for maps those that take the series [s]
-      type(spot_integral), private :: spot
-      type(disc_sources), private :: sources             !! those of its rule at far_level
+         !! centres of the near images from that of the spot or pool, 0 among them; for maps of those with series [s]
+      type(spot_integral), private :: spot               !! the integral over one spot or pool
+      type(disc_sources), private :: sources             !! point sources of the coarse rule, of far_level
       complex(dp), allocatable, private :: preimage(:, :, :)
-         !! of the last two places under each image and centre if it was asked for, 0 if there is none
-      ! For maps.
-      type(exterior_series), allocatable :: series       !! of the spot or pool
-      type(chebyshev_table), private :: far              !! of all others: even in x, and odd over x
+         !! preimages of the last two positions, 0 if there is none, shape (2, images, places)
+      ! For maps, after `prepare_map`.
+      type(exterior_series), allocatable :: series       !! the field of one spot or pool outside of it
+      type(chebyshev_table), private :: far              !! the field of all far images: even part, and odd part over x
    contains
       procedure :: at
       procedure :: prepare_map
@@ -46,12 +47,12 @@ module wavycon_fitted_fields
 
 contains
 
-   !> Prepares to evaluate an answer.
+   !> Prepares the fields of a solution.
    subroutine start_fitted_fields(fields, lattice, answer, accuracy)
       type(fitted_fields), intent(out) :: fields
-      type(wave_lattice), intent(in) :: lattice    !! the answer's
-      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
-      real(dp), intent(in), optional :: accuracy   !! of the integrals over the fields' scale; field_accuracy if absent
+      type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
+      type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
+      real(dp), intent(in), optional :: accuracy   !! relative error of the integrals; field_accuracy if absent
 
       real(dp) :: asked
 
@@ -67,11 +68,11 @@ contains
       call find_images(fields, fields%spot%radius)
    end subroutine start_fitted_fields
 
-   !> Lists the images that come within a distance of the rectangle that places are reduced to, and all others that the
-   !> coarse rule may not resolve there.
+   !> Lists the near images: those whose centres are within a distance of the rectangle to which positions are reduced,
+   !> and all others that the coarse rule may not resolve there.
    subroutine find_images(fields, least)
       type(fitted_fields), intent(inout) :: fields
-      real(dp), intent(in) :: least                !! distance of their centres [s]
+      real(dp), intent(in) :: least                !! the distance [s]
 
       real(dp) :: reach
 
@@ -83,13 +84,13 @@ contains
       fields%preimage = reshape([(0.0_dp, 0.0_dp)], [2, size(fields%image), fields%places], pad=[(0.0_dp, 0.0_dp)])
    end subroutine find_images
 
-   !> The fields at a place.
+   !> Pressure, displacement and gap at a position.
    subroutine at(self, place, pressure, displacement, gap)
       class(fitted_fields), intent(inout) :: self
       complex(dp), intent(in) :: place             !! x + i y from a crest [s]
-      real(dp), intent(out) :: pressure            !! [p*], 0 where the gap is open
+      real(dp), intent(out) :: pressure            !! pressure [pi E* Delta/s], 0 where the gap is open
       real(dp), intent(out) :: displacement        !! u less its mean [Delta]
-      real(dp), intent(out) :: gap                 !! [Delta], 0 in contact
+      real(dp), intent(out) :: gap                 !! gap [Delta], 0 in contact
 
       complex(dp) :: w, z(self%places)
       real(dp) :: without_gap
@@ -100,7 +101,7 @@ contains
       gap = 0.0_dp
       without_gap = 1.0_dp - self%answer%value(mean_gap) + self%lattice%rise(.false., place)
       displacement = without_gap
-      ! The second pool of a cell is the first one turned by half a turn about a crest, with all its fields.
+      ! The second pool of a cell, with its fields, is the first one rotated by half a turn about a crest.
       do i = 1, self%places
          z(i) = self%lattice%rows%reduced(merge(place, -place, i == 1) - self%centre)
          call self%find_preimages(z(i), i, w, inside)
@@ -125,24 +126,24 @@ contains
       end if
    end subroutine at
 
-   !> Finds the preimages of a place under the spot or pool and its near images as far as they are needed: where it may
-   !> be inside, and for the series.
+   !> Finds the preimages of a position under the maps of the spot or pool and its near images: of those that the
+   !> position may be inside of, or of all if the series needs them.
    subroutine find_preimages(self, z, centre, w, inside)
       class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z          !! from the centre, reduced [s]
-      integer, intent(in) :: centre         !! which one, 1 to places
-      complex(dp), intent(out) :: w         !! the preimage if the place is inside one of them
-      logical, intent(out) :: inside
+      complex(dp), intent(in) :: z          !! position from the centre, reduced to the rectangle [s]
+      integer, intent(in) :: centre         !! number of the centre, 1 to `places`
+      complex(dp), intent(out) :: w         !! the preimage if `inside`
+      logical, intent(out) :: inside        !! whether the position is inside one of the spots or pools
 
       logical :: found
       integer :: k
 
       inside = .false.
-      ! Long spots and pools of a rhombic lattice reach beyond the rectangle that places are reduced to.
+      ! All images are tried: long spots and pools of a rhombic lattice reach beyond the rectangle of reduced positions.
       do k = 1, size(self%image)
          if (.not. allocated(self%series) .and. abs(z - self%image(k)) > self%spot%radius) cycle
          associate (last => self%preimage(:, k, centre))
-            ! Most places follow at equal distances.
+            ! Most positions are asked for in rows with equal steps: extrapolate the start from the last two preimages.
             call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, 2*last(1) - last(2))
             last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
          end associate
@@ -151,12 +152,12 @@ contains
       end do
    end subroutine find_preimages
 
-   !> What one spot or pool and all its images add to the displacement [Delta] or the pressure [pi E* Delta/s] at a
-   !> place outside of all.
+   !> The displacement [Delta] that a spot and all its images cause at a position outside of all, or the pressure
+   !> [pi E* Delta/s] that a pool and its images cause.
    real(dp) function sum_over_images(self, z, centre) result(total)
       class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z      !! from the centre, reduced [s]
-      integer, intent(in) :: centre     !! that find_preimages was called for
+      complex(dp), intent(in) :: z      !! position from the centre, reduced to the rectangle [s]
+      integer, intent(in) :: centre     !! number of the centre, for which find_preimages was called with z
 
       real(dp) :: exact(stress_fields), half(2)
       logical :: far(size(self%image))
@@ -183,11 +184,11 @@ contains
       total = total + exact(1)
    end function sum_over_images
 
-   !> The sum over all images but some near ones, by the coarse rule.
+   !> The sum over all images except some near ones, by the coarse rule.
    real(dp) function coarse_sum(self, z, near) result(total)
       class(fitted_fields), intent(in) :: self
-      complex(dp), intent(in) :: z                           !! from the centre, reduced [s]
-      complex(dp), intent(in) :: near(:)                     !! centres of those that are not part of it [s]
+      complex(dp), intent(in) :: z                           !! position from the centre, reduced to the rectangle [s]
+      complex(dp), intent(in) :: near(:)                     !! centres of the images that are left out [s]
 
       real(dp) :: of_centre(stress_fields), removed(stress_fields), value(size(self%sources%x))
       integer :: k
@@ -196,7 +197,7 @@ contains
          call self%lattice%kernel(merge(2, 1, self%answer%pool))%evaluate(size(x), x, y, value)
          if (self%answer%pool) value = -value/(4*pi**2)
       end associate
-      ! The kernel's smooth part has the terms of all images but not that of the one at the origin.
+      ! The smooth part of the kernel has the terms of all images except that of the one at the origin.
       of_centre = 0.0_dp
       removed = 0.0_dp
       if (all(abs(near) > 0.0_dp)) call self%sources%add_at(surface_field, z, 0.0_dp, of_centre)
@@ -206,18 +207,20 @@ contains
       total = dot_product(self%sources%strength(:, 1), value) + of_centre(1) - removed(1)
    end function coarse_sum
 
-   !> Prepares for many places: a series of the spot or pool and of the images that are too near to the cell for the
-   !> polynomial of the others. Without such a series, or for few places, each place is evaluated for itself.
+   !> Prepares the evaluation at many positions. The field of one spot or pool becomes a series, which also serves for
+   !> the images that are too near to the cell for a polynomial. The field of all others becomes a polynomial. If there
+   !> is no such series, or if the positions are few, nothing is done, and each position is evaluated for itself.
    subroutine prepare_map(self, accuracy, places)
       class(fitted_fields), intent(inout) :: self
-      real(dp), intent(in) :: accuracy            !! largest error that the solution was asked for, as of fitted_contact
-      integer, intent(in) :: places               !! distributed over the cell, >= 0
+      real(dp), intent(in) :: accuracy            !! accuracy of the solution, as of fitted_contact
+      integer, intent(in) :: places               !! number of positions, distributed over the cell, >= 0
 
-      !> Error over the accuracy that was asked for, and the least one over the fields' scale.
+      !> Error of the series and the polynomial over the accuracy of the solution, and the least relative error.
       real(dp), parameter :: share = 1e-3_dp, least = 1e-11_dp
-      !> Most values of a series over the places outside: it takes them much faster.
+      !> Largest number of values for a series over the number of positions outside. They are computed along shared
+      !> rays, which is much faster.
       real(dp), parameter :: most_terms = 3.0_dp
-      !> Of the table of all others in the square of either coordinate.
+      !> Number of nodes of the polynomial in the square of either coordinate.
       integer, parameter :: nodes = 13
       type(exterior_series), allocatable :: series
       complex(dp) :: z
@@ -235,8 +238,8 @@ contains
       if (.not. found) return
       call move_alloc(series, self%series)
       tolerance = 0.01_dp*tolerance
-      ! A singularity at a distance c beside a rectangle of half the side a is, for the polynomial in the square of the
-      ! coordinate along that side, where terms fall by exp(-2 asinh(c/a)).
+      ! If the nearest singularity is at the distance c beside a rectangle of the half side a, the terms of a polynomial
+      ! in the square of the coordinate along this side fall by the factor exp(-2 asinh(c/a)).
       call find_images(self, self%spot%radius + 0.5_dp*max(self%lattice%rows%spacing, 1.0_dp) &
                        *sinh(-0.5_dp*log(tolerance)/nodes))
       ! Displacements are of order 1, pressures of the order of their peak.
@@ -257,11 +260,11 @@ contains
       call self%far%set(values, tolerance)
    end subroutine prepare_map
 
-   !> Gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. Above
-   !> merging the gap at the saddle is 0, below the pressure there.
+   !> The gaps at the trough and at the lattice's saddle [Delta], and the pressure at the saddle [pi E* Delta/s]. If
+   !> spots are separate the pressure at the saddle is 0; if pools are separate the gap there is 0.
    function fitted_separations(lattice, answer, accuracy) result(values)
-      type(wave_lattice), intent(in) :: lattice    !! the answer's
-      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
+      type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
       real(dp), intent(in), optional :: accuracy   !! as of start_fitted_fields
       real(dp) :: values(3)
 
@@ -273,13 +276,13 @@ contains
       call fields%at(lattice%saddle, values(3), displacement, values(2))
    end function fitted_separations
 
-   !> These values, and estimates of their errors.
+   !> The values of `fitted_separations` and estimates of their errors.
    !>
-   !> The error of the expansion is estimated from the values that the lower degrees give at the same places, that of
-   !> the integrals over near images from a second evaluation by finer rules.
+   !> The error of the expansion is estimated from the values of lower degrees at the same positions. The error of the
+   !> integrals over near images is estimated from a second evaluation by finer rules.
    subroutine find_fitted_details(lattice, answer, values, error)
-      type(wave_lattice), intent(in) :: lattice    !! the answer's
-      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
+      type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
       real(dp), intent(out) :: values(3)           !! as of fitted_separations: trough gap, saddle gap, saddle pressure
       real(dp), intent(out) :: error(3)            !! estimates of their errors
 
@@ -297,17 +300,18 @@ contains
          if (.not. answer%pool) older%value(mean_gap) = 1.0_dp - older%solution%approach
          at(:, k) = fitted_separations(lattice, older)
       end do
-      ! All but the gap inside a pool are differences of numbers of order 1: their rounding is absolute.
+      ! All values except the gap inside a pool are differences of numbers of order 1, so that their rounding is
+      ! absolute.
       scale = 1.0_dp
       if (answer%pool) scale(1) = at(1, 0)
-      ! One by one: the saddle may be about to close while the trough is wide open.
+      ! The errors are estimated separately: the saddle may be nearly closed while the trough is wide open.
       do i = 1, size(values)
          decay = answer%misfit_decay
-         ! The gap inside a pool is a value of the expansion, where the others are integrals of it.
+         ! The gap inside a pool is a value of the expansion, while the others are integrals of the expansion.
          if (answer%pool .and. i == 1) decay = max(decay, fastest_decay_at_point)
          error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
       end do
-      ! A spot's approach is part of both gaps.
+      ! The approach of a spot is part of both gaps, so its error is part of theirs.
       if (.not. answer%pool) error(:2) = max(error(:2), answer%error(mean_gap))
       error = error + abs(fitted_separations(lattice, answer, finer) - values)
       ! A gap in contact and a pressure outside of it are 0 by definition.

@@ -1,4 +1,4 @@
-!> Numbers that describe a contact: mean gap, area, peak pressure, strain energy and length of the edge.
+!> The measures of a solution: mean gap, area, peak pressure, load, energy and length of the edge.
 module wavycon_fitted_measures
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations
@@ -19,24 +19,24 @@ module wavycon_fitted_measures
    integer, parameter, public :: load_measure = 4       !! P, given or found [pi E* Delta/s]
    integer, parameter, public :: centre_measure = 5     !! a spot's peak pressure; a pool's gap at its trough [Delta]
    integer, parameter, public :: energy_measure = 6     !! half the integral of p u over a cell [Delta s^2]
-   integer, parameter, public :: perimeter_measure = 7  !! of one spot or pool [s]
+   integer, parameter, public :: perimeter_measure = 7  !! length of the edge of one spot or pool [s]
    integer, parameter, public :: all_measures = 7
 
 contains
 
-   !> All measures of a solution.
+   !> Computes all measures of a solution.
    subroutine measure_expansion(equations, lattice, now, measures, scale)
       type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(inout) :: now                !! a load of a spot that is found is set
+      type(expansion), intent(inout) :: now                !! the solution; the load of an adhesive spot is set
       real(dp), intent(out) :: measures(all_measures)
       real(dp), intent(out) :: scale(all_measures)
-         !! what errors are relative to: the measure; with adhesion in loads and pressures also the part at the edge
+         !! what errors are relative to: the measure; for loads and pressures with adhesion plus the tension at the edge
 
       real(dp) :: at_edge
 
       if (now%work > 0.0_dp .and. .not. now%pool) now%load = equations%integral(now)/lattice%area
-      ! G: 1 - delta of a spot, README.md (F5), the mean of a pool's gap.
+      ! The mean gap G: for a spot 1 - delta, README.md (F5); for a pool the mean of its gap.
       measures(gap_measure) = 1.0_dp - now%approach
       if (now%pool) measures(gap_measure) = lattice%troughs*equations%integral(now)/lattice%area
       measures(area_measure) = now%shape%area()
@@ -58,9 +58,9 @@ contains
 
    contains
 
-      !> Pressure at a crest, where it is highest: that of full contact less 1/(4 pi^2) times the integral of the
-      !> Laplacian of Gp and the gap, README.md (F45). The pools of a cell are mirror images about the crest, so that
-      !> each contributes the same.
+      !> The pressure at a crest, which is the largest one: the pressure of full contact less 1/(4 pi^2) times the
+      !> integral of the gap times the Laplacian of Gp, README.md (F45). The pools of a cell are mirror images about the
+      !> crest, so that each contributes the same.
       real(dp) function pressure_between_pools()
          type(periodic_kernel) :: kernel
          complex(dp) :: from_crest(2*now%basis%fold*size(equations%rule%point))
@@ -70,15 +70,15 @@ contains
          kernel%whole = .true.
          from_crest = lattice%trough + copies(now%basis%fold, now%shape%place(equations%rule%point))
          call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
-         ! The rule's points are those of one sector: the mean over their copies is taken.
+         ! The points of the rule lie in one sector. So the mean of the kernel over their copies is taken.
          mean = sum(reshape(value, [size(mean), 2*now%basis%fold]), 2)/(2*now%basis%fold)
          pressure_between_pools = now%load - lattice%closing_pressure + lattice%rise(.true., -lattice%trough) &
             - lattice%troughs*equations%integral(now, mean)/(4*pi**2)
       end function pressure_between_pools
 
-      !> Half the integral of p u over a cell [Delta s^2]: README.md (F46) of a spot, (F47) above merging.
+      !> Half the integral of p u over a cell [Delta s^2]: README.md (F46) for a spot, (F47) for a pool.
       !>
-      !> In contact u = delta - h; above merging p u = p (delta - h + g) everywhere, where p g = 0. The integral of p h
+      !> In contact u = delta - h. For pools p u = p (delta - h + g) everywhere, and p g = 0. The integral of p h
       !> follows from the Fourier coefficients of p at the waves of h, which are |k| times those of u.
       real(dp) function strain_energy(mean_gap) result(energy)
          real(dp), intent(in) :: mean_gap

@@ -1,4 +1,4 @@
-!> The contact of a wave on its lattice by collocation fitted to the edge, to a given accuracy.
+!> Solves the contact of a wave on a lattice to a given accuracy, by collocation fitted to the edge of contact.
 module wavycon_fitted_solver
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: degree_history
@@ -21,32 +21,35 @@ module wavycon_fitted_solver
 
    public :: solve_adhesive, solve_fitted
 
-   !> Guard: degrees in a row at which Newton's method does not converge, before the regime is
-   !> given up. Next to merging, and beyond it, it may fail at every degree, and the last ones take seconds each.
+   !> Guard: the number of successive degrees without convergence of Newton's method after which spots, or pools, are
+   !> given up. Next to merging and beyond Newton's method may fail at every degree, and the highest degrees take
+   !> seconds each.
    integer, parameter :: most_failed_degrees = 3
 
-   !> The quantities of an answer, and the measures that they are from.
+   !> The quantities of an answer, and the measures that they follow from.
    integer, parameter :: measured(*) = [mean_gap, contact_area, peak_pressure, elastic_energy, perimeter]
    integer, parameter :: shown_measures(*) = [gap_measure, area_measure, peak_measure, energy_measure, &
       perimeter_measure]
 
 contains
 
-   !> Solves for one load.
+   !> Solves for one load, as separate spots or as separate pools. If the more likely one of the two fails, the other
+   !> one is tried.
    !>
-   !> The accuracy is relative: to the mean gap, to the area fraction or, above merging, the open one, and to the peak
-   !> pressure. The degree of the expansion is raised until the estimated errors of all three are within it.
+   !> The accuracy is relative to the mean gap, to the area of the spot or of the pool, and to the peak pressure. The
+   !> degree of the expansion is raised until the estimated errors of all three are within the accuracy.
    !>
    !> Status: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input or fitted_failed.
    subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: pbar_over_pstar        !! P, between 0 and the lattice's closing pressure
-      real(dp), intent(in) :: accuracy               !! of each measure over itself, > 0; rounding allows some 1e-14
+      real(dp), intent(in) :: pbar_over_pstar        !! mean pressure P, between 0 and the lattice's closing pressure
+      real(dp), intent(in) :: accuracy               !! largest allowed relative error, > 0; rounding is about 1e-14
       type(fitted_answer), intent(out) :: answer
       type(fitted_answer), intent(in), optional :: start
-         !! of another load of the same lattice, not the same variable as `answer`; saves time where the load is near
+         !! solution of another load of the same lattice, which saves time if that load is near; not the variable
+         !! `answer`
       logical, intent(in), optional :: fields
-         !! whether a pool's gap at its trough is to be as accurate, as fields need it; false if absent
+         !! whether a pool's gap at its trough has to be as accurate, because fields need this; false if absent
 
       logical :: first_is_pool
 
@@ -56,7 +59,8 @@ contains
       if (.not. accuracy > 0.0_dp) return
       first_is_pool = pbar_over_pstar > lattice%about_merging
       if (present(start)) then
-         ! Spots that have merged at a lighter load have merged at this one; pools apart at a heavier one are apart.
+         ! If pools are separate at a lighter load they are separate at this load. If spots are separate at a heavier
+         ! load they are separate at this one.
          if (start%status <= fitted_less_exact .and. &
              (start%pool .eqv. pbar_over_pstar >= start%pbar_over_pstar)) first_is_pool = start%pool
       end if
@@ -70,14 +74,14 @@ contains
          call solve_regime(lattice, accuracy, .not. first_is_pool, answer, start, fields)
    end subroutine solve_fitted
 
-   !> Solves as a spot or as a pool, by degrees.
+   !> Solves for a spot or for a pool.
    subroutine solve_regime(lattice, accuracy, pool, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: accuracy
-      logical, intent(in) :: pool
-      type(fitted_answer), intent(inout) :: answer   !! its load is set
-      type(fitted_answer), intent(in), optional :: start
-      logical, intent(in), optional :: fields
+      real(dp), intent(in) :: accuracy                     !! as of solve_fitted
+      logical, intent(in) :: pool                          !! true: for a pool; false: for a spot
+      type(fitted_answer), intent(inout) :: answer         !! on entry with its load
+      type(fitted_answer), intent(in), optional :: start   !! as of solve_fitted
+      logical, intent(in), optional :: fields              !! as of solve_fitted
 
       type(expansion) :: now
       integer :: degree, required
@@ -93,20 +97,20 @@ contains
       if (valid) call raise_degree(lattice, accuracy, now, degree, required, answer)
    end subroutine solve_regime
 
-   !> Solves with adhesion for a spot or a pool of a given area: the load is found.
+   !> Solves the contact with adhesion of a spot or a pool of a given area. The load is part of the solution.
    !>
-   !> The accuracy is relative to the mean gap, to the peak pressure, and to the load with its tension along the edge:
-   !> loads vanish on the way to tensions. Status: fitted_solved, fitted_less_exact, fitted_merged, where the shape
-   !> touches its neighbours, or fitted_failed.
+   !> The accuracy is relative to the mean gap, and to peak pressure and load plus the tension at the edge: a load may
+   !> be zero on the way to a tension. Status: fitted_solved, fitted_less_exact, fitted_merged if the shape touches its
+   !> neighbours, or fitted_failed.
    subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start)
       type(wave_lattice), intent(in) :: lattice
-      logical, intent(in) :: pool            !! whether it is the open pool; otherwise the contact spot
-      real(dp), intent(in) :: work           !! W > 0, the work of adhesion [pi E* Delta^2/s]
-      real(dp), intent(in) :: area           !! of the spot or pool, between 0 and that of its cell [s^2]
-      real(dp), intent(in) :: accuracy       !! > 0
+      logical, intent(in) :: pool            !! true: an open pool; false: a contact spot
+      real(dp), intent(in) :: work           !! work of adhesion W > 0 [pi E* Delta^2/s]
+      real(dp), intent(in) :: area           !! area of the spot or pool, between 0 and that of its cell [s^2]
+      real(dp), intent(in) :: accuracy       !! largest allowed relative error, > 0
       type(fitted_answer), intent(out) :: answer
       type(fitted_answer), intent(in), optional :: start
-         !! of another area of the same lattice and work, not the same variable as `answer`; saves time
+         !! solution of another area of the same lattice and work, which saves time; not the variable `answer`
 
       type(expansion) :: now
       integer :: degree
@@ -117,40 +121,43 @@ contains
       if (valid) call raise_degree(lattice, accuracy, now, degree, load_measure, answer)
    end subroutine solve_adhesive
 
-   !> Raises the degree from an approximation on until the estimated errors are within the accuracy.
+   !> Solves at rising degrees, from an approximation on, until the estimated errors are within the accuracy. The answer
+   !> is the solution with the least estimated errors.
    subroutine raise_degree(lattice, accuracy, now, first, required, answer)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: accuracy
-      type(expansion), intent(inout) :: now          !! the approximation
+      real(dp), intent(in) :: accuracy               !! largest allowed relative error
+      type(expansion), intent(inout) :: now          !! on entry the approximation, on exit the last solution
       integer, intent(in) :: first                   !! degree to start with
-      integer, intent(in) :: required                !! measures, in their order, that have to be as accurate
-      type(fitted_answer), intent(inout) :: answer   !! failed so far
+      integer, intent(in) :: required                !! the measures 1 to `required` have to be so accurate
+      type(fitted_answer), intent(inout) :: answer   !! on entry without a solution
 
       type(contact_equations) :: equations
       type(degree_history) :: history
       type(newton_steps) :: newton
       real(dp), allocatable :: area_change(:)
-      real(dp) :: area_slopes(2, 0:2)   ! of the newest solution and those before it
+      real(dp) :: area_slopes(2, 0:2)   ! derivatives by the area of the newest solution and the two before
       real(dp) :: clustering, measures(all_measures), ratio, scale(all_measures), tolerance
       integer :: degree, failed, k
       logical :: merged
 
       degree = first
-      ! Tolerance of the shape: a smaller one is rounding, a larger one shows in the differences between degrees.
+      ! Relative tolerance of the shape. A smaller one would be rounding. A larger one would show in the differences
+      ! between degrees.
       tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
       ratio = merging_ratio(lattice, now)
-      ! A lower degree gives the estimates of round shapes one more difference; it cannot represent sharp ones.
+      ! For round shapes a lower first degree gives the error estimates one more difference. It cannot represent sharp
+      ! tips.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       failed = 0
       area_slopes = 0.0_dp
       allocate (area_change(0))
-      ! Next to merging convergence is less than quadratic: a second step at the first degree measures it.
+      ! Next to merging convergence is slower than quadratic. A second step at the first degree measures its rate.
       newton%contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
       do
          clustering = now%shape%clustering
          if (lattice%square) clustering = next_clustering(clustering, ratio, now%pool)
          now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
-         ! Looser series are hardly quicker.
+         ! A larger tolerance of the series would hardly save time.
          call equations%images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
          ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio)
@@ -158,7 +165,7 @@ contains
          ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
          if (.not. newton%valid .or. merged) exit
-         ! Without convergence there is nothing to compare, but the next degree may converge.
+         ! Without convergence at this degree there is nothing to compare, but the next degree may converge.
          failed = failed + 1
          if (newton%change <= 1e-4_dp .or. newton%remaining <= tolerance) then
             failed = 0
@@ -187,16 +194,17 @@ contains
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
       answer%iterations = answer%iterations + newton%iterations
-      ! On the square lattice a solution of a lower degree is kept although a higher one has merged: it is nearly right.
+      ! On the square lattice a solution of a lower degree, which is nearly right, is kept if a higher degree has
+      ! merged.
       if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
    end subroutine raise_degree
 
-   !> The derivatives of load and approach with respect to the area from those of all unknowns, README.md (F70).
+   !> The derivatives of load and approach by the area, from those of all unknowns: README.md (F70).
    pure function slopes_of(equations, lattice, now, area_change) result(slopes)
-      type(contact_equations), intent(in) :: equations         !! of the solution
+      type(contact_equations), intent(in) :: equations         !! linearised at the solution
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now                       !! the solution, with adhesion
-      real(dp), intent(in) :: area_change(:)                   !! shape (unknowns)
+      real(dp), intent(in) :: area_change(:)                   !! derivatives of the unknowns, shape (unknowns)
       real(dp) :: slopes(2)
 
       associate (of_integral => dot_product(equations%load_row, area_change)/lattice%area, &
@@ -206,14 +214,14 @@ contains
       end associate
    end function slopes_of
 
-   !> Writes the newest solution to the answer.
+   !> Sets the answer to the newest solution, which is the best one so far.
    subroutine set_answer(answer, lattice, history, now, residual, ratio, images_tolerance)
       type(fitted_answer), intent(inout) :: answer
       type(wave_lattice), intent(in) :: lattice
       type(degree_history), intent(in) :: history
       type(expansion), intent(in) :: now
-      real(dp), intent(in) :: residual, ratio
-      real(dp), intent(in) :: images_tolerance     !! relative error of the images
+      real(dp), intent(in) :: residual, ratio      !! largest residual; merging ratio
+      real(dp), intent(in) :: images_tolerance     !! relative error of the images' kernel
 
       real(dp) :: error(all_measures)
 
@@ -221,7 +229,8 @@ contains
       answer%solution = now
       answer%residual = residual
       answer%merging_ratio = ratio
-      ! All degrees share the error of the images: it does not count in which of them is best.
+      ! All degrees have the same error of the images. So this error is not considered in the choice of the best degree,
+      ! and is added only here.
       error = max(history%error, images_tolerance*history%scale)
       answer%pbar_over_pstar = history%measures(load_measure, 0)
       answer%load_error = error(load_measure)

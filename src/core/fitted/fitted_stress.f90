@@ -1,6 +1,7 @@
-!> Stresses in the half-space under the pressure of an answer of the collocation: README.md, section 13.
+!> Stresses in the half-space below a solution by collocation fitted to the edge: README.md, section 13.
 !>
-!> They are exact to ten digits of the peak pressure at any depth, the surface included, as far as the answer is.
+!> Their integration adds errors of 1e-10 of the peak pressure at most, at any depth, the surface included. The errors
+!> of the solution itself come on top.
 module wavycon_fitted_stress
    use wavycon_degree_history, only: error_estimate
    use wavycon_expansion_stress, only: expansion_stress, start_expansion_stress
@@ -16,23 +17,23 @@ module wavycon_fitted_stress
 
    type :: fitted_stress
       type(fitted_answer) :: answer
-      real(dp), private :: accuracy = 0.0_dp
-      real(dp), private :: relative_error = 0.0_dp        !! the larger one of peak pressure and of area
-      real(dp), private :: edge_error = 0.0_dp            !! of the edge's place, a mean [s]
+      real(dp), private :: accuracy = 0.0_dp              !! error of the integrals over the peak pressure
+      real(dp), private :: relative_error = 0.0_dp        !! relative error of the peak pressure or, if larger, the area
+      real(dp), private :: edge_error = 0.0_dp            !! mean error of the edge's position [s]
       type(expansion_stress), allocatable, private :: of_degree(:)
-         !! of the answer's expansion and those of lower degrees, shape (0:.)
+         !! stresses of the answer's expansion, 0, and of those of lower degrees, from 1 on
    contains
       procedure :: at
    end type fitted_stress
 
 contains
 
-   !> Prepares. Series, tables and rules are made when a place first needs them.
+   !> Prepares the stresses of a solution. Series, tables and rules are made when a point first needs them.
    subroutine start_fitted_stress(stress, lattice, answer, accuracy)
       type(fitted_stress), intent(out) :: stress
-      type(wave_lattice), intent(in) :: lattice    !! the answer's
-      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
-      real(dp), intent(in) :: accuracy             !! of the integrals, over the answer's peak pressure, > 0
+      type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
+      type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
+      real(dp), intent(in) :: accuracy             !! error of the integrals over the peak pressure, > 0
 
       real(dp) :: area, area_error
       integer :: i
@@ -52,20 +53,21 @@ contains
       stress%edge_error = area_error/answer%value(perimeter)
    end subroutine start_fitted_stress
 
-   !> The stresses at a place, less those of the mean pressure. The error is estimated by README.md (F64): from the
-   !> stresses of lower degrees, the errors of peak pressure and area, and, next to the edge, the error of its place.
+   !> The stresses at a point, less those of the mean pressure. The error is estimated by README.md (F64): from the
+   !> stresses of lower degrees, the errors of peak pressure and area, and, next to the edge, the error of the edge's
+   !> position.
    !>
-   !> N.B. On the surface inside a pool the pressure is what the equations leave, not 0.
+   !> N.B. On the surface inside a pool the pressure is not exactly 0, but the residual of the equations.
    subroutine at(self, place, depth, parts, error)
       class(fitted_stress), intent(inout) :: self
       complex(dp), intent(in) :: place             !! x + i y from a crest [s]
-      real(dp), intent(in) :: depth                !! z >= 0 [s]
+      real(dp), intent(in) :: depth                !! depth z >= 0 [s]
       real(dp), intent(out) :: parts(6, 2)
          !! xx, yy, zz, xy, xz, yz [pi E* Delta/s], tension > 0: the stress is parts(:, 1) + nu*parts(:, 2)
       real(dp), intent(out), optional :: error
-         !! estimate of the largest error of a component for 0 <= nu <= 1/2 [pi E* Delta/s]
+         !! estimate of the largest error of the components for any 0 <= nu <= 1/2 [pi E* Delta/s]
 
-      !> Stresses for nu = 0 and nu = 1/2 from the parts.
+      !> The matrix that makes the stresses for nu = 0 and nu = 1/2 of `parts`.
       real(dp), parameter :: at_limits(2, 2) = reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2])
       real(dp) :: distance, lower(6, 2), values(12, 0:ubound(self%of_degree, 1))
       integer :: i

@@ -12,26 +12,29 @@ module wavycon_gauss_newton
 
    public :: add_step, change_with_area, changes_with_load, newton_steps
 
-   !> Steps, and what is known of the last one.
+   !> The iteration, and the numbers of its last step.
    type :: newton_steps
-      real(dp) :: contraction = 0.0_dp    !! of the shape's changes: before, of the last degree; after, of this one
+      !> Ratio of the shape's changes in two successive steps: on entry to `solve` that of the last degree, on exit that
+      !> of this degree.
+      real(dp) :: contraction = 0.0_dp
       real(dp) :: change = 0.0_dp
-         !! largest change of a coefficient of the shape, before shortening, over the former size b_0
-      real(dp) :: remaining = 0.0_dp      !! what it leaves of the shape; above the tolerance without convergence
-      real(dp) :: residual = 0.0_dp       !! largest of the equations before the step [Delta, p*]
+         !! largest change of a coefficient of the shape, before the step is shortened, over b_0 before the step
+      real(dp) :: remaining = 0.0_dp      !! estimate of the shape's relative error after the step
+      real(dp) :: residual = 0.0_dp       !! largest residual before the step [Delta, for a pool pi E* Delta/s]
       real(dp) :: misfit = 0.0_dp         !! as of least_squares_step
-      integer :: iterations = 0           !! of all degrees
+      integer :: iterations = 0           !! number of steps at all degrees
       logical :: valid = .false.          !! whether the step is finite and the new shape is not about to fold
    contains
       procedure :: solve
       procedure :: step
    end type newton_steps
 
-   !> Change of a step over the square of the one before, while convergence is quadratic.
+   !> Largest ratio of a step's change to the square of the last change while convergence is quadratic.
    real(dp), parameter, public :: change_per_square = 10.0_dp
 
-   !> Safety limit: most steps at one degree. The loads of scripts/constants take at most half as many. At the limit the
-   !> change of the last step is above the tolerance, and the caller decides whether the solution is of use.
+   !> Safety limit: the largest number of steps at one degree. The loads of scripts/constants take at most half as many.
+   !> At the limit the change of the last step is above the tolerance, and the caller decides whether the solution is of
+   !> use.
    integer, parameter :: most_newton_steps = 12
    !> Guard: Jacobian at the centre over b_0^2 below which a shape is rejected and the iteration fails. An ellipse of
    !> 100 to 1 has 0.04, longer ones are not solved for. Only spots far past merging, which would fold, come that low
@@ -40,16 +43,17 @@ module wavycon_gauss_newton
 
 contains
 
-   !> Steps until what the next ones would change of the shape is within a tolerance, or until there have been too many.
+   !> Iterates until the estimated error of the shape is within a tolerance, or to the limit of steps.
    !>
-   !> A step leaves about its own change times the contraction, the ratio of the changes of two successive steps. After
-   !> a first step the contraction is that of the last degree. It is at least what quadratic convergence has.
+   !> The error that a step leaves is about its own change times the contraction, which is the ratio of the changes of
+   !> two successive steps. After the first step the contraction is that of the last degree. The contraction is taken as
+   !> at least that of quadratic convergence.
    subroutine solve(self, equations, lattice, now, tolerance)
       class(newton_steps), intent(inout) :: self
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(inout) :: now
-      real(dp), intent(in) :: tolerance                    !! of what remains, relative to the shape's size, > 0
+      type(expansion), intent(inout) :: now                !! on entry an approximation, on exit the last iterate
+      real(dp), intent(in) :: tolerance                    !! largest allowed relative error of the shape, > 0
 
       real(dp) :: change_before
       integer :: i
@@ -69,15 +73,14 @@ contains
       end do
    end subroutine solve
 
-   !> One step, README.md (F40): minimises || residual - matrix*step ||_2, for a spot subject to load_row*step = missing
-   !> load; with adhesion subject to the area, (F69).
-   !>
-   !> The step is shortened to a change of the shape of `longest_shape_change`.
+   !> Takes one step, README.md (F40): minimise || residual - matrix*step ||_2. For a spot the step is subject to
+   !> load_row*step = missing load, with adhesion to the missing area, (F69). A step whose relative change of the shape
+   !> is larger than `longest_shape_change` is shortened to this change.
    subroutine step(self, equations, lattice, now)
       class(newton_steps), intent(inout) :: self
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(inout) :: now                !! as before if the step is not finite
+      type(expansion), intent(inout) :: now                !! the iterate; unchanged if the step is not finite
 
       real(dp) :: missing, whole(equations%unknowns)
       logical :: finite
@@ -87,7 +90,7 @@ contains
       self%misfit = huge(1.0_dp)
       self%change = huge(1.0_dp)
       self%valid = .false.
-      ! LAPACK may loop for ever on NaN or infinity.
+      ! LAPACK may not terminate if there is NaN or infinity.
       if (.not. (all(ieee_is_finite(equations%residual)) .and. all(ieee_is_finite(equations%matrix)))) return
       self%residual = maxval(abs(equations%residual))
       if (now%work > 0.0_dp) then
@@ -103,20 +106,19 @@ contains
          .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine step
 
-   !> The first and second derivatives of the unknowns with respect to the load, at a solution: (I7a), (I7b) of
-   !> src/beyond/README.md.
+   !> The first and second derivatives of the unknowns by the load, at a solution: (I7a), (I7b) of src/beyond/README.md.
    subroutine changes_with_load(equations, lattice, now, change, change_of_change, load_change, finite)
       type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now                   !! the solution, without adhesion
-      real(dp), intent(out) :: change(:), change_of_change(:)   !! per P and P^2, shape (unknowns)
-      real(dp), intent(out) :: load_change(2)   !! of the integral of p or g, per P and P^2
-      logical, intent(out) :: finite            !! otherwise the changes are of no use
+      real(dp), intent(out) :: change(:), change_of_change(:)   !! x' and x'', shape (unknowns)
+      real(dp), intent(out) :: load_change(2)   !! first and second derivative of the integral of p or g
+      logical, intent(out) :: finite            !! whether the derivatives are finite; if not they are of no use
 
-      !> Step of P over its distance from 0 and from the closing pressure: the differences' error of fourth order and
-      !> the rounding are some 1e-11.
+      !> Step of P for finite differences, over the smaller of P and the closing pressure less P. The error of the
+      !> differences, which is of fourth order, and their rounding are about 1e-11.
       real(dp), parameter :: part = 1e-3_dp
-      !> Weights of the solutions at one and two steps.
+      !> Weights in the finite difference of the solutions one step and two steps away.
       real(dp), parameter :: weight(2) = [2.0_dp/3, -1.0_dp/12]
       real(dp) :: load_row(size(change)), matrix(size(equations%matrix, 1), size(equations%matrix, 2)), misfit, &
          right(size(equations%residual)), row_change, step
@@ -150,7 +152,7 @@ contains
 
    contains
 
-      !> Linearises at the solution, or at the one that a change of the load by some steps makes of it.
+      !> Linearises the equations at the solution, or at the solution moved along x' by some steps of the load.
       subroutine linearise_at(steps)
          integer, intent(in) :: steps
 
@@ -163,20 +165,20 @@ contains
 
    end subroutine changes_with_load
 
-   !> The derivatives of the unknowns with respect to the area of an adhesive spot or pool, README.md (F70), by the
-   !> matrix of the step to the solution.
+   !> The derivatives of the unknowns by the area of an adhesive spot or pool, README.md (F70), from the matrix of the
+   !> last step.
    subroutine change_with_area(equations, now, change)
-      type(contact_equations), intent(in) :: equations     !! as the step left them
+      type(contact_equations), intent(in) :: equations     !! as the last step left them
       type(expansion), intent(in) :: now                   !! the solution, with adhesion
       real(dp), intent(out) :: change(:)                   !! shape (unknowns)
 
-      logical :: finite   ! the step was
+      logical :: finite   ! not used: the last step was finite
       real(dp) :: misfit
 
       call least_squares_step(equations, now, 0*equations%residual, 1.0_dp, change, misfit, finite)
    end subroutine change_with_area
 
-   !> Adds a step to coefficients, approach or load, and shape.
+   !> Adds a step to the unknowns of an expansion: coefficients, approach or load, and shape.
    pure subroutine add_step(now, step)
       type(expansion), intent(inout) :: now
       real(dp), intent(in) :: step(:)                      !! shape (unknowns of its equations)
@@ -189,21 +191,22 @@ contains
       end associate
    end subroutine add_step
 
-   !> Solves the linear least-squares problem by LAPACK.
+   !> Solves the linear least-squares problem of a step, with the constraint of load or area, by LAPACK's DGGLSE.
    subroutine least_squares_step(equations, now, right_sides, missing, step, misfit, finite)
       type(contact_equations), intent(in) :: equations
       type(expansion), intent(in) :: now
-      real(dp), intent(in) :: right_sides(:)     !! what the step must add to the left sides, shape of the residual
+      real(dp), intent(in) :: right_sides(:)     !! changes of the left sides that the step shall make, shape (m + e)
       real(dp), intent(in) :: missing
-         !! what the step must add: to the load of a spot, times the cell's area, or to the area with adhesion
+         !! the constraint's right side: change of a spot's load times the cell's area, or, with adhesion, of the area
       real(dp), intent(out) :: step(:)           !! shape (unknowns)
       real(dp), intent(out) :: misfit
-         !! root of the sum of squares that the step leaves, over the equations beyond the unknowns [Delta, p*]
-      logical, intent(out) :: finite             !! whether there is a solution; otherwise the step is of no use
+         !! root of the sum of squared residuals that the step leaves, over the number of equations in excess of
+         !! unknowns
+      logical, intent(out) :: finite             !! whether there is a finite solution; if not the step is of no use
 
-      !> Columns that LAPACK treats at once; as many times the sizes is enough work space.
+      !> Number of columns that LAPACK treats together. This number times the sizes is enough work space.
       integer, parameter :: block = 64
-      ! LAPACK overwrites these.
+      ! Copies of the arguments that LAPACK overwrites.
       real(dp) :: constraint(1, size(step)), left(size(right_sides)), right(1)
       real(dp), allocatable :: matrix(:, :)
       real(dp) :: work(block*(size(left) + size(step) + 1))
@@ -221,7 +224,7 @@ contains
       left = right_sides
       allocate (matrix, source=equations%matrix)
       call dgglse(m, n, equations%constraints, matrix, m, constraint, 1, left, right, step, work, size(work), info)
-      ! LAPACK leaves the components that no step can remove at the end of the right side.
+      ! The last components of the right side, as LAPACK returns it, are those that no step can remove.
       misfit = norm2(left(m - beyond + 1:))/sqrt(real(beyond, dp))
       finite = info == 0
       if (finite) finite = maxval(abs(step)) < huge(1.0_dp)

@@ -1,5 +1,5 @@
-!> Gauss quadrature with the weights of Jacobi's polynomials, and over the disc for functions with the symmetry of a
-!> contact, by points in one half sector.
+!> Gauss quadrature with the weights of Jacobi's polynomials, and quadrature over the disc of functions with the
+!> symmetry of a contact, which needs points in one half sector only.
 module wavycon_gauss_rules
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_size_t
@@ -12,20 +12,21 @@ module wavycon_gauss_rules
 
    public :: disc_rule, gauss_jacobi, start_disc_rule
 
-   !> The sum of weight f(point) is the integral over the disc of (1 - |w|^2)^power f, for f with the symmetry.
+   !> For a function f with the symmetry the sum of weight f(point) is the integral over the disc of (1 - |w|^2)^power
+   !> f.
    type :: disc_rule
-      complex(dp), allocatable :: point(:)   !! in the sector 0 < arg w < pi/fold, shape (n)
-      real(dp), allocatable :: weight(:)     !! > 0, shape (n)
+      complex(dp), allocatable :: point(:)   !! points of the sector 0 < arg w < pi/fold, shape (n)
+      real(dp), allocatable :: weight(:)     !! their weights > 0, shape (n)
    end type disc_rule
 
 contains
 
-   !> Nodes and weights for the weight (1 - x)^right_power (1 + x)^left_power on -1 <= x <= 1, by GSL.
+   !> Nodes and weights of the Gauss rule for the weight (1 - x)^right_power (1 + x)^left_power on -1 <= x <= 1, by GSL.
    !>
-   !> Without such a rule, or without memory for it, both are NaN. The solver then finds no finite step.
+   !> If GSL has no such rule or no memory for it, both are NaN. The solver then finds no finite step.
    subroutine gauss_jacobi(right_power, left_power, nodes, weights)
       real(dp), intent(in) :: right_power, left_power        !! > -1
-      real(dp), intent(out) :: nodes(:), weights(:)          !! shape (n), n >= 1
+      real(dp), intent(out) :: nodes(:), weights(:)          !! shape (n); n >= 1 is the number of points
 
       type(c_ptr) :: workspace
       real(dp), pointer :: values(:)
@@ -45,14 +46,14 @@ contains
       call gsl_integration_fixed_free(workspace)
    end subroutine gauss_jacobi
 
-   !> Gauss's rule in |w|^2, the midpoint rule in the angle: exact for products of disc polynomials whose degrees sum
-   !> to no more than 4 radii - 2 and to less than 2 fold angles.
+   !> Makes a rule over the disc: the Gauss rule in |w|^2 and the midpoint rule in the angle. The rule is exact for
+   !> products of disc polynomials if the sum of their degrees is at most 4 radii - 2 and less than 2 fold angles.
    subroutine start_disc_rule(rule, power, fold, radii, angles)
       type(disc_rule), intent(out) :: rule
-      real(dp), intent(in) :: power   !! of the weight, > -1
-      integer, intent(in) :: fold     !! of the symmetry, >= 1
-      integer, intent(in) :: radii    !! >= 1
-      integer, intent(in) :: angles   !! in the half sector, >= 1
+      real(dp), intent(in) :: power   !! power of 1 - |w|^2 in the weight, > -1
+      integer, intent(in) :: fold     !! order of the rotational symmetry, >= 1
+      integer, intent(in) :: radii    !! number of points on a radius, >= 1
+      integer, intent(in) :: angles   !! number of angles in the half sector, >= 1
 
       real(dp) :: node(radii), weight(radii), phi
       integer :: i, j, k
@@ -65,7 +66,7 @@ contains
          do i = 1, radii
             k = k + 1
             rule%point(k) = sqrt(0.5_dp*(1.0_dp + node(i)))*cmplx(cos(phi), sin(phi), dp)
-            ! rho d rho = d(rho^2)/2, and the weight of GSL is for an interval of length 2.
+            ! With rho = |w|: rho d rho = d(rho^2)/2, and the weights of GSL are for an interval of the length 2.
             rule%weight(k) = pi/angles*weight(i)*0.5_dp**(power + 1)
          end do
       end do

@@ -1,14 +1,15 @@
-!> What all other spots or pools of the lattice, and the mean, add to the equations of one of them: README.md,
-!> section 7.
+!> The terms of the images in the equations of one spot or pool: those of all other spots or pools of the lattice, and
+!> of the mean: README.md, section 7.
 !>
-!> It is a sum over the points of a rule of F(z_t, z_s), the mean of the kernel over all copies of a source under the
-!> symmetry. Where it pays and is as accurate, F less the lattice points near by is a double series of polynomials on
-!> the disc, which is made once for a size of the shape: for |z_t|, |z_s| <= R_0
+!> They are sums over the points of a rule of F(z_t, z_s), the mean of the kernel for the target z_t over all copies of
+!> the source z_s by symmetry. If this saves time and is accurate enough, F less the terms of the lattice points near by
+!> is replaced by a double series of polynomials on a disc. The series is made once for a size of the shape: for |z_t|,
+!> |z_s| <= R_0
 !>
 !>     F(z_t, z_s) = sum over a, b of Psi_a(z_t/R_0) B_ab Psi_b(z_s/R_0),   README.md (F35),
 !>
-!> Psi the disc polynomials of the weight 1. Otherwise F is evaluated for all targets and sources. A cell with two pools
-!> has them too near to each other for the series.
+!> with the disc polynomials Psi of the weight 1. Otherwise F is evaluated for all pairs of targets and sources. If a
+!> cell has two pools, they are too near to each other for the series.
 module wavycon_lattice_images
    use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
@@ -26,30 +27,31 @@ module wavycon_lattice_images
    public :: lattice_images
 
    type :: lattice_images
-      real(dp) :: tolerance = 0.0_dp               !! relative error that the series leaves; 0 without one
-      real(dp), private :: radius = 0.0_dp         !! R_0, at least that of a shape that it holds for [s]; 0 without one
-      type(periodic_kernel), private :: near       !! lattice points left out of the series
-      type(disc_polynomials), private :: basis
-      real(dp), allocatable, private :: coefficient(:, :)   !! B [1/s], of the Laplacian [1/s^3], shape (N, N)
+      real(dp) :: tolerance = 0.0_dp               !! relative error of the series; 0 if there is none
+      real(dp), private :: radius = 0.0_dp         !! R_0, the largest radius of a shape [s]; 0 if there is no series
+      type(periodic_kernel), private :: near       !! terms of the lattice points that are left out of the series
+      type(disc_polynomials), private :: basis     !! the polynomials Psi
+      real(dp), allocatable, private :: coefficient(:, :)   !! B [1/s], for the Laplacian [1/s^3], shape (N, N)
    contains
       procedure :: prepare
       procedure :: add_rows
    end type lattice_images
 
-   !> Rounding leaves some 1e-13 of the largest value near the discs' edges.
+   !> Least tolerance of a series. Rounding causes errors of about 1e-13 of the largest value near the edge of the disc.
    real(dp), parameter :: least_tolerance = 5e-13_dp
 
 contains
 
-   !> Makes the series of one regime for a shape, unless the one at hand holds for it.
+   !> Makes the series for a shape. Nothing is done if the present series holds for the shape. There is no series if it
+   !> would not save time or not be accurate enough.
    subroutine prepare(self, lattice, now, growth, tolerance)
       class(lattice_images), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
-      real(dp), intent(in) :: growth        !! >= 1, of the shape that the series is to hold for
+      real(dp), intent(in) :: growth        !! the series shall hold up to this multiple of the shape's size, >= 1
       real(dp), intent(in) :: tolerance
-         !! > 0, error of F relative to its largest value; the error of the Laplacian, whose weight in the equations is
-         !! some hundredths, may be 20 times as large
+         !! error of F relative to its largest value, > 0; that of the Laplacian, whose weight in the equations is a few
+         !! hundredths, may be 20 times as large
 
       complex(dp), allocatable :: point(:)
       real(dp) :: clearance, digits, distance, radius
@@ -61,13 +63,14 @@ contains
       self%tolerance = 0.0_dp
       radius = growth*radius
       clearance = series_clearance*radius
-      ! A shape that is about to fold may have any size: the number of points is estimated before they are listed.
+      ! The number of points is estimated before they are listed, because a shape that is about to fold may have any
+      ! size.
       if (tolerance < least_tolerance .or. .not. pi*clearance**2 <= 2*most_near_points*lattice%rows%spacing) return
-      ! Points of a row are 1 apart: the next one is among these.
+      ! The distance of points in a row is 1. So the nearest point beyond the clearance is in this list.
       point = lattice%rows%points_about(clearance + 1.0_dp, (0.0_dp, 0.0_dp))
-      ! README.md (F36). With the source on the edge, at its point nearest to the nearest lattice point of F, terms that
-      ! vary with the angle fall as powers of that point's distance from the target's centre, round ones as in
-      ! Chebyshev's series.
+      ! README.md (F36). In the worst case the source is on the edge, at the point closest to the nearest lattice point
+      ! of F. Then terms that vary with the angle fall as powers of this lattice point's distance from the source, and
+      ! axisymmetric terms as in a Chebyshev series.
       distance = minval(abs(point), abs(point) >= clearance)/radius - 1.0_dp
       digits = -log(tolerance)
       associate (fold => now%basis%fold)
@@ -85,10 +88,10 @@ contains
       end associate
    end subroutine prepare
 
-   !> B from F at all pairs of a rule's points, by the orthonormality of the basis.
+   !> Computes B from the values of F at all pairs of a rule's points, by the orthonormality of the basis.
    subroutine find_coefficients(self, kernel)
       class(lattice_images), intent(inout) :: self
-      type(periodic_kernel), intent(in) :: kernel
+      type(periodic_kernel), intent(in) :: kernel   !! the whole kernel, with the lattice points near by
 
       type(disc_rule) :: rule
       complex(dp), allocatable :: source(:, :), z(:)
@@ -101,7 +104,7 @@ contains
          source = reshape(copies(fold, self%radius*rule%point), [n, 2*fold])
          allocate (near(2*fold*n), nodes(n, n), part(n, terms), value(2*fold*n), values(n, terms))
          do j = 1, n
-            ! F is symmetric in target and source: only the sources from the target on are needed.
+            ! F is symmetric in target and source. So only the sources j .. n are computed for the target j.
             z = reshape(self%radius*rule%point(j) - source(j:, :), [2*fold*(n - j + 1)])
             k = size(z)
             call kernel%evaluate(k, z%re, z%im, value)
@@ -117,25 +120,26 @@ contains
       end associate
    end subroutine find_coefficients
 
-   !> Adds the integrals of the terms of an expansion over all images for several targets, and the derivatives of their
-   !> sum with respect to the shape; and sets the same of the load, the integral without a kernel.
+   !> Adds, for several targets, the integrals over all images of each term of an expansion, and the derivatives of the
+   !> integral of their sum by the shape. Also sets the integrals without a kernel, and their derivatives: those of the
+   !> load.
    !>
-   !> N.B. The derivatives are at fixed w_t: the targets move with the shape.
+   !> N.B. The derivatives are at fixed w_t: the targets z(w_t) move with the shape.
    subroutine add_rows(self, lattice, now, rule, values, target, rows, shape_rows, load_row, load_slope)
       class(lattice_images), intent(in) :: self
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: now
-      type(disc_rule), intent(in) :: rule              !! with the weight of the expansion
-      real(dp), intent(in) :: values(:, :)             !! of the basis at the rule's points, shape (n, N)
+      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the expansion
+      real(dp), intent(in) :: values(:, :)             !! the basis at the rule's points, shape (n, N)
       complex(dp), intent(in) :: target(:)             !! w_t, |w_t| <= 1, shape (m)
       real(dp), intent(inout) :: rows(:, :)            !! integrals, shape (m, N)
       real(dp), intent(inout) :: shape_rows(:, 0:)     !! d(integral of the sum)/d b_k, shape (m, 0:K)
       real(dp), intent(out) :: load_row(:)             !! integrals of the terms over the spot or pool, shape (N)
       real(dp), intent(out) :: load_slope(0:)          !! d(integral of their sum)/d b_k, shape (0:K)
 
-      !> F for all sources and targets, and its gradient with respect to the source's place.
+      !> F for all sources and targets, and its gradient by the source's position.
       real(dp), dimension(size(rule%point), size(target)) :: f, gradient_x, gradient_y
-      !> Gradient of the sum over all sources with respect to the target's place.
+      !> Gradient of the sum over all sources by the target's position.
       complex(dp) :: target_gradient(size(target))
       complex(dp) :: place(size(target)), place_slope(0:ubound(now%shape%b, 1)), source(size(rule%point))
       real(dp), dimension(size(rule%point), 0:ubound(now%shape%b, 1)) :: moment_x, moment_y, strength_slope
@@ -163,7 +167,8 @@ contains
          call add_kernel(lattice%kernel(merge(2, 1, now%pool)), 1, (0.0_dp, 0.0_dp))
       end if
       if (now%pool .and. lattice%troughs == 2) then
-         ! None of the second pools, which are turned by half a turn, is the target's own.
+         ! The second pools, which are rotated by half a turn. None of them is the target's own, so that the whole
+         ! kernel is taken, with the origin's term.
          whole = lattice%kernel(2)
          whole%whole = .true.
          call add_kernel(whole, -1, 2*lattice%trough)
@@ -183,8 +188,8 @@ contains
       !> Adds the mean of a kernel over the copies of each source.
       subroutine add_kernel(kernel, direction, to_centre)
          type(periodic_kernel), intent(in) :: kernel
-         integer, intent(in) :: direction          !! 1, or -1 if the sources are turned by half a turn
-         complex(dp), intent(in) :: to_centre      !! place of the targets' centre as seen from the sources' [s]
+         integer, intent(in) :: direction          !! 1, or -1 if the sources are rotated by half a turn
+         complex(dp), intent(in) :: to_centre      !! the targets' centre less the sources' centre [s]
 
          complex(dp) :: all(2*now%shape%fold*n), turn, z(2*now%shape%fold*n)
          real(dp), dimension(size(all)) :: slope_x, slope_y, value
@@ -199,7 +204,8 @@ contains
                total_x = 0.0_dp
                total_y = 0.0_dp
                do copy = 0, 2*now%shape%fold - 1
-                  ! A copy moves as its source does, turned and mirrored: its gradient is turned and mirrored back.
+                  ! A copy moves as its source does, but rotated and mirrored. So its gradient is rotated and mirrored
+                  ! back.
                   turn = -direction*mean*exp(cmplx(0.0_dp, -2*pi*(copy/2)/now%shape%fold, dp))
                   mirror = 1 - 2*mod(copy, 2)
                   associate (first => copy*n + 1, last => (copy + 1)*n)
@@ -218,7 +224,7 @@ contains
          end associate
       end subroutine add_kernel
 
-      !> Adds the series.
+      !> Adds F and its gradients by the series.
       subroutine add_series()
          real(dp), dimension(m, self%basis%terms) :: at_target, target_x, target_y
          real(dp), dimension(n, self%basis%terms) :: at_source, source_x, source_y

@@ -1,5 +1,6 @@
-!> A solution of low degree at a load, by continuation from a load for which there is an approximation: the asymptotes
-!> of light load and of nearly full contact.
+!> Finds an approximation of low degree at a load or, with adhesion, at an area. It is found by continuation from
+!> another solution, or from a load or area at which an asymptote is accurate: that of light load or of nearly full
+!> contact.
 module wavycon_load_continuation
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
@@ -18,28 +19,28 @@ module wavycon_load_continuation
 
    public :: asymptote, is_start, start_at_area, start_at_load
 
-   !> Relative change of the shape at which Newton's method stops during continuation: the next load makes smaller ones
-   !> useless.
+   !> Relative change of the shape at which Newton's method stops during continuation. A smaller one would be of no use,
+   !> as the next load changes the shape by more.
    real(dp), parameter :: start_shape_change = 1e-2_dp
-   !> Area fraction up to which a spot or pool with adhesion starts from an asymptote.
+   !> Largest area fraction at which a spot or pool with adhesion starts from an asymptote.
    real(dp), parameter :: small_area = 0.03_dp
 
 contains
 
-   !> An approximation at a load, and the degree to go on with.
+   !> Finds an approximation at a load, and the degree with which to continue.
    !>
-   !> A solution of a load that is within one step is scaled to the load. Otherwise an asymptote is followed in steps
-   !> of the load to the one wanted: Hertz's for a spot, a penny-shaped crack for a pool. Where it touches its
-   !> neighbours on the way, the regime has ended.
+   !> A solution of another load that is within one step is scaled to this load. Otherwise the continuation starts from
+   !> an asymptote, Hertz's contact for a spot and a penny-shaped crack for a pool, and goes on in steps of the load. If
+   !> the shape touches its neighbours on the way, there is no separate spot or pool at this load.
    subroutine start_at_load(lattice, load, pool, now, degree, iterations, found, merged, start)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load                    !! P
-      logical, intent(in) :: pool                   !! the regime
-      type(expansion), intent(out) :: now
-      integer, intent(out) :: degree
-      integer, intent(inout) :: iterations            !! Gauss-Newton steps are added
-      logical, intent(out) :: found
-      logical, intent(out) :: merged                  !! whether there is no start because the regime has ended
+      real(dp), intent(in) :: load                    !! mean pressure P
+      logical, intent(in) :: pool                     !! true: for a pool; false: for a spot
+      type(expansion), intent(out) :: now             !! the approximation
+      integer, intent(out) :: degree                  !! degree of the first solution
+      integer, intent(inout) :: iterations            !! the number of Gauss-Newton steps is added
+      logical, intent(out) :: found                   !! whether there is an approximation
+      logical, intent(out) :: merged                  !! whether there is none because the shape touches its neighbours
       type(fitted_answer), intent(in), optional :: start   !! a solution of another load
 
       type(contact_equations) :: equations
@@ -53,12 +54,13 @@ contains
          found = is_start(lattice, start, load, pool)
          if (found) then
             now = scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)
-            ! Degrees below the last load's, or a sweep would never come down to lower ones again.
+            ! The first degree is below that of the last load. Otherwise a series of loads would never come back to low
+            ! degrees.
             degree = max(first_degree, nint(start%value(polynomial_degree)) - 3*degree_step)
             return
          end if
       end if
-      ! From heavier loads on a spot Newton's method would start too far off.
+      ! At heavier loads the asymptote of a spot is too far from the solution for Newton's method.
       at = min(load, 0.06_dp)
       if (pool) at = max(load, heavy_load_start*lattice%closing_pressure)
       now = asymptote(lattice, at, pool)
@@ -69,7 +71,7 @@ contains
          call newton%solve(equations, lattice, now, change_per_square*start_shape_change**2)
          found = newton%valid
          if (.not. found) exit
-         ! The start of a load that was solved has come to a ratio of 0.92 at most, of many next to merging.
+         ! In many loads next to merging that were solved the merging ratio of the start was 0.92 at most.
          merged = merging_ratio(lattice, now) >= 1.0_dp
          found = .not. merged
          steps = load_steps(lattice, at, load, pool)
@@ -85,20 +87,20 @@ contains
       iterations = iterations + newton%iterations
    end subroutine start_at_load
 
-   !> An approximation at an area with adhesion, and the degree to go on with.
+   !> Finds an approximation at an area with adhesion, and the degree with which to continue.
    !>
-   !> A solution of an area that is within one step is carried on along its derivatives. Otherwise the asymptotes of
-   !> small spots or pools are followed in steps of the area.
+   !> A solution of another area that is within one step is extrapolated by its derivatives. Otherwise the continuation
+   !> starts from the asymptote of a small spot or pool and goes on in steps of the area.
    subroutine start_at_area(lattice, pool, work, area, now, degree, iterations, found, start)
       type(wave_lattice), intent(in) :: lattice
-      logical, intent(in) :: pool                     !! the regime
-      real(dp), intent(in) :: work                    !! W > 0
-      real(dp), intent(in) :: area                    !! of the spot or pool [s^2]
-      type(expansion), intent(out) :: now
-      integer, intent(out) :: degree
-      integer, intent(inout) :: iterations            !! Gauss-Newton steps are added
-      logical, intent(out) :: found
-      type(fitted_answer), intent(in), optional :: start   !! a solution of the same lattice and work
+      logical, intent(in) :: pool                     !! true: for a pool; false: for a spot
+      real(dp), intent(in) :: work                    !! work of adhesion W > 0 [pi E* Delta^2/s]
+      real(dp), intent(in) :: area                    !! area of the spot or pool [s^2]
+      type(expansion), intent(out) :: now             !! the approximation
+      integer, intent(out) :: degree                  !! degree of the first solution
+      integer, intent(inout) :: iterations            !! the number of Gauss-Newton steps is added
+      logical, intent(out) :: found                   !! whether there is an approximation
+      type(fitted_answer), intent(in), optional :: start   !! a solution of another area, of the same lattice and work
 
       type(contact_equations) :: equations
       type(newton_steps) :: newton
@@ -131,10 +133,10 @@ contains
       iterations = iterations + newton%iterations
    end subroutine start_at_area
 
-   !> A spot or pool with adhesion at another area, with the same pressures and gaps.
+   !> A spot or pool with adhesion, scaled to another area without a change of pressures and gaps.
    pure function scaled_to_area(from, area) result(scaled)
       type(expansion), intent(in) :: from
-      real(dp), intent(in) :: area      !! [s^2]
+      real(dp), intent(in) :: area      !! the other area [s^2]
       type(expansion) :: scaled
 
       scaled = from
@@ -142,13 +144,13 @@ contains
       scaled%area = area
    end function scaled_to_area
 
-   !> Whether a solution of another load is a start: in the same regime, within one step, and still apart from its
-   !> neighbours when it is scaled to the load.
+   !> Whether a solution of another load can be the start for a load: it is a spot or pool as asked for, its load is
+   !> within one step, and its shape does not touch the neighbours when it is scaled to the load.
    logical function is_start(lattice, start, load, pool)
       type(wave_lattice), intent(in) :: lattice
-      type(fitted_answer), intent(in) :: start
-      real(dp), intent(in) :: load                    !! P
-      logical, intent(in) :: pool                   !! the regime
+      type(fitted_answer), intent(in) :: start        !! the solution of another load
+      real(dp), intent(in) :: load                    !! mean pressure P
+      logical, intent(in) :: pool                     !! true: for a pool; false: for a spot
 
       is_start = start%status <= fitted_less_exact .and. (start%pool .eqv. pool)
       if (is_start) is_start = load_steps(lattice, start%pbar_over_pstar, load, pool) <= 1
@@ -156,11 +158,12 @@ contains
          merging_ratio(lattice, scaled_to_load(lattice, start%solution, start%pbar_over_pstar, load)) < 1.0_dp
    end function is_start
 
-   !> Number of steps from one load to the other: of the ratio of P or, for pools, of the closing pressure less P.
+   !> The number of steps from one load to another. A step multiplies P, or for pools the closing pressure less P, by at
+   !> most `load_step_ratio`.
    pure integer function load_steps(lattice, from, to, pool) result(steps)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: from, to      !! P
-      logical, intent(in) :: pool
+      real(dp), intent(in) :: from, to      !! mean pressures P
+      logical, intent(in) :: pool           !! true: for a pool; false: for a spot
 
       real(dp) :: ratio
 
@@ -169,14 +172,16 @@ contains
       steps = ceiling(abs(log(ratio))/log(load_step_ratio))
    end function load_steps
 
-   !> An expansion of low degree over a circle or, with two-fold symmetry, an ellipse: a Hertzian spot at a crest,
-   !> README.md (F41) and (23) of the paper, or the opening of a penny-shaped crack at a trough, (F42) and (24),
-   !> (A4)-(A8) of the paper; elliptical where the curvatures of the crest, or of the full contact's pressure, differ.
-   !> With adhesion at a given area: (F71), (F72).
+   !> The asymptote of small spots or pools, as an expansion of low degree over a circle.
+   !>
+   !> A spot is a Hertzian contact at a crest: README.md (F41) and (23) of the paper. A pool is the opening of a
+   !> penny-shaped crack at a trough: (F42), and (24), (A4)-(A8) of the paper. With adhesion at a given area they are
+   !> those of (F71), (F72). With two-fold symmetry, where the two curvatures of the crest or of the pressure in full
+   !> contact differ, the circle is an ellipse.
    function asymptote(lattice, load, pool, work, area) result(now)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: load   !! P > 0, of a crack less than the closing pressure; without adhesion
-      logical, intent(in) :: pool
+      real(dp), intent(in) :: load   !! P > 0, for a pool < closing pressure; not used with adhesion
+      logical, intent(in) :: pool    !! true: a pool; false: a spot
       real(dp), intent(in), optional :: work, area   !! with adhesion: W > 0, and the area of the spot or pool [s^2]
       type(expansion) :: now
 
@@ -189,11 +194,11 @@ contains
       missing = lattice%closing_pressure - load
       if (pool) then
          radius = sqrt(3*missing/mean)
-         ! Exact for slender ellipses.
+         ! This ratio of the axes is exact for slender ellipses.
          ratio = sqrt(curvature(1)/curvature(2))
       else
          radius = (3*pi*load*lattice%area/(4*mean))**(1.0_dp/3)
-         ! About the exact relation, which has elliptic integrals.
+         ! An approximation of the exact relation, which has elliptic integrals.
          ratio = (curvature(1)/curvature(2))**0.6_dp
       end if
       if (present(area)) then
@@ -233,11 +238,12 @@ contains
       end if
    end function asymptote
 
-   !> An approximation at another load: lengths, pressures and gaps are scaled as in the asymptotes.
+   !> A spot or pool scaled to another load: lengths, pressures and gaps change with the load as those of the
+   !> asymptotes.
    function scaled_to_load(lattice, from, old_load, new_load) result(scaled)
       type(wave_lattice), intent(in) :: lattice
       type(expansion), intent(in) :: from
-      real(dp), intent(in) :: old_load, new_load  !! P
+      real(dp), intent(in) :: old_load, new_load  !! mean pressures P
       type(expansion) :: scaled
 
       real(dp) :: factor

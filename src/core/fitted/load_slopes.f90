@@ -1,4 +1,4 @@
-!> How an expansion changes with the load: the derivatives of mean gap and contact area. Equations (I..) are those of
+!> The derivatives of mean gap and contact area by the load, from an expansion. Equations (I..) are those of
 !> src/beyond/README.md.
 module wavycon_load_slopes
    use wavycon_constants, only: pi
@@ -16,23 +16,24 @@ module wavycon_load_slopes
 
    public :: find_load_slopes
 
-   !> Numbers in an array of slopes: G', A' of the contact area fraction, G''.
+   !> The derivatives in an array of slopes: G', A' of the contact area fraction, G''.
    integer, parameter :: number_of_slopes = 3
-   !> Points of half a sector of the edge, beyond the degree: the integrals along it converge exponentially.
+   !> Number of points on half a sector of the edge: a constant plus a multiple of the degree. The integrals along the
+   !> edge converge exponentially.
    integer, parameter :: least_edge_points = 32, edge_points_per_degree = 4
 
 contains
 
-   !> The derivatives of a solution, with errors estimated from those of the lower degrees.
+   !> The derivatives of a solution by the load, with errors estimated from the derivatives of lower degrees.
    subroutine find_load_slopes(lattice, answer, slopes, errors, found)
-      type(wave_lattice), intent(in) :: lattice    !! the answer's
-      type(fitted_answer), intent(in) :: answer    !! with a solution, status <= fitted_less_exact
+      type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
+      type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
       real(dp), intent(out) :: slopes(number_of_slopes)
-         !! G', A', G'' [Delta, 1, Delta over the pressure, for G'' its square; pressures in pi E* Delta/s]
+         !! G', A', G'' [Delta/q, 1/q, Delta/q^2 with the unit of pressure q = pi E* Delta/s]
       real(dp), intent(out) :: errors(number_of_slopes)   !! estimates of their errors
-      logical, intent(out) :: found                       !! otherwise the equations have no finite solution
+      logical, intent(out) :: found                       !! false if the equations have no finite solution
 
-      !> Relative error of the differences of Newton's matrix.
+      !> Relative error of G'' by the finite differences of Newton's matrix.
       real(dp), parameter :: of_differences = 1e-10_dp
       real(dp) :: at(number_of_slopes, 0:size(answer%previous))
       logical :: found_too
@@ -49,12 +50,12 @@ contains
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 
-   !> The derivatives of one expansion: (I4) to (I7b).
+   !> The derivatives of one expansion by the load: (I4) to (I7b).
    subroutine slopes_of(lattice, now, slopes, found)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
-      real(dp), intent(out) :: slopes(number_of_slopes)
-      logical, intent(out) :: found
+      type(expansion), intent(in) :: now                   !! the expansion, a solution without adhesion
+      real(dp), intent(out) :: slopes(number_of_slopes)    !! as of find_load_slopes
+      logical, intent(out) :: found                        !! as of find_load_slopes
 
       type(contact_equations) :: equations
       complex(dp) :: w

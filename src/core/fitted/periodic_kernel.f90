@@ -1,18 +1,18 @@
 !> Green's functions of the half-space under loads on all points of a lattice.
 !>
-!> Two kernels are in use, as their sums over the lattice point n show:
+!> There are two kernels, sums over the lattice points n:
 !>
 !>     Gp(x) = sum over n of 1/|x - n|, less its mean: the displacement by unit loads;
 !>     Laplacian of Gp = sum over n of 1/|x - n|^3, which turns a gap into a pressure: README.md (F11).
 !>
-!> Either is 1/r^power about the origin plus a smooth part. On the rectangle about the origin that is the cell of the
-!> lattice's rows the smooth part, less 1/r^power of the lattice points near by, is a polynomial in x^2 and y^2 to
-!> rounding, README.md (F22). It is fitted once to Ewald's sum (F20). The Laplacian has a fit of its own:
-!> differentiating the other one would amplify the rounding in its highest coefficients.
+!> Each kernel is 1/r^power around the origin plus a smooth part. On the rectangle around the origin that is a cell of
+!> the lattice, the smooth part less the terms 1/r^power of the lattice points near by is a polynomial in x^2 and y^2,
+!> with an error of rounding: README.md (F22). The polynomial is fitted once to Ewald's sum (F20). The Laplacian has a
+!> polynomial of its own, because differentiating that of Gp would amplify the rounding of its highest coefficients.
 !>
-!> Ewald's sum is exact to rounding anywhere, but slow. Gp has the Fourier coefficients 1/(A |k|), k /= 0, with A the
-!> area of a cell. It is split by the error function into a sum over lattice points n and one over wave vectors k of the
-!> reciprocal lattice, both of which fall off faster than any power:
+!> Ewald's sum has only rounding errors everywhere, but is slow. Gp has the Fourier coefficients 1/(A |k|), k /= 0, with
+!> the area A of a cell. The error function splits the sum into one over lattice points n and one over wave vectors k of
+!> the reciprocal lattice. The terms of both fall faster than any power:
 !>
 !>     Gp(x) = sum over n of erfc(e |x-n|)/|x-n|
 !>             + (1/A) [ sum over k /= 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = sqrt(pi/A).
@@ -28,28 +28,30 @@ module wavycon_periodic_kernel
 
    public :: ewald_sum, periodic_kernel, start_periodic_kernels
 
-   !> Power 1 is Gp, power 3 its Laplacian. Without a fit it is the sum over the points alone.
+   !> The smooth part of a kernel or, with `whole`, the whole kernel. If `fit` is not allocated, it is the sum over
+   !> `point` alone.
    type :: periodic_kernel
-      integer :: power = 1                         !! of 1/r: 1 or 3
-      type(row_lattice) :: rows
-      real(dp), allocatable :: point(:, :)         !! summed one by one, x and y, shape (2, m) [s]
-      type(chebyshev_table), allocatable :: fit    !! of the smooth part without them
-      logical :: whole = .false.                   !! with the origin's own term, for places on no lattice point
+      integer :: power = 1                         !! power of 1/r: 1 is Gp, 3 its Laplacian
+      type(row_lattice) :: rows                    !! the lattice
+      real(dp), allocatable :: point(:, :)         !! x, y of lattice points whose terms are summed, shape (2, m) [s]
+      type(chebyshev_table), allocatable :: fit    !! the smooth part without these terms, as a polynomial
+      logical :: whole = .false.                   !! whether the term of the origin is included
    contains
       procedure :: evaluate
       procedure, private :: add_points
    end type periodic_kernel
 
-   !> Of the fit in the square of either coordinate: the first term left out is below rounding.
+   !> Number of nodes of the fit in the square of either coordinate. The first term left out is below rounding.
    integer, parameter :: nodes = 13
-   !> Rounding of Ewald's sum, whose terms are of order ten, and of its Laplacian.
+   !> Rounding of Ewald's sum, whose terms are of the order of ten, and of its Laplacian.
    real(dp), parameter :: rounding(2) = [32, 320]*epsilon(1.0_dp)
-   !> Least square of a distance. The inverse powers of a place and of the same place reduced must be equal and finite.
+   !> Least square of a distance. It keeps inverse powers finite, and equal at a position and at the same position
+   !> reduced.
    real(dp), parameter :: least_square = 1e-100_dp
 
-   !> Terms beyond this argument of erfc are left out: erfc of it is 1e-19.
+   !> Terms whose argument of erfc is larger are left out: erfc(6.4) is 1e-19.
    real(dp), parameter :: cut_off = 6.4_dp
-   !> Terms of the power series used for x < 1: the first one left out is below rounding.
+   !> Number of terms of the power series for x < 1. The first one left out is below rounding.
    integer, parameter :: series_terms = 20
 
 contains
@@ -64,7 +66,7 @@ contains
       complex(dp), allocatable :: z(:)
       integer :: i, k
 
-      ! Fewer would take a fit of higher degree.
+      ! With fewer of these points the fit would need a higher degree.
       z = rows%points_about(0.75_dp + 0.6_dp*max(rows%spacing, 1.0_dp), (0.0_dp, 0.0_dp))
       z = pack(z, abs(z) > 0.0_dp)
       half = rows%half_sides()
@@ -86,12 +88,12 @@ contains
       end do
    end subroutine start_periodic_kernels
 
-   !> The smooth part, which is the kernel less the origin's own term 1/r^power; or the whole kernel. Its gradient as
-   !> well if that is given room.
+   !> The smooth part, which is the kernel less the origin's term 1/r^power, or the whole kernel, and the gradient if
+   !> the arguments are present.
    pure subroutine evaluate(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)                             !! [s]
+      real(dp), intent(in) :: x(n), y(n)                             !! positions anywhere in the plane [s]
       real(dp), intent(out) :: value(n)                              !! [s^-power]
       real(dp), intent(out), optional :: slope_x(n), slope_y(n)      !! both or none [s^-(power+1)]
 
@@ -113,8 +115,8 @@ contains
          end if
          call self%add_points(n, xr, yr, value, slope_x, slope_y)
          if (.not. (moved .or. self%whole)) return
-         ! The origin's term is taken out at the place itself, not at the reduced place; for most places they are the
-         ! same.
+         ! The origin's term is taken out at the position itself. At the reduced position, which `evaluate_even` takes,
+         ! it is put back. For most positions both are the same.
          do i = 1, n
             at_reduced = 1.0_dp/max(xr(i)**2 + yr(i)**2, least_square)
             at_place = merge(0.0_dp, 1.0_dp/max(x(i)**2 + y(i)**2, least_square), self%whole)
@@ -129,7 +131,7 @@ contains
       end associate
    end subroutine evaluate
 
-   !> Adds what the points do.
+   !> Adds the terms 1/r^power of the points, and their gradients.
    pure subroutine add_points(self, n, x, y, value, slope_x, slope_y)
       class(periodic_kernel), intent(in) :: self
       integer, intent(in) :: n
@@ -140,7 +142,7 @@ contains
       real(dp) :: inverse, inverse_square, of_cube, of_first
       integer :: i, k
 
-      ! 1/r or 1/r^3 as 1/r (of_first + of_cube/r^2): with a choice in them the loops would not be of vectors.
+      ! 1/r and 1/r^3 are written as 1/r (of_first + of_cube/r^2): compilers do not vectorise loops with a branch.
       of_first = merge(1.0_dp, 0.0_dp, self%power == 1)
       of_cube = 1.0_dp - of_first
       do k = 1, size(self%point, 2)
@@ -164,7 +166,7 @@ contains
       end do
    end subroutine add_points
 
-   !> 1/r or 1/r^3.
+   !> The power 1/r or 1/r^3 from 1/r^2.
    pure real(dp) function inverse_power(power, inverse_square)
       integer, intent(in) :: power
       real(dp), intent(in) :: inverse_square   !! 1/r^2
@@ -173,15 +175,15 @@ contains
       if (power == 3) inverse_power = inverse_power*inverse_square
    end function inverse_power
 
-   !> Gp - 1/r, README.md (F20), and its Laplacian less 1/r^3, which is the sum of 1/|x - n|^3 over all lattice points
-   !> but the origin.
+   !> Ewald's sum of Gp - 1/r, README.md (F20), and of its Laplacian less 1/r^3, which is the sum of 1/|x - n|^3 over
+   !> all lattice points except the origin.
    !>
    !> The wave vectors of the reciprocal lattice are the lattice points n, turned by a right angle, over A. So with
    !> e^2 = pi/A the factor erfc(pi |k|/e)/(A |k|) of a wave is erfc(e |n|)/|n|.
    pure subroutine ewald_sum(rows, n, x, y, value, laplacian)
       type(row_lattice), intent(in) :: rows
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)            !! in the rectangle about the origin [s]
+      real(dp), intent(in) :: x(n), y(n)            !! positions in the rectangle about the origin [s]
       real(dp), intent(out) :: value(n)             !! [1/s]
       real(dp), intent(out) :: laplacian(n)         !! [1/s^3]
 
@@ -192,7 +194,7 @@ contains
       e = sqrt(pi/rows%spacing)
       do i = 1, n
          r = e*hypot(x(i), y(i))
-         ! What remains of the origin's term erfc(r)/r when 1/r is taken out.
+         ! The constant of (F20), and the origin's term erfc(r)/r less 1/r.
          value(i) = -2*sqrt(pi)/(e*rows%spacing) - e*merge(erf(r)/max(r, tiny(r)), 2/sqrt(pi), r > 0.0_dp)
          laplacian(i) = e**3*origin_remainder_laplacian(r)
       end do
@@ -200,7 +202,7 @@ contains
       allocate (point, source=rows%points_about(farthest, (0.0_dp, 0.0_dp)))
       do k = 1, size(point)
          if (2*k == size(point) + 1) cycle
-         ! The terms erfc(e r)/r of the lattice points but the origin, and their Laplacian by README.md (F21).
+         ! The terms erfc(e r)/r of the lattice points except the origin, and their Laplacian by README.md (F21).
          do i = 1, n
             square = (x(i) - point(k)%re)**2 + (y(i) - point(k)%im)**2
             if (square >= farthest**2) cycle
@@ -209,7 +211,7 @@ contains
             value(i) = value(i) + term
             laplacian(i) = laplacian(i) + term/square + bell*(1/square + 2*e**2)
          end do
-         ! The waves, once for n and -n.
+         ! The terms of the waves: n and -n together.
          if (2*k > size(point) .or. abs(point(k)) >= farthest) cycle
          weight = 2*erfc(e*abs(point(k)))/abs(point(k))
          do i = 1, n
@@ -220,7 +222,7 @@ contains
       end do
    end subroutine ewald_sum
 
-   !> The Laplacian in the plane of -erf(x)/x; with 1/r^3 taken out of README.md (F21).
+   !> The Laplacian in the plane of -erf(x)/x: the origin's term of README.md (F21) less 1/r^3.
    pure real(dp) function origin_remainder_laplacian(x) result(value)
       real(dp), intent(in) :: x             !! >= 0
 

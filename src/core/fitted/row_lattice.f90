@@ -1,9 +1,10 @@
-!> A lattice of points in equal rows, even in x and in y.
+!> A lattice of points in equal rows, which is symmetric to the x axis and to the y axis.
 !>
-!> Points of a row are 1 apart, which is the unit s of all lengths. Rows are `spacing` apart; each is shifted along
-!> itself against the one before by `shift`, 0 for a rectangular and 1/2 for a rhombic or hexagonal lattice.
+!> The distance of neighbouring points in a row is 1, the unit s of all lengths. The distance of rows is `spacing`. Each
+!> row is shifted along itself against the row before by `shift`: 0 for a rectangular, 1/2 for a rhombic or hexagonal
+!> lattice.
 !>
-!> N.B. The symmetries that are used hold for shifts of 0 and 1/2 only.
+!> N.B. The symmetries that are used hold for the shifts 0 and 1/2 only.
 module wavycon_row_lattice
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -13,8 +14,8 @@ module wavycon_row_lattice
 
    type :: row_lattice
       real(dp) :: spacing = 1.0_dp     !! distance of neighbouring rows [s], >= 1/2
-      real(dp) :: shift = 0.0_dp       !! of the next row along itself [s]: 0 or 1/2
-      logical :: along_y = .false.     !! whether rows are along y; otherwise along x
+      real(dp) :: shift = 0.0_dp       !! shift of the next row along itself [s]: 0 or 1/2
+      logical :: along_y = .false.     !! true: rows are along y; false: along x
    contains
       procedure :: half_sides
       procedure :: reduce
@@ -24,7 +25,7 @@ module wavycon_row_lattice
 
 contains
 
-   !> Half the sides, along x and y, of the rectangle about the origin that places are reduced to [s].
+   !> Half the sides, along x and y, of the rectangle about the origin to which positions are reduced [s].
    pure function half_sides(self) result(half)
       class(row_lattice), intent(in) :: self
       real(dp) :: half(2)
@@ -33,12 +34,12 @@ contains
       if (self%along_y) half = half([2, 1])
    end function half_sides
 
-   !> Translates n places by lattice vectors into that rectangle.
+   !> Reduces n positions to the rectangle about the origin by adding lattice vectors.
    pure subroutine reduce(self, n, place, moved)
       class(row_lattice), intent(in) :: self
       integer, intent(in) :: n
       real(dp), intent(inout) :: place(n, 2)    !! x and y [s]
-      logical, intent(out) :: moved             !! whether any place was outside
+      logical, intent(out) :: moved             !! whether any position was outside of the rectangle
 
       integer :: across, along, column, i, moves, row
 
@@ -56,7 +57,7 @@ contains
       moved = moves /= 0
    end subroutine reduce
 
-   !> The place of the rectangle that differs from z by a lattice vector.
+   !> The position in the rectangle that differs from z by a lattice vector.
    pure complex(dp) function reduced(self, z)
       class(row_lattice), intent(in) :: self
       complex(dp), intent(in) :: z  !! x + i y [s]
@@ -69,13 +70,14 @@ contains
       reduced = cmplx(place(1, 1), place(1, 2), dp)
    end function reduced
 
-   !> The lattice points, all moved by an offset, that are not farther than `distance` from that rectangle. Without an
-   !> offset the second half of them are the opposites of the first, with the origin between them.
+   !> All lattice points, moved by an offset, whose distance from the rectangle about the origin is at most `distance`.
+   !> If the offset is 0, the origin is the middle one of them, and the point number n + 1 - i of n is minus the point
+   !> i.
    pure function points_about(self, distance, offset) result(point)
       class(row_lattice), intent(in) :: self
       real(dp), intent(in) :: distance             !! >= 0 [s]
       complex(dp), intent(in) :: offset            !! x + i y [s]
-      complex(dp), allocatable :: point(:)         !! x + i y [s]
+      complex(dp), allocatable :: point(:)         !! x + i y, shape (n) [s]
 
       complex(dp) :: z
       integer :: columns, i, j, rows

@@ -2,13 +2,13 @@
 !>
 !>     z(w) = b_0 (w - tau w^(fold+1)) + sum over k = 1..K of b_k conj(w)^(fold k - 1),   README.md (F15).
 !>
-!> With tau = 0 and one term the edge is a hypotrochoid, with b_1 = b_0/(fold - 1) one with cusps such as the astroid.
-!> Spots and pools are very nearly such curves up to the load at which they merge, so that a few terms suffice. A
-!> small tau, with b_1 larger by tau b_0, leaves the edge nearly as it is and clusters the images of the disc's points
-!> towards the tips, which become sharp near merging.
+!> With tau = 0 and K = 1 the edge is a hypotrochoid; with b_1 = b_0/(fold - 1) it has cusps, as the astroid has. Spots
+!> and pools are very nearly such curves up to the load at which they merge, so that a few terms are enough. A small
+!> tau, together with b_1 larger by tau b_0, hardly changes the edge, but moves the images of the disc's points towards
+!> the tips (clustering), which become sharp near merging.
 !>
-!> Outside of the disc a map of its own, README.md (F48), continues it from the circle. It does not fold where (F15)
-!> does: with tau = 0 it is conformal.
+!> Outside of the disc another map, README.md (F48), which equals z(w) on the circle, is used. With tau = 0 it is
+!> conformal, so it does not fold where (F15) would.
 module wavycon_shape_map
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -17,16 +17,17 @@ module wavycon_shape_map
 
    public :: shape_map
 
-   !> Intervals of a half sector in which a shape's radius is looked for, and least points for the length of an edge.
+   !> Numbers of points on the edge in a half sector: intervals for the radius of a shape, least points for its
+   !> perimeter.
    integer, parameter :: radius_points = 8, least_edge_points = 16
-   !> Safety limit: most points of a half sector for the length of an edge. Only an edge that is within some 7 % of
-   !> cusps needs more; its length is less exact.
+   !> Safety limit: the largest number of points of a half sector for the perimeter. Only an edge within about 7 % of
+   !> having cusps needs more points; its perimeter is less accurate.
    integer, parameter :: most_edge_points = 512
 
    type :: shape_map
-      integer :: fold = 4               !! of the symmetry, >= 2
+      integer :: fold = 4               !! order of the rotational symmetry, >= 2
       real(dp) :: clustering = 0.0_dp   !! tau, 0 <= tau < 1/(fold+1)
-      real(dp), allocatable :: b(:)     !! coefficients [s], shape (0:K)
+      real(dp), allocatable :: b(:)     !! coefficients b_k [s], shape (0:K)
    contains
       procedure :: place
       procedure :: linearise_place
@@ -47,7 +48,7 @@ module wavycon_shape_map
 
 contains
 
-   !> z(w) [s], README.md (F15).
+   !> The image z(w) of a point of the disc [s], README.md (F15).
    elemental complex(dp) function place(self, w) result(z)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
@@ -64,7 +65,7 @@ contains
       end do
    end function place
 
-   !> Derivatives of z(w) with respect to the coefficients.
+   !> The derivatives of z(w) by the coefficients.
    pure subroutine linearise_place(self, w, derivative)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
@@ -82,7 +83,7 @@ contains
       end do
    end subroutine linearise_place
 
-   !> Divided differences of the map between a point and others, without cancellation where they are near:
+   !> The divided differences of the map between a point v and n points w, without cancellation where w is close to v:
    !>
    !>     z(w) - z(v) = b_0 (w - v) A + conj( (w - v) sum over k of b_k q_j ),   README.md (F26),
    !>
@@ -92,8 +93,8 @@ contains
       class(shape_map), intent(in) :: self
       integer, intent(in) :: n
       complex(dp), intent(in) :: v, w(n)
-      real(dp), intent(out) :: analytic(n, 2)     !! A, real and imaginary part: loops over points vectorise
-      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))    !! q_j of each k
+      real(dp), intent(out) :: analytic(n, 2)     !! A, real and imaginary part apart, so that loops vectorise
+      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))    !! q_j for each k, in the same form
 
       complex(dp) :: power
       real(dp), dimension(n, 2) :: of_fold, point, step
@@ -127,13 +128,14 @@ contains
       end if
    end subroutine find_differences
 
-   !> Derivatives of the conjugate of dz/d conj(w) with respect to b_k, (m k - 1) w^(m k - 2), and w^m, m the fold.
+   !> The derivatives by b_k of the conjugate of dz/d conj(w), which are (m k - 1) w^(m k - 2), and the power w^m; m is
+   !> the fold.
    pure subroutine linearise_slopes(self, n, w, terms, step)
       class(shape_map), intent(in) :: self
       integer, intent(in) :: n
       complex(dp), intent(in) :: w(n)
-      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))
-      real(dp), intent(out) :: step(n, 2)         !! w^m
+      real(dp), intent(out) :: terms(n, 2, ubound(self%b, 1))   !! the derivatives, real and imaginary part, for each k
+      real(dp), intent(out) :: step(n, 2)                       !! w^m, real and imaginary part
 
       real(dp) :: factor, point(n, 2)
       integer :: i, k
@@ -154,7 +156,7 @@ contains
       end do
    end subroutine linearise_slopes
 
-   !> a b + c of complex numbers by real and imaginary part, into a.
+   !> Replaces complex numbers a by a b + c. Real and imaginary parts are apart.
    pure subroutine multiply_add(n, a, b, c)
       integer, intent(in) :: n
       real(dp), intent(inout) :: a(n, 2)
@@ -171,7 +173,7 @@ contains
       end do
    end subroutine multiply_add
 
-   !> w - tau w^(fold+1): the analytic part of the map over b_0.
+   !> The analytic part of the map over b_0: w - tau w^(fold+1).
    elemental complex(dp) function analytic_part(self, w)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
@@ -180,7 +182,7 @@ contains
       if (self%clustering > 0.0_dp) analytic_part = w*(1.0_dp - self%clustering*w**self%fold)
    end function analytic_part
 
-   !> dz/dw and dz/d conj(w) [s] at n points.
+   !> The derivatives dz/dw and dz/d conj(w) at n points [s].
    pure subroutine slopes(self, n, w, slope, conjugate_slope)
       class(shape_map), intent(in) :: self
       integer, intent(in) :: n
@@ -216,7 +218,7 @@ contains
       jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
    end function jacobian
 
-   !> -i dz/dphi at w = e^(i phi): the edge's tangent, turned to the outward normal [s].
+   !> -i dz/dphi at w = e^(i phi): the tangent of the edge, rotated to the outward normal [s].
    elemental complex(dp) function tangent(self, w)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w         !! |w| = 1
@@ -227,13 +229,13 @@ contains
       tangent = w*slope(1) - conjg(w)*conjugate_slope(1)
    end function tangent
 
-   !> What 1 - |w|^2 is next to the edge over the distance from it, 2 |dz/dphi|/J, and the derivatives of its logarithm
-   !> with respect to the coefficients: README.md (F66).
+   !> The ratio of 1 - |w|^2 to the distance from the edge, in the limit at the edge, which is 2 |dz/dphi|/J, and the
+   !> derivatives of its logarithm by the coefficients: README.md (F66).
    pure subroutine linearise_edge(self, w, ratio, log_slope)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w                   !! |w| = 1
       real(dp), intent(out) :: ratio                 !! [1/s]
-      real(dp), intent(out) :: log_slope(0:)         !! shape (0:K) [1/s]
+      real(dp), intent(out) :: log_slope(0:)         !! d(ln ratio)/d b_k, shape (0:K) [1/s]
 
       complex(dp) :: conjugate_slope(1), normal, of_normal(0:ubound(log_slope, 1)), slope(1)
       integer :: k
@@ -243,7 +245,7 @@ contains
       normal = w*slope(1) - conjg(w)*conjugate_slope(1)
       jacobian = abs(slope(1))**2 - abs(conjugate_slope(1))**2
       ratio = 2*abs(normal)/jacobian
-      ! Derivatives of the normal; conj(w) dz/d conj(w) changes with b_k, k > 0, by their negatives.
+      ! Derivatives of the normal by b_k. Those of conj(w) dz/d conj(w) by b_k, k > 0, are their negatives.
       of_normal(0) = w*slope(1)/self%b(0)
       do k = 1, ubound(log_slope, 1)
          of_normal(k) = -(self%fold*k - 1)*conjg(w)**(self%fold*k - 1)
@@ -253,7 +255,7 @@ contains
       log_slope(1:) = log_slope(1:) - 2*real(conjg(conjg(w)*conjugate_slope(1))*of_normal(1:), dp)/jacobian
    end subroutine linearise_edge
 
-   !> z(v) [s] outside of the disc, README.md (F48):
+   !> The map z(v) outside of the disc [s], README.md (F48):
    !>
    !>     z(v) = b_0 v (1 - tau/conj(v)^fold) + sum over k = 1..K of b_k v^(1 - fold k),   |v| >= 1.
    pure complex(dp) function place_outside(self, v) result(z)
@@ -265,7 +267,7 @@ contains
       call self%linearise_outside(v, z, slope, conjugate_slope)
    end function place_outside
 
-   !> The same, and its derivatives dz/dv and dz/d conj(v) [s].
+   !> The map z(v) outside of the disc and its derivatives dz/dv and dz/d conj(v) [s].
    pure subroutine linearise_outside(self, v, z, slope, conjugate_slope)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: v         !! |v| >= 1
@@ -296,7 +298,7 @@ contains
       end if
    end subroutine linearise_outside
 
-   !> Area enclosed [s^2], README.md (F17).
+   !> The area within the edge [s^2], README.md (F17).
    pure real(dp) function area(self)
       class(shape_map), intent(in) :: self
 
@@ -306,10 +308,10 @@ contains
                  - sum([((self%fold*k - 1)*self%b(k)**2, k=1, ubound(self%b, 1))]))
    end function area
 
-   !> Derivatives of the area with respect to the coefficients.
+   !> The derivatives of the area by the coefficients.
    pure subroutine linearise_area(self, derivative)
       class(shape_map), intent(in) :: self
-      real(dp), intent(out) :: derivative(0:)   !! shape (0:K) [s]
+      real(dp), intent(out) :: derivative(0:)   !! d(area)/d b_k, shape (0:K) [s]
 
       integer :: k
 
@@ -317,8 +319,9 @@ contains
                          [(-(self%fold*k - 1)*self%b(k), k=1, ubound(self%b, 1))]]
    end subroutine linearise_area
 
-   !> Largest distance from the centre of some points of the edge [s], from one axis of symmetry to the next. The
-   !> farthest point is an axis' or one of a broad tip, so that little is missed.
+   !> The largest distance of some points of the edge from the centre [s]. The points lie between two neighbouring axes
+   !> of symmetry. The farthest point of an edge is on an axis or on a broad tip, so that the result is only slightly
+   !> too small.
    pure real(dp) function radius(self)
       class(shape_map), intent(in) :: self
 
@@ -327,16 +330,18 @@ contains
       radius = maxval(abs(self%place([(exp(cmplx(0.0_dp, pi*i/(self%fold*radius_points), dp)), i=0, radius_points)])))
    end function radius
 
-   !> Length of the edge [s], by the midpoint rule in the angle, which converges exponentially: README.md, section 11.
+   !> The length of the edge [s], by the midpoint rule in the angle, which converges exponentially: README.md, section
+   !> 11.
    pure real(dp) function perimeter(self)
       class(shape_map), intent(in) :: self
 
       real(dp) :: ratio
       integer :: i, k, points
 
-      ! The tangent is the one of a circle plus terms that turn against it, smaller by at least this ratio. The Fourier
-      ! coefficients of its length fall about as the ratio's powers if most of these terms turn once between two tips.
-      ! As many points as bring the powers down to rounding have a factor of 2 to spare.
+      ! The tangent is that of a circle plus terms that rotate in the other direction. Their sum over the circle's
+      ! tangent is at most `ratio`. The Fourier coefficients of the tangent's length fall about as the powers of this
+      ! ratio if most of the terms make one turn between two tips. Twice as many points as needed are taken: so many
+      ! that the power is rounding.
       ratio = sum([((self%fold*k - 1)*abs(self%b(k)), k=1, ubound(self%b, 1))]) &
          /(self%b(0)*(1.0_dp - (self%fold + 1)*self%clustering))
       points = most_edge_points

@@ -1,4 +1,4 @@
-!> Where a place lies with respect to a mapped disc: its preimage, and its distance from the edge.
+!> The preimage of a position under the map of the disc, and the distance of a position from the edge.
 module wavycon_shape_search
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -8,36 +8,39 @@ module wavycon_shape_search
 
    public :: distance_from_edge, edge_points, find_edge_in_direction, find_preimage
 
-   !> Safety limit: most steps of either of Newton's iterations. Places for which the continued map has a preimage take
-   !> fewer. At the limit no preimage is found, and the place counts as far or as outside; a polar angle that is not
-   !> found is only a worse start.
+   !> Safety limit: the largest number of steps of both Newton iterations. Positions that have a preimage take fewer. At
+   !> the limit no preimage is found, and the position counts as outside. A polar angle that is not found is only a
+   !> worse start.
    integer, parameter :: most_inverse_steps = 40
-   !> Guard: Jacobian over b_0^2 below which the inversion ends without a preimage: at a tip either map folds next to
-   !> the edge. The place then counts as outside, and rays to it start from the edge in its direction.
+   !> Guard: the inversion ends without a preimage where the Jacobian over b_0^2 is below this: at a tip either map may
+   !> fold next to the edge. The position then counts as outside, and rays to it start from the edge in its direction.
    real(dp), parameter :: least_inverse_jacobian = 1e-6_dp
-   !> Enough to find the nearest of the tips: the highest harmonic of the edge has some 40 periods.
+   !> Number of points on the edge, enough to find the tip closest to a position: the highest harmonic of the edge has
+   !> some 40 periods.
    integer, parameter :: distance_points = 128
 
 contains
 
-   !> The preimage of a place under the map of the disc and, outside, that of README.md (F48), which continues it.
+   !> Finds the preimage of a position under the map of the disc or, outside, under that of README.md (F48), by Newton's
+   !> method, README.md (F19).
    !>
-   !> Newton's method, README.md (F19). Next to the centre or to the edge it starts from the point of the edge that is
-   !> seen from the centre in the direction of z. The shapes in use are star-shaped: there is one such point. It starts
-   !> from the preimage of another place if that is given and near.
+   !> The iteration starts from the preimage of another position if that is given and close. If not, it starts in the
+   !> direction of the preimage of the edge's point that lies in the direction of z. There is one such point, because
+   !> the shapes are star-shaped. Far outside it starts from z/b_0.
    pure subroutine find_preimage(shape, z, v, found, near)
       type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: z                !! [s]
-      complex(dp), intent(out) :: v               !! |v| <= 1 inside
-      logical, intent(out) :: found               !! false if Newton's method ends without it, next to a sharp tip
-      complex(dp), intent(in), optional :: near   !! preimage of another place; 0 for none
+      complex(dp), intent(in) :: z                !! position x + i y from the centre [s]
+      complex(dp), intent(out) :: v               !! its preimage; |v| <= 1 inside the edge
+      logical, intent(out) :: found               !! false if Newton's method fails, next to a sharp tip
+      complex(dp), intent(in), optional :: near   !! preimage of another position; 0 for none
 
-      !> Step over the longest after which the next one would be below rounding, as convergence is quadratic.
+      !> If a step is shorter than this part of the longest one, the next step would be below rounding, as convergence
+      !> is quadratic.
       real(dp), parameter :: small_step = 1e-8_dp
-      !> Longest steps, outside over |v|: longer ones go across the fold of a map.
+      !> Longest step, outside over |v|. A longer step could go across a fold of the map.
       real(dp), parameter :: longest_step = 0.2_dp
       complex(dp), dimension(1) :: conjugate_slope, slope
-      !> Distance over the sum of the map's coefficients from which the map is nearly b_0 v.
+      !> From this distance on, over the sum of the map's coefficients, the map is nearly b_0 v.
       real(dp), parameter :: far = 1.5_dp
       complex(dp) :: at_v, edge, left, step
       real(dp) :: jacobian, least, size_of_step, square
@@ -81,15 +84,16 @@ contains
       end do
    end subroutine find_preimage
 
-   !> The point of the edge that lies in the direction of z, by Newton's method for its polar angle between two mirror
-   !> lines, and by halving where that would leave them: at sharp tips and on long flat sides.
+   !> Finds the point of the edge that lies in the direction of z from the centre, by Newton's method for the angle of
+   !> w. A step that would leave the sector between two axes of symmetry is replaced by bisection, as at sharp tips and
+   !> on long flat sides.
    pure subroutine find_edge_in_direction(shape, z, w, edge)
       type(shape_map), intent(in) :: shape
-      complex(dp), intent(in) :: z         !! not the centre
-      complex(dp), intent(out) :: w        !! |w| = 1
-      complex(dp), intent(out) :: edge     !! z(w) [s]
+      complex(dp), intent(in) :: z         !! a position x + i y, not the centre
+      complex(dp), intent(out) :: w        !! preimage of the point, |w| = 1
+      complex(dp), intent(out) :: edge     !! the point z(w) [s]
 
-      !> Angle that is good enough for a start.
+      !> An error of the polar angle that does not matter, as the point is a start only.
       real(dp), parameter :: angle_tolerance = 1e-10_dp
       real(dp) :: above, angle, below, direction, missing
       integer :: i
@@ -109,29 +113,31 @@ contains
          else
             above = angle
          end if
-         ! The polar angle's derivative, which is small at tips.
+         ! The step divides by the derivative of the polar angle, which is small at tips.
          angle = angle + missing/max(real(shape%tangent(w)/edge, dp), tiny(1.0_dp))
          if (.not. (angle > below .and. angle < above)) angle = 0.5_dp*(below + above)
       end do
    end subroutine find_edge_in_direction
 
-   !> The points of an edge from which its distance is found.
+   !> Points of the edge, as `distance_from_edge` takes them.
    pure function edge_points(shape) result(edge)
       type(shape_map), intent(in) :: shape
-      complex(dp) :: edge(distance_points)   !! once around [s]
+      complex(dp) :: edge(distance_points)   !! points once around the edge [s]
 
       integer :: i
 
       edge = shape%place([(exp(cmplx(0.0_dp, 2*pi*i/distance_points, dp)), i=1, distance_points)])
    end function edge_points
 
-   !> Distance of a place from the edge, negative inside [s]: from the nearest of some points by halving their distance.
+   !> The distance of a position from the edge, negative inside [s]. The search starts at the nearest of some points of
+   !> the edge, and halves the step of the angle.
    pure real(dp) function distance_from_edge(shape, points, z) result(distance)
       type(shape_map), intent(in) :: shape
       complex(dp), intent(in) :: points(distance_points)   !! edge_points of the shape
-      complex(dp), intent(in) :: z                         !! [s]
+      complex(dp), intent(in) :: z                         !! position x + i y from the centre [s]
 
-      !> They bring the angle to 5e-11. At its least the distance varies as the square: it is exact to rounding.
+      !> Number of halvings, which give the angle to 5e-11. Near its minimum the distance is quadratic in the angle, so
+      !> that its error is rounding.
       integer, parameter :: distance_halvings = 30
       complex(dp) :: edge(-1:1), outwards
       real(dp) :: angle, step

@@ -1,7 +1,7 @@
-!> Integrals over one spot or pool for a place in the half-space or on its surface: README.md, section 12.
+!> The fields that one spot or pool causes at a point in the half-space or on its surface: README.md, section 12.
 !>
-!> They are taken by the coarsest of some rules over the disc that resolves the kernel or, next to the spot or pool,
-!> along rays.
+!> They are integrals over the disc. Of six rules the coarsest one that resolves the kernel is taken. Next to the spot
+!> or pool, where none does, the integration is along rays.
 module wavycon_spot_integral
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_expansion, only: expansion
@@ -16,19 +16,20 @@ module wavycon_spot_integral
 
    public :: spot_integral, start_spot_integral
 
-   !> Rules of rising fineness, before rays are taken.
+   !> Number of rules, from the coarsest to the finest.
    integer, parameter :: levels = 6
-   !> The rule for spots or pools that are far. The coarsest one leaves 1e-7 where sharp shapes have a low degree.
+   !> Number of the rule for spots or pools that are far away. The coarsest rule leaves errors of 1e-7 where sharp
+   !> shapes have a low degree.
    integer, parameter, public :: far_level = 2
 
    type :: spot_integral
-      type(expansion) :: solution
-      real(dp) :: radius = 0.0_dp                            !! of a circle about the shape [s]
+      type(expansion) :: solution                            !! the spot or pool
+      real(dp) :: radius = 0.0_dp                            !! radius of a circle around the shape [s]
       real(dp) :: digits = 0.0_dp                            !! natural logarithm of 1/accuracy
-      integer, private :: kernel = 1                         !! as of wavycon_stress_kernel
-      real(dp), private :: stretch = 0.0_dp                  !! largest derivative of the shape's map, about [s]
-      integer :: radii(levels) = 0, angles(levels) = 0       !! points of the rules
-      ! Made when first needed.
+      integer, private :: kernel = 1                         !! all_fields or surface_field of wavycon_stress_kernel
+      real(dp), private :: stretch = 0.0_dp                  !! upper bound of the map's derivative [s]
+      integer :: radii(levels) = 0, angles(levels) = 0       !! for each rule, points on a radius and in a full turn
+      ! Rays and the points of the rules are made when they are first needed.
       type(stress_rays), allocatable, private :: rays
       type(disc_sources), private :: rules(levels)
    contains
@@ -39,13 +40,14 @@ module wavycon_spot_integral
 
 contains
 
+   !> Prepares the integrals over a spot or pool, and chooses the numbers of points of the rules.
    subroutine start_spot_integral(spot, solution, accuracy, kernel)
       type(spot_integral), intent(out) :: spot
-      type(expansion), intent(in) :: solution
-      real(dp), intent(in) :: accuracy             !! of the integrals over the peak of the pressure or displacement
+      type(expansion), intent(in) :: solution      !! the spot or pool
+      real(dp), intent(in) :: accuracy             !! error of the integrals over the peak of pressure or displacement
       integer, intent(in) :: kernel                !! all_fields or surface_field
 
-      !> Factor on a shape's radius, which is that of some of its points.
+      !> Factor on the radius of the shape, which is known from some points only and may be too small.
       real(dp), parameter :: radius_margin = 1.05_dp
       integer, parameter :: least_angles = 24, least_radii = 8
       integer :: i
@@ -66,12 +68,12 @@ contains
       end associate
    end subroutine start_spot_integral
 
-   !> Adds the fields at a place.
+   !> Adds the fields of the spot or pool at a point.
    subroutine add_at(self, z, depth, fields)
       class(spot_integral), intent(inout) :: self
-      complex(dp), intent(in) :: z                        !! the place from the centre [s]
-      real(dp), intent(in) :: depth                       !! >= 0; 0 for the surface field [s]
-      real(dp), intent(inout) :: fields(stress_fields)    !! of the surface field the first one
+      complex(dp), intent(in) :: z                        !! x + i y of the point from the centre [s]
+      real(dp), intent(in) :: depth                       !! depth >= 0; 0 for the surface field [s]
+      real(dp), intent(inout) :: fields(stress_fields)    !! for the surface field only the first one is changed
 
       complex(dp) :: offset, origin
       integer :: level
@@ -92,10 +94,10 @@ contains
       end if
    end subroutine add_at
 
-   !> Whether the rule of far spots or pools resolves the kernel for a place on the surface.
+   !> Whether the rule for far spots or pools resolves the kernel for a position on the surface.
    pure logical function is_resolved(self, z)
       class(spot_integral), intent(in) :: self
-      complex(dp), intent(in) :: z                        !! the place from the centre [s]
+      complex(dp), intent(in) :: z                        !! the position from the centre [s]
 
       complex(dp) :: offset, origin
       integer :: level
@@ -104,14 +106,14 @@ contains
       is_resolved = level <= far_level
    end function is_resolved
 
-   !> Where a place lies with respect to the disc, and the coarsest rule that resolves the kernel there.
+   !> Finds the coarsest rule that resolves the kernel for a point, and the origin of rays.
    pure subroutine locate(self, z, depth, origin, offset, level)
       class(spot_integral), intent(in) :: self
-      complex(dp), intent(in) :: z                        !! from the centre [s]
-      real(dp), intent(in) :: depth
-      complex(dp), intent(out) :: origin                  !! w_0 of rays, if the place is near
-      complex(dp), intent(out) :: offset                  !! the place as seen from z(w_0) [s]
-      integer, intent(out) :: level                       !! more than `levels` if none does
+      complex(dp), intent(in) :: z                        !! x + i y of the point from the centre [s]
+      real(dp), intent(in) :: depth                       !! depth of the point [s]
+      complex(dp), intent(out) :: origin                  !! w_0, where rays start, if the point is near
+      complex(dp), intent(out) :: offset                  !! z less z(w_0) [s]
+      integer, intent(out) :: level                       !! number of the rule; more than `levels` if none resolves it
 
       real(dp), parameter :: far_from_disc = 1.5_dp
       complex(dp) :: edge, pole, v
@@ -134,12 +136,13 @@ contains
          distance = abs(v)
          below = depth/self%stretch
       end if
-      ! Decay of the error of rules over a round disc of radius 1, at a distance from its axis, README.md (F57): theta
-      ! for each angle and, for each radius, twice the logarithm of the sum of the half axes of an ellipse.
+      ! How fast the errors of rules over a round disc of radius 1 fall, for a point at a distance from its axis,
+      ! README.md (F57): as exp(-angular) with each angle, and as exp(-radial) with each radius, where `radial` is twice
+      ! the logarithm of the sum of an ellipse's half axes.
       nearest = min(hypot(distance, below), 1.0_dp)
       angular = 1.0_dp + ((distance - nearest)**2 + below**2)/(2*max(distance*nearest, 1e-12_dp))
       angular = acosh(min(angular, 1e6_dp))
-      ! Bernstein's ellipse through the nearest singularity in |w|^2, between 0 and 1.
+      ! Bernstein's ellipse through the nearest singularity of the integrand in |w|^2, which goes from 0 to 1.
       pole = 2*cmplx(distance, below, dp)**2 - 1.0_dp
       radial = abs(pole + sqrt(pole - 1.0_dp)*sqrt(pole + 1.0_dp))
       radial = 2*log(max(radial, 1/radial))

@@ -1,8 +1,9 @@
-!> Stresses near a spot or pool, by integration along rays from its point next to the place: README.md, section 13.
+!> The fields that a spot or pool causes at a point close to it, by integration along rays: README.md, section 13.
 !>
-!> The rays start at w_0, the preimage of the place, or at a point of the edge where the place is outside. Directions
-!> and points are dense where the integrand varies fast: at directions along the edge if w_0 is near the edge, and on
-!> a ray where the kernel is nearly singular. The number of points grows as the logarithm of the distances.
+!> The rays start at w_0, which is the preimage of the point's position on the surface or, if this is outside of the
+!> disc, a point of the edge. Directions and points on the rays are dense where the integrand varies fast: along the
+!> edge if w_0 is near the edge, and where the kernel is nearly singular. The number of points grows as the logarithm of
+!> the distances.
 module wavycon_stress_rays
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: find_density
@@ -18,32 +19,34 @@ module wavycon_stress_rays
 
    public :: stress_rays, start_stress_rays
 
+   !> Gauss rules have multiples of `rule_step` points, up to `most_rules` times this number.
    integer, parameter :: rule_step = 4, most_rules = 64
 
    type :: gauss_rule
-      real(dp), allocatable :: node(:), weight(:)     !! Legendre's, -1 to 1
+      real(dp), allocatable :: node(:), weight(:)     !! Gauss-Legendre rule on -1 to 1
    end type gauss_rule
 
    type :: stress_rays
-      integer, private :: kernel = all_fields                  !! what is integrated, as of wavycon_stress_kernel
-      real(dp), private :: least_points = 0.0_dp               !! on a ray, and directions in a quarter of a turn
-      real(dp), private :: angles_per_unit = 0.0_dp            !! more directions for each unit of a quarter in x
-      real(dp), private :: points_per_unit = 0.0_dp            !! more points for each unit of a ray in eta
-      type(gauss_rule), private :: rules(most_rules)           !! of 4, 8, 12, .. points, made when first needed
+      integer, private :: kernel = all_fields                  !! all_fields or surface_field of wavycon_stress_kernel
+      real(dp), private :: least_points = 0.0_dp               !! least points on a ray, least directions in a quarter
+      real(dp), private :: angles_per_unit = 0.0_dp            !! further directions for each unit of x, (F61)
+      real(dp), private :: points_per_unit = 0.0_dp            !! further points for each unit of eta, (F60)
+      type(gauss_rule), private :: rules(most_rules)           !! rules of 4, 8, 12, .. points, made when first needed
    contains
       procedure :: add_at
    end type stress_rays
 
-   !> Distance of w_0 from the edge that counts as none.
+   !> A distance of w_0 from the edge, in 1 - |w|^2, that counts as zero.
    real(dp), parameter :: at_edge = 1e-16_dp
 
 contains
 
+   !> Chooses the numbers of rays and points for a degree and an accuracy.
    subroutine start_stress_rays(rays, degree, digits, kernel)
       type(stress_rays), intent(out) :: rays
-      integer, intent(in) :: degree              !! of the expansion
+      integer, intent(in) :: degree              !! degree of the expansion
       real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
-      integer, intent(in) :: kernel              !! all_fields, or surface_field for places outside
+      integer, intent(in) :: kernel              !! all_fields, or surface_field for positions outside
 
       rays%kernel = kernel
       associate (share => digits/27.0_dp)
@@ -53,14 +56,14 @@ contains
       end associate
    end subroutine start_stress_rays
 
-   !> Adds the fields of a spot or pool at places that have the same w_0. Rays and points are those of the nearest one,
-   !> with more points if there are others.
+   !> Adds the fields of a spot or pool at n points that have the same w_0. Rays and their points are chosen for the
+   !> point closest to z(w_0), with more points on each ray if n > 1.
    subroutine add_at(self, solution, origin, offset, depth, fields)
       class(stress_rays), intent(inout) :: self
-      type(expansion), intent(in) :: solution
+      type(expansion), intent(in) :: solution             !! the spot or pool
       complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
-      complex(dp), intent(in) :: offset(:)                !! the places as seen from z(w_0), shape (n) [s]
-      real(dp), intent(in) :: depth(:)                    !! >= 0, shape (n) [s]; with n > 1 not all on the surface
+      complex(dp), intent(in) :: offset(:)                !! x + i y of the points less z(w_0), shape (n) [s]
+      real(dp), intent(in) :: depth(:)                    !! depths >= 0, shape (n) [s]
       real(dp), intent(inout) :: fields(stress_fields, size(offset))
 
       complex(dp) :: conjugate_slope(1), density_at_origin(1), normal, slope(1)
@@ -74,7 +77,7 @@ contains
       on_surface = self%kernel == all_fields .and. distance <= epsilon(1.0_dp)**2*scale
       edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
       call solution%shape%slopes(1, [origin], slope, conjugate_slope)
-      ! A place outside sees the edge vary on the scale of its distance.
+      ! For a point outside the integrand varies along the edge over its distance from the edge.
       width = sqrt(edge)
       if (edge <= at_edge) width = max(width, 0.5_dp*distance/(abs(slope(1)) + abs(conjugate_slope(1))))
       width = min(width, 1.0_dp)
@@ -82,10 +85,10 @@ contains
       if (abs(origin) > 0.0_dp) normal = origin/abs(origin)
       density_at_origin = 0.0_dp
       if (on_surface) call find_density(solution, solution%pool, 1, [origin], [edge], density_at_origin)
-      ! The integrand is singular at complex directions of imaginary part kappa, where the map's derivative vanishes.
+      ! The integrand is singular at complex directions with the imaginary part kappa, where dz/dt vanishes.
       kappa = 0.5_dp*log(abs(slope(1))/max(abs(conjugate_slope(1)), tiny(1.0_dp)))
-      ! In each quarter between the edge's direction and the inward or outward normal Gauss's rule in x, where the angle
-      ! from the edge is width sinh(x), README.md (F61).
+      ! In each quarter between the direction of the edge and the inward or outward normal a Gauss rule in x is taken,
+      ! where the angle from the edge is width sinh(x): README.md (F61).
       last = asinh(0.5_dp*pi/width)
       rule = rule_for(self, (self%least_points + self%angles_per_unit*last) &
                       *max(1.0_dp, ray_angles_of_strain/sqrt(kappa)))
@@ -103,18 +106,20 @@ contains
 
    contains
 
-      !> Adds a ray.
+      !> Adds the integral along one ray.
       !>
-      !> On the chord through w_0 that the ray is part of let -cos(alpha) be the place from -1 to 1, so that the root of
-      !> 1 - |w|^2 is l sin(alpha), and alpha_0 that of w_0. In sigma = alpha - alpha_0 the kernel is singular at
-      !> complex places; sigma = r + m sinh(eta) moves them to eta = +-i pi/2.
+      !> The ray is part of a chord through w_0 of the half length l. Let -cos(alpha) be the coordinate along the chord
+      !> from -1 to 1, so that the root of 1 - |w|^2 is l sin(alpha); alpha_0 belongs to w_0. The kernel is singular at
+      !> two complex values of sigma = alpha - alpha_0. The variable eta with sigma = r + m sinh(eta) moves them to eta
+      !> = +-i pi/2, (F60).
       subroutine add_ray(cosine, direction, weight)
-         real(dp), intent(in) :: cosine                !! of the direction from the outward normal
+         real(dp), intent(in) :: cosine                !! cosine of the angle between ray and outward normal
          complex(dp), intent(in) :: direction          !! e^(i phi)
-         real(dp), intent(in) :: weight
+         real(dp), intent(in) :: weight                !! weight of the ray in the integral over phi
 
          real(dp), parameter :: least_scale = 1e-25_dp
-         !> More points if there are others: on rays along the edge their poles are half as far from the real axis.
+         !> Factor on the number of points if n > 1: on rays along the edge the singularities of the other points are
+         !> half as far from the real axis.
          real(dp), parameter :: points_of_others = 1.5_dp
          complex(dp) :: pole, stretch                  ! dz/dt at w_0
          real(dp) :: ahead, alpha, along, back, behind, first, forward, half, last, length, middle, r, squared, width
@@ -162,7 +167,7 @@ contains
 
             associate (nodes => self%rules(of_ray))
                eta = first + 0.5_dp*(last - first)*(1.0_dp + nodes%node)
-               ! The same as r + width sinh(eta), without cancellation next to w_0.
+               ! sigma = r + width sinh(eta), written without cancellation next to w_0.
                sigma = 2*width*cosh(0.5_dp*(eta + first))*sinh(0.5_dp*(eta - first))
                root = half*merge(sin(alpha + sigma), sin(length - sigma), alpha < length)
                t = 2*half*sin(0.5_dp*sigma)*merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
@@ -176,7 +181,8 @@ contains
                source = of_pressure
                if (solution%pool) source = merge(of_gradient, of_gap, self%kernel == all_fields)
                call find_density(solution, source == of_gradient, n, w, root**2, density)
-               ! dt = root dsigma, and the density's own power of 1 - |w|^2, that of a gradient less by 1.
+               ! dt = root dsigma. The density is multiplied by its power of 1 - |w|^2, which is less by 1 for a
+               ! gradient.
                at_t = weight*0.5_dp*(last - first)*nodes%weight*width*cosh(eta)*root
                density = density*(at_t*root*t)*root**nint(2*solution%basis%power &
                                                           - merge(3, 1, source == of_gradient))
@@ -186,7 +192,8 @@ contains
                end do
             end associate
             if (on_surface) then
-               ! Less 1/t times the value at t = 0, of which the integral to a small circle in z is known.
+               ! The principal value: the term 1/t times the value at t = 0 is subtracted, as its integral from a small
+               ! circle in z is known.
                associate (remainder => weight*log(forward*sqrt(squared)/solution%shape%b(0)) - sum(at_t/t), &
                           at_origin => density_at_origin(1)*sqrt(edge), own => fields(:, 1))
                   if (solution%pool) then
@@ -204,10 +211,11 @@ contains
 
    end subroutine add_at
 
-   !> The rule of at least as many points, or the longest.
+   !> The number of the shortest Gauss rule with at least the given number of points, or of the longest rule. The rule
+   !> is made if it is needed for the first time.
    integer function rule_for(self, points)
       type(stress_rays), intent(inout) :: self
-      real(dp), intent(in) :: points
+      real(dp), intent(in) :: points   !! number of points
 
       rule_for = min(max(ceiling(points/rule_step), 1), most_rules)
       associate (rule => self%rules(rule_for))

@@ -1,8 +1,8 @@
 !> Stresses below all spots or pools of a lattice as a Fourier series: README.md (F55).
 !>
-!> All lattices here are even in x and in y about a crest, so that their series has the terms cos(k_x x) cos(k_y y)
-!> alone. Those of a lattice of shifted rows are those of the rectangle of two rows with an even sum of the numbers of
-!> waves.
+!> All lattices are symmetric to the x axis and the y axis through a crest, so that the series has terms
+!> cos(k_x x) cos(k_y y) only. A lattice of shifted rows has the terms of a rectangle of two rows in which the sum of
+!> the two wave numbers is even.
 module wavycon_stress_series
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -15,24 +15,24 @@ module wavycon_stress_series
    public :: stress_series, start_stress_series, add_wave
 
    type :: stress_series
-      real(dp) :: digits = 0.0_dp                      !! natural logarithm of the least term over the largest
-      real(dp) :: base_x = 0.0_dp, base_y = 0.0_dp     !! steps of the wave vector [rad/s]
-      real(dp), allocatable, private :: pressure(:, :) !! amplitude of each wave, shape (0:., 0:.); 0 for the mean
+      real(dp) :: digits = 0.0_dp                      !! waves with |k| z above this are left out: ln(1/accuracy)
+      real(dp) :: base_x = 0.0_dp, base_y = 0.0_dp     !! least k_x and k_y [rad/s]
+      real(dp), allocatable, private :: pressure(:, :) !! amplitude of each wave, shape (0:n_x, 0:n_y); 0 for the mean
    contains
       procedure :: add_at
    end type stress_series
 
 contains
 
-   !> Sets the pressures of the waves that reach a depth, from point sources in a cell.
+   !> Computes the amplitudes of the waves that reach a depth, from the point sources of one cell.
    subroutine start_stress_series(series, rows, x, y, strength, gap, depth, digits)
       type(stress_series), intent(out) :: series
       type(row_lattice), intent(in) :: rows
-      real(dp), intent(in) :: x(:), y(:)         !! the sources from a crest, shape (n) [s]
-      real(dp), intent(in) :: strength(:)        !! pressure, or gap, times area, shape (n)
-      logical, intent(in) :: gap                 !! whether it is the gap: the pressure is |k| times that
-      real(dp), intent(in) :: depth              !! least depth of a place, > 0 [s]
-      real(dp), intent(in) :: digits
+      real(dp), intent(in) :: x(:), y(:)         !! positions of the n sources from a crest, shape (n) [s]
+      real(dp), intent(in) :: strength(:)        !! pressure or gap times area, shape (n)
+      logical, intent(in) :: gap                 !! true: the sources are a gap, whose waves have |k| times the pressure
+      real(dp), intent(in) :: depth              !! least depth at which the series will be evaluated, > 0 [s]
+      real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
 
       real(dp), allocatable :: along_x(:, :), along_y(:, :)
       real(dp) :: height, largest, length
@@ -65,7 +65,7 @@ contains
       end associate
    end subroutine start_stress_series
 
-   !> Adds the fields at a place.
+   !> Adds the fields at a point.
    pure subroutine add_at(self, place, depth, fields)
       class(stress_series), intent(in) :: self
       complex(dp), intent(in) :: place             !! from a crest [s]
@@ -102,12 +102,12 @@ contains
       fields = fields + total
    end subroutine add_at
 
-   !> Adds the fields of the pressure p cos(k.x).
+   !> Adds the fields of one wave of the pressure, p cos(k.x), at a point.
    pure subroutine add_wave(wave, pressure, place, depth, fields)
-      real(dp), intent(in) :: wave(2)              !! k, not 0 [rad/s]
-      real(dp), intent(in) :: pressure             !! p
-      complex(dp), intent(in) :: place             !! [s]
-      real(dp), intent(in) :: depth                !! >= 0 [s]
+      real(dp), intent(in) :: wave(2)              !! wave vector k, not 0 [rad/s]
+      real(dp), intent(in) :: pressure             !! amplitude p
+      complex(dp), intent(in) :: place             !! x + i y of the point [s]
+      real(dp), intent(in) :: depth                !! depth z >= 0 [s]
       real(dp), intent(inout) :: fields(stress_fields)
 
       complex(dp) :: direction

@@ -1,4 +1,4 @@
-!> A binary file: its first bytes, and its numbers of single or double precision in either byte order.
+!> A binary file of heights: its first bytes, and its numbers, of single or double precision and in either byte order.
 module wavycon_binary_file
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
@@ -12,17 +12,17 @@ module wavycon_binary_file
 
    public :: binary_file
 
-   !> Bytes at the start of a file that are kept: more than any head that programs write.
+   !> The largest number of bytes at the start of a file that are kept. No program writes a longer head.
    integer, parameter :: longest_head = 65536
 
    type :: binary_file
       character(:), allocatable :: path    !! as the user named the file
       character(:), allocatable :: head    !! the first bytes, at most 65536
       integer(int64) :: bytes = 0          !! size of the file
-      integer :: number_bytes = 4          !! of a number: 4 or 8
-      logical :: big_end_first = .false.   !! the byte order of the numbers
-      logical :: in_slabs = .false.        !! whether a large map is read in slabs
-      integer, private :: unit = -1        !! -1: it is not open
+      integer :: number_bytes = 4          !! bytes of a number: 4 or 8
+      logical :: big_end_first = .false.   !! byte order of the numbers: big-endian if true, little-endian if false
+      logical :: in_slabs = .false.        !! whether each process reads only its own columns of a large map
+      integer, private :: unit = -1        !! Fortran's unit of the file; -1 if the file is not open
    contains
       procedure :: open => open_binary_file
       procedure :: read_heights
@@ -33,7 +33,7 @@ module wavycon_binary_file
 
 contains
 
-   !> Opens a file, to be closed by the caller, and reads its head. Errors: exit_file_trouble.
+   !> Opens a file and reads its head. The caller must close the file, also after an error. Errors: exit_file_trouble.
    subroutine open_binary_file(self, path, error)
       class(binary_file), intent(inout) :: self   !! not open
       character(*), intent(in) :: path
@@ -52,7 +52,7 @@ contains
       call self%check(status, message, error)
    end subroutine open_binary_file
 
-   !> Closes the file, if it is open.
+   !> Closes the file if it is open.
    subroutine close_binary_file(self)
       class(binary_file), intent(inout) :: self
 
@@ -60,32 +60,34 @@ contains
       self%unit = -1
    end subroutine close_binary_file
 
-   !> Reports a read statement that failed. Errors: exit_file_trouble.
+   !> Makes an error of a read statement that failed. Errors: exit_file_trouble.
    pure subroutine check(self, status, message, error)
       class(binary_file), intent(in) :: self
-      integer, intent(in) :: status          !! iostat
-      character(*), intent(in) :: message    !! iomsg, if status is not 0
+      integer, intent(in) :: status          !! iostat of the read statement
+      character(*), intent(in) :: message    !! its iomsg, which is read only if status is not 0
       type(error_type), allocatable, intent(out) :: error
 
       if (status /= 0) call fatal_error(error, exit_file_trouble, &
                                         escaped(self%path)//': cannot be read: '//system_words(message))
    end subroutine check
 
-   !> Reads the heights of a map: from `start` to the end of the file there must be nothing else. Missing heights are
-   !> NaN. With in_slabs only the own columns of a large map are read. Errors: exit_bad_input for a map that is too
-   !> small or too large, a file of another length, and infinite heights; exit_file_trouble.
+   !> Reads the heights of a map, which must fill the file from `start` to its end. Missing heights are NaN. With
+   !> in_slabs each process reads only its own columns of a large map. Errors: exit_bad_input for a map that is too
+   !> small or too large, a file of another length, and infinite heights; exit_file_trouble if the file cannot be read
+   !> or there is not enough memory.
    subroutine read_heights(self, start, points, by_columns, map, error)
-      class(binary_file), intent(in) :: self
-      integer(int64), intent(in) :: start   !! bytes before the first height
-      integer, intent(in) :: points(2)      !! along x and y
-      logical, intent(in) :: by_columns     !! whether heights of one x and all y follow each other
-      type(measured_map), intent(inout) :: map
+      class(binary_file), intent(in) :: self   !! open
+      integer(int64), intent(in) :: start      !! number of bytes before the first height
+      integer, intent(in) :: points(2)         !! numbers of points along x and y
+      !> The order of the file. True: the heights of one x and all y follow each other. False: those of one y and all x.
+      logical, intent(in) :: by_columns
+      type(measured_map), intent(inout) :: map   !! on exit with its heights
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp), allocatable :: line(:)   ! heights of one x or one y
-      integer(int64) :: before           ! heights of the file before these
-      integer(int64) :: expected         ! bytes of the file
-      integer :: infinite, k, lines, place(2)
+      real(dp), allocatable :: line(:)   ! heights that follow each other: of one x or of one y
+      integer(int64) :: before           ! number of heights in the file before the line
+      integer(int64) :: expected         ! number of bytes that the file must have
+      integer :: infinite, k, lines, point(2)
       type(grid_slab) :: slab
 
       call check_map_size(self%path, points, error)
@@ -97,19 +99,25 @@ contains
       call slab%start(points, whole=.not. self%in_slabs)
       if (.not. allocated(error)) call check_room(self%path, points, error, slab)
       lines = 0
-      if (.not. allocated(error) .and. slab%columns() > 0) lines = merge(points(1), slab%columns(), by_columns)
-      if (.not. allocated(error)) &
+      if (.not. allocated(error)) then
          allocate (map%height(points(1), slab%columns()), line(merge(slab%columns(), points(1), by_columns)))
+         lines = size(map%height)/max(size(line), 1)
+      end if
       do k = 1, lines
-         place = merge([k, slab%first], [1, slab%first - 1 + k], by_columns)
-         before = merge((place(1) - 1)*int(points(2), int64) + place(2) - 1, &
-                        (place(2) - 1)*int(points(1), int64), by_columns)
+         if (by_columns) then
+            point = [k, slab%first]
+            before = (point(1) - 1)*int(points(2), int64) + point(2) - 1
+         else
+            point = [1, slab%first - 1 + k]
+            before = (point(2) - 1)*int(points(1), int64)
+         end if
          call read_numbers(self, start + self%number_bytes*before, line, error)
          if (allocated(error)) exit
          infinite = findloc(abs(line) > huge(line), .true., dim=1)
          if (infinite > 0) then
-            place = place + (infinite - 1)*merge([0, 1], [1, 0], by_columns)
-            call self%refuse('the height in row '//integer_text(place(2))//', column '//integer_text(place(1))// &
+            if (by_columns) point(2) = point(2) + infinite - 1
+            if (.not. by_columns) point(1) = infinite
+            call self%refuse('the height in row '//integer_text(point(2))//', column '//integer_text(point(1))// &
                              ' is infinite: make it nan if it is missing', error)
             exit
          end if
@@ -120,19 +128,19 @@ contains
       if (slab%is_distributed .and. .not. allocated(error)) map%slab = slab
    end subroutine read_heights
 
-   !> Reads numbers. Callers must switch off traps of invalid operations, which signalling NaNs are. Errors:
-   !> exit_file_trouble.
+   !> Reads numbers that follow each other. Callers must switch off traps of invalid operations, because a signalling
+   !> NaN in the file is one. Errors: exit_file_trouble.
    subroutine read_numbers(self, start, numbers, error)
       type(binary_file), intent(in) :: self
-      integer(int64), intent(in) :: start   !! bytes before the first
+      integer(int64), intent(in) :: start   !! number of bytes before the first number
       real(dp), intent(out) :: numbers(:)
       type(error_type), allocatable, intent(out) :: error
 
-      integer(int8), allocatable :: bytes(:)   ! in the order of this machine
+      integer(int8), allocatable :: bytes(:)   ! those of the file, then in the byte order of this machine
       character(200) :: message
       integer :: i, status
 
-      ! Of one dimension: gfortran reads a matrix column by column, which would be number by number.
+      ! The array has one dimension: gfortran reads a matrix column by column, here number by number, which is slow.
       allocate (bytes(self%number_bytes*size(numbers)))
       read (self%unit, pos=start + 1, iostat=status, iomsg=message) bytes
       call self%check(status, message, error)
@@ -149,7 +157,7 @@ contains
       end if
    end subroutine read_numbers
 
-   !> Makes an error with the name of the file and the status exit_bad_input.
+   !> Makes an error of status exit_bad_input whose message begins with the name of the file.
    pure subroutine refuse(self, words, error)
       class(binary_file), intent(in) :: self
       character(*), intent(in) :: words

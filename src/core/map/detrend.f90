@@ -1,4 +1,5 @@
-!> Removes the mean, plane or paraboloid of least squares from a height map: (M1), (M2) of README.md in this directory.
+!> Removes the trend of a height map, which is its mean, plane or polynomial of the second degree of least squares:
+!> (M1), (M2) of README.md in this directory.
 module wavycon_detrend
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
@@ -9,24 +10,27 @@ module wavycon_detrend
 
    public :: detrend_map
 
-   !> Least mean square, on the points that are there, of the part of a term that the other terms do not fit, over its
-   !> mean square on the whole grid. Below it rounding would decide the coefficient.
+   !> Least pivot of Cholesky's factorisation of (M2). The pivot is the mean square, over the points with a height, of
+   !> the part of a term that the terms before cannot fit; the mean square of a term over the whole grid is 1. With a
+   !> smaller pivot rounding would determine the term's coefficient.
    real(dp), parameter :: least_part = 1.0e-10_dp
 
 contains
 
-   !> Subtracts the polynomial of least squares over the points that are there. Missing points keep their zeros.
+   !> Subtracts the polynomial that fits best, by least squares, the heights that are not missing. Missing heights stay
+   !> 0.
    subroutine detrend_map(map, degree, rise, is_determined)
       type(measured_map), intent(inout) :: map
       integer, intent(in) :: degree             !! 0: the mean, 1: a plane, 2: a polynomial of the second degree
-      !> Rise of the linear part that was removed, from the first point to the last along x and y [height].
+      !> Rise of the removed polynomial's linear part from the first point to the last, along x and along y [height].
       real(dp), intent(out) :: rise(2)
-      !> .false. if the points that are there do not determine the polynomial: the map is then unchanged.
+      !> .false. if the heights that are not missing do not determine the polynomial. The map is then unchanged.
       logical, intent(out) :: is_determined
 
       type(grid_slab) :: slab
-      integer, allocatable :: a(:), b(:)                         ! degrees of each term P_a(x) P_b(y) (M1)
-      real(dp), allocatable :: coefficient(:), x(:, :), y(:, :)  ! of each term; P_a and P_b at the points from P_0 on
+      integer, allocatable :: a(:), b(:)             ! degrees along x and y of each term P_a Q_b, (M1)
+      real(dp), allocatable :: coefficient(:)        ! coefficient of each term
+      real(dp), allocatable :: x(:, :), y(:, :)      ! P_a and Q_b at the points along x and y, the second index from 0
       integer :: i, j, k, pass
 
       slab = map%columns()
@@ -35,14 +39,14 @@ contains
       a = [((i, i=0, min(ubound(x, 2), degree - j)), j=0, ubound(y, 2))]
       b = [((j, i=0, min(ubound(x, 2), degree - j)), j=0, ubound(y, 2))]
       rise = 0.0_dp
-      ! The second pass removes what rounding left of a large mean or tilt in the first.
+      ! The second pass removes the rounding errors of the first one, which are large if the mean or the tilt is.
       do pass = 1, 2
          call fit(coefficient, is_determined)
          if (.not. is_determined) return
          do j = 1, size(map%height, 2)
             map%height(:, j) = map%height(:, j) - matmul(terms_of_column(j), coefficient)
-            if (allocated(map%missing)) map%height(:, j) = merge(0.0_dp, map%height(:, j), map%missing(:, j))
          end do
+         if (allocated(map%missing)) where (map%missing) map%height = 0.0_dp
          do k = 1, size(a)
             if (a(k) == 1 .and. b(k) == 0) rise(1) = rise(1) + 2*coefficient(k)*x(size(x, 1), 1)
             if (a(k) == 0 .and. b(k) == 1) rise(2) = rise(2) + 2*coefficient(k)*y(size(y, 1), 1)
@@ -51,22 +55,23 @@ contains
 
    contains
 
-      !> The coefficients of least squares, by the normal equations (M2).
+      !> Finds the coefficients of least squares from the normal equations (M2).
       subroutine fit(coefficient, is_determined)
          real(dp), allocatable, intent(out) :: coefficient(:)
          logical, intent(out) :: is_determined
 
-         real(dp), allocatable :: parts(:, :), terms(:, :)   ! parts of each column: of the coefficients, of the matrix
+         !> The sums over each column of points of the right-hand sides g_k and of the matrix G_kl; the terms there.
+         real(dp), allocatable :: column_sums(:, :), terms(:, :)
          real(dp) :: gram(size(a), size(a)), totals(size(a)*(size(a) + 1))
          integer :: info, j, k
 
-         allocate (parts(size(totals), size(map%height, 2)))
+         allocate (column_sums(size(totals), size(map%height, 2)))
          do j = 1, size(map%height, 2)
             terms = terms_of_column(j)
-            if (allocated(map%missing)) terms = merge(0.0_dp, terms, spread(map%missing(:, j), 2, size(a)))
-            parts(:, j) = [matmul(map%height(:, j), terms), matmul(transpose(terms), terms)]
+            if (allocated(map%missing)) where (spread(map%missing(:, j), 2, size(a))) terms = 0.0_dp
+            column_sums(:, j) = [matmul(map%height(:, j), terms), matmul(transpose(terms), terms)]
          end do
-         totals = slab%column_totals(parts)/product(real(slab%points, dp))
+         totals = slab%column_totals(column_sums)/product(real(slab%points, dp))
          coefficient = totals(:size(a))
          gram = reshape(totals(size(a) + 1:), [size(a), size(a)])
          call dpotrf('L', size(a), gram, size(a), info)
@@ -77,9 +82,9 @@ contains
          call dtrsv('L', 'T', 'N', size(a), gram, size(a), coefficient, 1)
       end subroutine fit
 
-      !> All terms at the points of an own column.
+      !> The values of all terms at the points of one of the process's own columns.
       pure function terms_of_column(j) result(terms)
-         integer, intent(in) :: j
+         integer, intent(in) :: j                 !! number of the column among the own ones
          real(dp) :: terms(size(x, 1), size(a))
 
          integer :: k
@@ -91,10 +96,12 @@ contains
 
    end subroutine detrend_map
 
-   !> P_0 .. P_degree of (M1) at the points of one direction, fewer if there are fewer points.
+   !> The polynomials P_0 .. P_degree of (M1) at the points of one direction. Of n points there are n polynomials at
+   !> most.
    pure subroutine make_polynomials(points, degree, values)
-      integer, intent(in) :: points, degree
-      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (points, 0:.)
+      integer, intent(in) :: points                        !! number of points in this direction
+      integer, intent(in) :: degree
+      real(dp), allocatable, intent(out) :: values(:, :)   !! shape (points, 0:min(degree, points - 1))
 
       integer :: i
 
@@ -104,7 +111,7 @@ contains
 
    contains
 
-      !> Values over their root mean square.
+      !> The values divided by their root mean square.
       pure function of_unit_rms(values)
          real(dp), intent(in) :: values(:)
          real(dp) :: of_unit_rms(size(values))

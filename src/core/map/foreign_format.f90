@@ -1,4 +1,4 @@
-!> Formats that are not read, by the endings of their names, and how their files can be converted.
+!> File formats that cannot be read, recognised by the endings of names, and advice how to convert such files.
 module wavycon_foreign_format
    use wavycon_plain_text, only: lower_case
    implicit none (type, external)
@@ -10,7 +10,7 @@ module wavycon_foreign_format
       'in Python with SurfaceTopography and write numpy.save(file, z.T), z = numpy.ma.filled(topography.heights(), '// &
       'numpy.nan), of a profile numpy.savetxt(file, numpy.c_[topography.positions(), z])'
 
-   !> Endings of names, what such a file is, and how to convert it.
+   !> Endings of names by group; below, for each group, what such a file is and how to convert it.
    character(*), parameter :: endings(*) = [character(160) :: &
       ' png jpg jpeg tif tiff bmp gif ', &
       ' sdf x3p plux al3d plu opd opdx sur vk4 vk6 gwy spm ibw nid mi mnt zmg os3d stp xyzgz gxyzf nms tmd frt '// &
@@ -26,21 +26,21 @@ module wavycon_foreign_format
 
 contains
 
-   !> What a file that is no text is by its name, and how to convert it; empty for a text.
+   !> Advice for a file that is not a text: what the file is by its name, and how to convert it. Empty for a text.
    pure function remedy_of_content(head, path) result(words)
       character(*), intent(in) :: head   !! the first bytes of the file
       character(*), intent(in) :: path
       character(:), allocatable :: words
 
       words = ''
-      ! No text has these bytes but one of two bytes a character, every other of which is 0.
+      ! A text has none of these bytes, unless it is one of two bytes a character, in which every other byte is 0.
       if (scan(head, char(0)//char(1)//char(2)//char(3)//char(4)//char(5)//char(6)//char(127)) == 0) return
       words = remedy_of_name(path)
       if (words == '') words = 'this is no text in UTF-8 or ASCII, and neither .npy nor .gsf. If it is a text of '// &
                                'two bytes a character (UTF-16) save it as UTF-8, otherwise '//by_gwyddion
    end function remedy_of_content
 
-   !> The same by the name alone; empty without such an ending.
+   !> The same advice by the name of the file alone. Empty if the name has none of the endings.
    pure function remedy_of_name(path) result(words)
       character(*), intent(in) :: path
       character(:), allocatable :: words

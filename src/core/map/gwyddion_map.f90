@@ -1,7 +1,7 @@
-!> Reads what Gwyddion writes: height maps in its simple field format, .gsf,
-!> https://gwyddion.net/documentation/user-guide-en/gsf.html, and the heads of its texts and of ESRI's ASCII grids,
-!> https://desktop.arcgis.com/en/arcmap/latest/manage-data/raster-and-images/esri-ascii-raster-format.htm. All heads are
-!> lines of a key and its entry.
+!> Reads height maps in Gwyddion's simple field format, .gsf,
+!> https://gwyddion.net/documentation/user-guide-en/gsf.html, and the heads of texts that Gwyddion exports and of ESRI's
+!> ASCII grids, https://desktop.arcgis.com/en/arcmap/latest/manage-data/raster-and-images/esri-ascii-raster-format.htm.
+!> Each line of these heads has a key and the key's entry.
 module wavycon_gwyddion_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
@@ -20,15 +20,16 @@ module wavycon_gwyddion_map
 
    !> First bytes of a .gsf file.
    character(*), parameter, public :: gsf_magic = 'Gwyddion Simple Field 1.'
-   !> The numbers begin at a multiple of so many bytes, behind one to so many null characters.
+   !> In a .gsf file the head is followed by one to four null characters, so that the numbers begin at a multiple of
+   !> this number of bytes.
    integer, parameter :: alignment = 4
-   !> Around keys and entries.
+   !> Characters that may stand around keys and entries.
    character(*), parameter, public :: blanks = ' '//achar(9)
 
 contains
 
-   !> Reads a map. The first row of the file is the first row of the map, as in the other formats: y counts from the top
-   !> of Gwyddion's picture downwards, as it does in Gwyddion. Errors: exit_bad_input, exit_file_trouble.
+   !> Reads a map in the .gsf format. The first row of the file is the first row of the map, as in the other formats. So
+   !> y rises from the top of Gwyddion's picture downwards, as in Gwyddion. Errors: exit_bad_input, exit_file_trouble.
    subroutine read_gsf_map(file, map, error)
       class(binary_file), intent(inout) :: file
       type(measured_map), intent(inout) :: map
@@ -36,7 +37,7 @@ contains
 
       character(*), parameter :: keys(*) = [character(5) :: 'XRes', 'YRes', 'XReal', 'YReal']
       character(:), allocatable :: entry, words
-      real(dp) :: numbers(size(keys))   ! 0 if they are not there
+      real(dp) :: numbers(size(keys))   ! entries of the keys; 0 if a key is not there
       integer :: i, last, points(2)
 
       if (index(file%head, gsf_magic) /= 1) then
@@ -65,7 +66,8 @@ contains
       points = nint(numbers(:2))
       ! The format's default of a side is 1.
       map%is_usual_side = numbers(3:) <= 0.0_dp
-      map%step = merge(1.0_dp, numbers(3:), map%is_usual_side)/points
+      where (map%is_usual_side) numbers(3:) = 1.0_dp
+      map%step = numbers(3:)/points
       if (points(1) == 1) then
          map%is_usual_side = map%is_usual_side(2:1:-1)
          map%step = map%step(2:1:-1)
@@ -76,18 +78,19 @@ contains
                              map, error)
    end subroutine read_gsf_map
 
-   !> Takes sides and units from the comments of a text, as Gwyddion writes them when it exports a matrix,
+   !> Takes the sides of a map and the units from the comments of a text. Gwyddion writes these comments when it exports
+   !> a matrix,
    !>
    !>     # Width: 10.00 µm
    !>     # Height: 10.00 µm
    !>     # Value units: m
    !>
-   !> or points, with `# Lateral units: m` in place of the first two. Numbers may have a decimal comma. Width and height
-   !> without a unit, which may be numbers of points, and one without the other are remarks. Errors: exit_bad_input for
-   !> units of the sides that do not convert into each other.
+   !> or points, with `# Lateral units: m` in place of the first two lines. Numbers may have a decimal comma. Width and
+   !> height are ignored if they have no unit, because they may then be numbers of points, and if one of them is
+   !> missing. Errors: exit_bad_input if the units of the two sides cannot be converted into each other.
    subroutine take_text_head(file, map, error)
       class(binary_file), intent(in) :: file
-      type(measured_map), intent(inout) :: map   !! with heights
+      type(measured_map), intent(inout) :: map   !! its heights are set; its steps are kept if they are known already
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: height_unit, unit, unit_y
@@ -111,20 +114,22 @@ contains
       call map%set_units(unit, height_unit)
    end subroutine take_text_head
 
-   !> Takes steps and missing heights from the head of an ESRI ASCII grid, if this is one. Its first row is that of the
-   !> largest y; y of the map rises. Errors: exit_bad_input for another number of heights than the head gives.
+   !> Takes steps and missing heights from the head of an ESRI ASCII grid; does nothing if the file is not such a grid.
+   !> The first row of the file has the largest y. The rows are reversed, so that y of the map rises. Errors:
+   !> exit_bad_input if the number of heights is not that of the head.
    subroutine take_esri_head(file, map, error)
       class(binary_file), intent(in) :: file
-      type(measured_map), intent(inout) :: map   !! with the heights in the order of the file, in any rows
+      !> On entry the heights in the order of the file, in rows of any length. On exit the map of the head's size.
+      type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
       character(*), parameter :: keys(*) = [character(8) :: 'ncols', 'nrows', 'dx', 'dy', 'cellsize']
-      !> Where the head does not give it.
+      !> The height that stands for a missing one if the head does not name such a height.
       real(dp), parameter :: usual_no_data = -9999.0_dp
       character(:), allocatable :: head
       integer :: i
       logical :: is_number
-      real(dp) :: numbers(size(keys))   ! 0 if they are not there
+      real(dp) :: numbers(size(keys))   ! entries of the keys; 0 if a key is not there
 
       head = newline//lower_case(file%head)
       do i = 1, size(keys)
@@ -138,7 +143,8 @@ contains
       end if
       map%height = reshape(map%height, nint(numbers(:2)))
       map%height = map%height(:, size(map%height, 2):1:-1)
-      map%step = merge(numbers(5), numbers(3:4), numbers(5) > 0)
+      map%step = numbers(3:4)
+      if (numbers(5) > 0) map%step = numbers(5)
       map%head_lines = 0
       allocate (map%no_data)
       call read_decimal(entry_of(head, 'nodata_value', blanks), map%no_data, is_number)
@@ -148,8 +154,8 @@ contains
    !> Reads a length and its unit, such as '10.00 µm'.
    subroutine read_length(entry, length, unit)
       character(*), intent(in) :: entry
-      real(dp), intent(out) :: length                   !! 0 if this is none
-      character(:), allocatable, intent(out) :: unit    !! empty if this is none
+      real(dp), intent(out) :: length                   !! 0 if the entry is not a length
+      character(:), allocatable, intent(out) :: unit    !! empty if the entry is not a length or has no unit
 
       character(:), allocatable :: number
       integer :: comma, last
@@ -165,7 +171,8 @@ contains
       if (length > 0.0_dp) unit = trim(adjustl(entry(last + 1:)))
    end subroutine read_length
 
-   !> A word as a positive number in the range of lengths; 0 if it is none. Callers must switch off traps of overflow.
+   !> The positive number that a word is, or 0 if the word is not a positive number in the range of lengths. Callers
+   !> must switch off traps of overflow.
    real(dp) function positive_number(word) result(number)
       character(*), intent(in) :: word
 
@@ -175,11 +182,13 @@ contains
       if (.not. is_number .or. number < smallest_number .or. number > largest_number) number = 0.0_dp
    end function positive_number
 
-   !> The entry of a key in the lines behind the first one, without the blanks around it; empty if it is not there.
-   !> Lines may begin with the mark of a comment. At its end the units µm and Å of Latin-1 are put into UTF-8.
+   !> The entry of a key in the lines of a head, without the blanks around the entry; empty if the key is not there. The
+   !> first line is skipped. Lines may begin with '#', the mark of a comment. Units µm and Å at the end of the entry
+   !> are converted from Latin-1 to UTF-8.
    pure function entry_of(words, key, separator) result(entry)
-      character(*), intent(in) :: words, key
-      character(*), intent(in) :: separator   !! the characters that stand between key and entry
+      character(*), intent(in) :: words       !! the lines of the head
+      character(*), intent(in) :: key
+      character(*), intent(in) :: separator   !! the characters of which one stands between key and entry
       character(:), allocatable :: entry
 
       character(*), parameter :: line_ends = newline//achar(13)
@@ -189,9 +198,11 @@ contains
       last = scan(words, line_ends)
       do while (last > 0 .and. last < len(words))
          first = last + 1
+         ! `last` is the line's end: of the last line the place behind its last character.
          last = scan(words(first:), line_ends)
-         if (last > 0) last = last + first - 1
-         associate (line => words(first:merge(last - 1, len(words), last > 0)))
+         if (last == 0) last = len(words) - first + 2
+         last = last + first - 1
+         associate (line => words(first:last - 1))
             middle = scan(line, separator)
             if (middle == 0) cycle
             if (between(line(:middle - 1), blanks//'#'//byte_order_mark) /= key) cycle
@@ -208,7 +219,7 @@ contains
 
    contains
 
-      !> The text between leading and trailing characters that are left out.
+      !> The text without the leading and the trailing characters that are in a set.
       pure function between(text, left_out) result(inner)
          character(*), intent(in) :: text, left_out
          character(:), allocatable :: inner

@@ -1,4 +1,4 @@
-!> Units of length of map files: the metre and its decimal multiples.
+!> The units of length that map files may have: the metre, its decimal multiples and parts, and the angstrom.
 module wavycon_length_unit
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
@@ -9,20 +9,20 @@ module wavycon_length_unit
 
    public :: convert_lengths, find_factor
 
-   !> 'um' in the letters of ASCII, with the micro sign and with the Greek letter.
+   !> Units in UTF-8: the micrometre with the micro sign, the angstrom, the micrometre with the Greek letter mu.
    character(*), parameter, public :: micro_sign = char(194)//char(181)//'m', angstrom = char(195)//char(133)
    character(*), parameter :: greek_letter = char(206)//char(188)//'m'
    character(*), parameter :: units(*) = [character(3) :: 'km', 'm', 'cm', 'mm', 'um', micro_sign, greek_letter, 'nm', &
                                           angstrom, 'pm']
-   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -10, -12]   !! of ten, in metres
+   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -10, -12]   !! each unit is this power of 10 m
 
 contains
 
-   !> Finds the number of units that one of another unit has.
+   !> Finds the factor that converts lengths from one unit to another.
    pure subroutine find_factor(from, to, factor, is_found)
       character(*), intent(in) :: from, to   !! names of units
-      real(dp), intent(out) :: factor        !! 1 if it is not found
-      logical, intent(out) :: is_found       !! .true. also for equal names of any unit
+      real(dp), intent(out) :: factor        !! number of units `to` in one unit `from`; 1 if it is not found
+      logical, intent(out) :: is_found       !! .true. if both units are known, and also if the two names are equal
 
       integer :: i, j
 
@@ -35,12 +35,12 @@ contains
       if (is_found) factor = 10.0_dp**(powers(i) - powers(j))
    end subroutine find_factor
 
-   !> Converts steps and heights of a map from the units that its file names to one unit. A map without units is left as
-   !> it is. Errors: exit_bad_input for a unit that is not one of the metre.
+   !> Converts steps and heights of a map from the units that its file names to one unit. A map without units does not
+   !> change. Errors: exit_bad_input for a unit that cannot be converted.
    subroutine convert_lengths(path, unit, map, error)
-      character(*), intent(in) :: path   !! of the map, for the message
-      character(*), intent(in) :: unit   !! to convert to; empty: that of the steps
-      type(measured_map), intent(inout) :: map   !! with the unit converted to
+      character(*), intent(in) :: path           !! path of the map's file, for the message
+      character(*), intent(in) :: unit           !! the unit to convert to; empty: the unit of the steps
+      type(measured_map), intent(inout) :: map   !! on exit both of its units are the unit converted to
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: target

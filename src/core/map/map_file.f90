@@ -1,4 +1,5 @@
-!> Reads height maps from files, in any of six formats.
+!> Reads height maps from files in six formats: .npy, .gsf, and as texts a matrix, an ESRI ASCII grid, points x, y, z
+!> and profiles x, z.
 module wavycon_map_file
    use, intrinsic :: iso_c_binding, only: c_null_char
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
@@ -22,22 +23,22 @@ module wavycon_map_file
 
    public :: read_height_map
 
-   !> Most bytes of a text, near the largest default integer.
+   !> The largest number of bytes of a text that is read, near the largest default integer.
    integer, parameter :: most_bytes = 2000000000
 
 contains
 
-   !> Reads a map. All processes call this, and an error of one is reported to all. Errors: exit_file_trouble if the
-   !> file cannot be read, exit_bad_input if it is not a map.
+   !> Reads a map. All processes of the parallel program call this together, and an error of one is reported to all.
+   !> Errors: exit_file_trouble if the file cannot be read, exit_bad_input if the file is not a map.
    subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
-      !> 'matrix', 'xyz' or 'xz' of a text, 'npy', 'gsf', or 'auto': what the file looks like.
+      !> 'matrix', 'xyz' or 'xz' for a text, 'npy', 'gsf', or 'auto': the format follows from the content and the name.
       character(*), intent(in) :: format
       type(measured_map), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: missing_value   !! a number of the file that stands for a missing height
 
-      !> Whether a large map is read in slabs, if its format allows it; .false. if absent.
+      !> Whether each process reads only its own columns of a large map, if the format allows this; .false. if absent.
       logical, intent(in), optional :: in_slabs
 
       type(binary_file) :: file
@@ -45,10 +46,11 @@ contains
       type(grid_slab) :: slab
       type(ieee_status_type) :: floating_point
 
-      ! 1e999 must be reported as bad input, and a signalling NaN be missing, in builds that trap them too.
+      ! Overflow and invalid operations must not stop builds that trap them: 1e999 is reported as bad input, and a
+      ! signalling NaN is a missing height.
       call ieee_get_status(floating_point)
       call ieee_set_halting_mode([ieee_invalid, ieee_overflow], .false.)
-      ! A pipe may block, a device may never end, and a run of the resolved deck could not read either again.
+      ! A pipe may block, and a device may never end. A run of the resolved deck could read neither of them again.
       if (path_kind(path) == path_device) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': this is a pipe or a device, not a file')
       else
@@ -60,7 +62,7 @@ contains
       if (.not. allocated(error)) then
          map%format = format
          if (format == 'auto') then
-            ! By its content or, if that does not tell, by its name.
+            ! Recognise the format by the first bytes or, if these are those of no format, by the ending of the name.
             ending = lower_case(path(index(path, '.', back=.true.) + 1:))
             if (index(file%head, gsf_magic) == 1 .or. ending == 'gsf') map%format = 'gsf'
             if (index(file%head, npy_magic) == 1 .or. ending == 'npy') map%format = 'npy'
@@ -71,7 +73,8 @@ contains
          case ('gsf')
             call read_gsf_map(file, map, error)
          case default
-            ! It is opened again, which gfortran refuses in a process whose main program is in C or Python.
+            ! Close the file first: reading the text opens it a second time, which gfortran refuses in a process whose
+            ! main program is in C or Python.
             call file%close()
             call read_text(file, map, error)
          end select
@@ -87,7 +90,7 @@ contains
       map%has_missing_value = slab%any(map%has_missing_value)
    end subroutine read_height_map
 
-   !> Reads a map of lines of numbers. Errors: as of read_height_map.
+   !> Reads a map from a text of numbers. Errors: as of read_height_map.
    subroutine read_text(file, map, error)
       type(binary_file), intent(in) :: file
       type(measured_map), intent(inout) :: map
@@ -105,7 +108,7 @@ contains
       end if
       call read_number_table(file%path, most_bytes, table, error)
       if (allocated(error)) then
-         ! A text of numbers is read whatever its name.
+         ! The name is considered only now, because a text of numbers is read whatever its name is.
          if (error%status == exit_bad_input) remedy = remedy_of_name(file%path)
          if (remedy /= '') error%message = error%message//' ('//remedy//')'
          return
@@ -113,7 +116,8 @@ contains
       map%head_lines = table%words
       if (map%format == 'auto') then
          map%format = 'matrix'
-         ! Texts of Gwyddion with the sides of a map, and grids of ESRI, have rows of heights, however many.
+         ! Texts of Gwyddion with the sides of a map and grids of ESRI are matrices, also if they have two or three
+         ! columns.
          if (entry_of(newline//file%head, 'Width', ':') == '' .and. &
              entry_of(newline//lower_case(file%head), 'ncols', blanks) == '') then
             if (size(table%values, 1) == 3 .and. size(table%line) > 3) map%format = 'xyz'
@@ -141,12 +145,13 @@ contains
       map%step = map%step(2:1:-1)
    end subroutine read_text
 
-   !> Marks the missing heights: those that are NaN and those that have a given value, in double or in single precision.
+   !> Marks the missing heights, and sets them to 0: those that are NaN, and those that equal a given value or this
+   !> value rounded to single precision.
    subroutine mark_missing(map, missing_value)
       type(measured_map), intent(inout) :: map
-      real(dp), intent(in), optional :: missing_value
+      real(dp), intent(in), optional :: missing_value   !! a height that stands for a missing one
 
-      real(dp) :: rounded
+      real(dp) :: rounded   ! to single precision
       integer :: i, j
 
       if (present(missing_value)) then

@@ -1,4 +1,5 @@
-!> Filters of height maps: spikes by a median rule (M8), tapered borders (M5), short waves.
+!> Filters of height maps: removal of spikes by a median rule, (M8), taper of the borders, (M5), and removal of short
+!> waves. The equations are those of README.md in this directory.
 module wavycon_map_filters
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
@@ -11,37 +12,39 @@ module wavycon_map_filters
 
    public :: find_spikes, leave_out_short_waves, taper_borders
 
-   !> Neighbours of a height: those up to so many points away, in each direction of a map, along a profile.
-   integer, parameter :: around_in_map = 2, around_in_profile = 6
+   !> The neighbours of a height are the points at most so many steps away: in each direction of a map; along a profile.
+   integer, parameter :: reach_in_map = 2, reach_in_profile = 6
 
 contains
 
-   !> Counts the heights that differ from the median of their neighbours by more than a multiple of what these differ
-   !> among themselves, here and on the average over the map, and replaces them by this median on demand.
+   !> Counts the spikes of a map, (M8), and replaces each by the median of its neighbours on demand. A spike is a height
+   !> that differs from this median by more than a multiple of the neighbours' range, and of the mean of this range over
+   !> the map.
    subroutine find_spikes(height, missing, number, replace)
       real(dp), intent(inout) :: height(:, :)                 !! shape (M, N), a whole map; N = 1 for a profile
       logical, allocatable, intent(in) :: missing(:, :)       !! shape of height; not allocated if none is missing
-      integer, intent(out) :: number                          !! of spikes
-      logical, intent(in) :: replace                          !! by the median of the neighbours; their number only
+      integer, intent(out) :: number                          !! number of spikes
+      logical, intent(in) :: replace                          !! whether spikes are replaced; if not only counted
 
-      real(dp) :: median, spread, spreads
-      logical, allocatable :: there(:, :)
-      real(dp), allocatable :: was(:, :)
-      integer :: i, j, pass
+      real(dp) :: median, range_of_neighbours, sum_of_ranges
+      logical, allocatable :: is_there(:, :)
+      real(dp), allocatable :: original(:, :)
+      integer :: i, j, pass   ! pass 1 finds the mean range, pass 2 the spikes
 
-      allocate (was, source=height)
-      allocate (there(size(height, 1), size(height, 2)), source=.true.)
-      if (allocated(missing)) there = .not. missing
+      allocate (original, source=height)
+      allocate (is_there(size(height, 1), size(height, 2)), source=.true.)
+      if (allocated(missing)) is_there = .not. missing
       number = 0
-      spreads = 0.0_dp
+      sum_of_ranges = 0.0_dp
       do pass = 1, 2
          do j = 1, size(height, 2)
             do i = 1, size(height, 1)
-               if (.not. there(i, j)) cycle
-               call look_around(i, j, median, spread)
-               if (pass == 1) spreads = spreads + spread
+               if (.not. is_there(i, j)) cycle
+               call compare_neighbours(i, j, median, range_of_neighbours)
+               if (pass == 1) sum_of_ranges = sum_of_ranges + range_of_neighbours
                if (pass == 1) cycle
-               if (.not. abs(was(i, j) - median) > reach_of_spike*max(spread, spreads/size(height))) cycle
+               if (.not. abs(original(i, j) - median) > &
+                   reach_of_spike*max(range_of_neighbours, sum_of_ranges/size(height))) cycle
                number = number + 1
                if (replace) height(i, j) = median
             end do
@@ -50,43 +53,45 @@ contains
 
    contains
 
-      !> The median of the neighbours of a height that are there, and by how much they differ without the sixth of them
-      !> at either end, which may be parts of the same spike. With fewer than six a height is its own median.
-      pure subroutine look_around(i, j, median, spread)
-         integer, intent(in) :: i, j
-         real(dp), intent(out) :: median, spread
+      !> Finds the median and the range of the neighbours of a height that are not missing. The range leaves out a sixth
+      !> of the neighbours at either end, which may be parts of the same spike. With fewer than six neighbours the
+      !> median is the height itself, and the range 0.
+      pure subroutine compare_neighbours(i, j, median, width)
+         integer, intent(in) :: i, j                !! the point
+         real(dp), intent(out) :: median, width     !! median and range
 
-         real(dp) :: sorted((2*around_in_map + 1)**2)
-         integer :: around(2), k, l, m, n
+         real(dp) :: sorted((2*reach_in_map + 1)**2)
+         integer :: reach(2), k, l, m, n
 
-         around = around_in_map
-         if (size(height, 2) == 1) around = [around_in_profile, 0]
+         reach = reach_in_map
+         if (size(height, 2) == 1) reach = [reach_in_profile, 0]
          n = 0
-         do l = max(1, j - around(2)), min(size(height, 2), j + around(2))
-            do k = max(1, i - around(1)), min(size(height, 1), i + around(1))
-               if ((k == i .and. l == j) .or. .not. there(k, l)) cycle
+         do l = max(1, j - reach(2)), min(size(height, 2), j + reach(2))
+            do k = max(1, i - reach(1)), min(size(height, 1), i + reach(1))
+               if ((k == i .and. l == j) .or. .not. is_there(k, l)) cycle
                n = n + 1
                do m = n, 2, -1
-                  if (sorted(m - 1) <= was(k, l)) exit
+                  if (sorted(m - 1) <= original(k, l)) exit
                   sorted(m) = sorted(m - 1)
                end do
-               sorted(m) = was(k, l)
+               sorted(m) = original(k, l)
             end do
          end do
-         median = was(i, j)
-         spread = 0.0_dp
+         median = original(i, j)
+         width = 0.0_dp
          if (n < 6) return
          median = 0.5_dp*(sorted((n + 1)/2) + sorted(n/2 + 1))
-         spread = sorted(n - n/6) - sorted(1 + n/6)
-      end subroutine look_around
+         width = sorted(n - n/6) - sorted(1 + n/6)
+      end subroutine compare_neighbours
 
    end subroutine find_spikes
 
-   !> Multiplies the heights over their mean by Tukey's window along x and along y, so that they vanish at the borders.
+   !> Subtracts the mean of the heights and multiplies them by Tukey's window, (M5), along x and along y. So the heights
+   !> vanish at the borders.
    subroutine taper_borders(width, slab, height, changed)
-      real(dp), intent(in) :: width             !! of the taper at each border, over the side, 0 < width <= 1/2
-      type(grid_slab), intent(in) :: slab       !! the columns of the map, N = 1 for a profile
-      real(dp), intent(inout) :: height(:, :)   !! shape (M, slab%columns()); then over the mean
+      real(dp), intent(in) :: width             !! width of the taper at each border over the side, 0 < width <= 1/2
+      type(grid_slab), intent(in) :: slab       !! which columns of the map `height` has; N = 1 for a profile
+      real(dp), intent(inout) :: height(:, :)   !! shape (M, slab%columns())
       real(dp), intent(out) :: changed          !! part of the points at which the window is below 1
 
       real(dp) :: along_x(slab%points(1)), along_y(slab%points(2)), mean(1)
@@ -94,7 +99,7 @@ contains
 
       along_x = window(slab%points(1), width)
       along_y = window(slab%points(2), width)
-      ! The second pass removes what rounding left of a large mean in the first.
+      ! The second pass removes the rounding error of the first one, which is large if the mean is.
       do j = 1, 2
          mean = slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(slab%points, dp))
          height = height - mean(1)
@@ -105,13 +110,13 @@ contains
       changed = 1.0_dp - real(count(along_x >= 1.0_dp), dp)*count(along_y >= 1.0_dp)/product(real(slab%points, dp))
    end subroutine taper_borders
 
-   !> The window (M5) at the points of one direction; 1 for a single point, which has no border.
+   !> The window (M5) at the points of one direction. For a single point, a profile's direction y, the window is 1.
    pure function window(points, width) result(values)
-      integer, intent(in) :: points
-      real(dp), intent(in) :: width
+      integer, intent(in) :: points       !! number of points in this direction
+      real(dp), intent(in) :: width       !! v of (M5)
       real(dp) :: values(points)
 
-      real(dp) :: distance   ! from the nearer border, over the side
+      real(dp) :: distance   ! of the point from the nearer border, over the side
       integer :: i
 
       values = 1.0_dp
@@ -122,26 +127,26 @@ contains
       end do
    end function window
 
-   !> Removes the waves of the map's Fourier series that are shorter than a wavelength, in any direction.
+   !> Removes the waves of the map's Fourier series whose length, in whatever direction, is less than a given one.
    subroutine leave_out_short_waves(points, sides, mirrored, shortest, height, removed)
       integer, intent(in) :: points(2)                     !! M, N of the map
-      real(dp), intent(in) :: sides(2)                     !! of the map along x and y, in one unit, > 0
-      logical, intent(in) :: mirrored                      !! whether mirror images continue it
-      real(dp), intent(in) :: shortest                     !! wavelength that stays, in the same unit, > 0
-      real(dp), intent(inout), contiguous :: height(:, :)  !! shape (M, N), or own columns of the grid's slab
-      real(dp), intent(out) :: removed                     !! root mean square of what was removed [height]
+      real(dp), intent(in) :: sides(2)                     !! sides of the map along x and y, in one unit, > 0
+      logical, intent(in) :: mirrored                      !! whether mirror images continue the map
+      real(dp), intent(in) :: shortest                     !! shortest wavelength that stays, in the same unit, > 0
+      real(dp), intent(inout), contiguous :: height(:, :)  !! shape (M, N), or the own columns of the grid's slab
+      real(dp), intent(out) :: removed                     !! root mean square of the removed waves [height]
 
-      !> A wave whose length differs from the shortest by rounding stays.
+      !> A wave whose length differs from the shortest one by rounding stays.
       real(dp), parameter :: rounding = 1e-12_dp
       type(fourier_series) :: waves
       type(grid_transform) :: transform
       real(dp), allocatable :: smooth(:, :)
-      real(dp) :: squares(1)
+      real(dp) :: periods(2), squares(1)
 
+      periods = merge(2, 1, mirrored)*sides
       call transform%start(points, even=mirrored)
       call transform%series(height, waves)
-      call waves%multiply(merge(1.0_dp, 0.0_dp, &
-                                shortest*waves%frequencies(merge(2, 1, mirrored)*sides) <= 1 + rounding))
+      call waves%multiply(merge(1.0_dp, 0.0_dp, shortest*waves%frequencies(periods) <= 1 + rounding))
       allocate (smooth, mold=height)
       call transform%sample(waves, smooth)
       squares = transform%slab%column_totals(reshape(sum((height - smooth)**2, dim=1), [1, size(height, 2)]))

@@ -1,4 +1,4 @@
-!> Size, format and statistics of a height map.
+!> The statistics of a height map, with its size, its format, and what was done to it.
 module wavycon_map_statistics
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
@@ -10,38 +10,38 @@ module wavycon_map_statistics
    public :: map_statistics, statistics_of
 
    type :: map_statistics
-      integer :: points(2) = 0                                      !! along x and y
-      character(7) :: format = ''                                   !! as of measured_map
-      real(dp) :: lowest = 0.0_dp, highest = 0.0_dp, rms = 0.0_dp   !! of the heights over their mean [length]
-      real(dp) :: skewness = 0.0_dp, kurtosis = 0.0_dp              !! eq. (M20); 0 of a flat map
-      !> Root mean square of the steps between neighbours along x and y, across the line within the map where it is
-      !> largest [length].
+      integer :: points(2) = 0                                      !! numbers of points along x and y
+      character(7) :: format = ''                                   !! component of the same name of measured_map
+      real(dp) :: lowest = 0.0_dp, highest = 0.0_dp, rms = 0.0_dp   !! of the heights less their mean [length]
+      real(dp) :: skewness = 0.0_dp, kurtosis = 0.0_dp              !! eq. (M20); 0 for a flat map
+      !> Differences between neighbours along x and along y: for each line between two rows or columns of points their
+      !> root mean square is taken, and this is the largest one within the map [length].
       real(dp) :: largest_step(2) = 0.0_dp
-      !> Root mean square of the steps from the last points to the first, which are their neighbours because the map is
-      !> continued periodically [length].
+      !> Root mean square of the differences between the last points and the first ones, which are neighbours if the map
+      !> is continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
       !> Root mean squares of slope and curvature by differences between neighbours, eq. (M25) [-, 1/length].
       real(dp) :: slope_by_differences = 0.0_dp, curvature_by_differences = 0.0_dp
-      integer :: spikes = 0                      !! heights far from all around them, if they were looked for
-      logical :: lacks_missing_value = .false.   !! whether the deck gives a missing_value that no height has
+      integer :: spikes = 0                        !! number of spikes, if the map was searched for them
+      logical :: lacks_missing_value = .false.     !! whether the deck gives a missing_value that no height has
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none
-      character(:), allocatable :: length_unit                      !! that the file names, or the deck in its place
-      type(map_changes) :: changes                                  !! of the measured map
-      character(:), allocatable :: path                             !! absolute; empty if there is no file
+      character(:), allocatable :: length_unit     !! unit of length that the file names, or the deck in its place
+      type(map_changes) :: changes                 !! what was done to the measured map
+      character(:), allocatable :: path            !! absolute path of the file; empty if there is no file
    contains
       procedure :: is_broken_along
    end type map_statistics
 
 contains
 
-   !> The statistics of a map, moments by eq. (M20). The last digit of largest_step(1) may depend on how the map is
-   !> distributed.
+   !> Computes the statistics of a map, the moments by eq. (M20). The last digit of largest_step(1) may depend on how
+   !> the map is distributed over processes.
    type(map_statistics) function statistics_of(height, format, points, step, repeats) result(statistics)
-      real(dp), intent(in) :: height(:, :)   !! over the mean [length], shape (M, N) or (M, columns of the grid's slab)
-      character(*), intent(in) :: format     !! as of measured_map
+      real(dp), intent(in) :: height(:, :)   !! less the mean [length], shape (M, N) or (M, columns of the grid's slab)
+      character(*), intent(in) :: format     !! component of the same name of measured_map
       integer, intent(in) :: points(2)       !! M, N of the map, which may be distributed
-      real(dp), intent(in) :: step(2)        !! between the points [length]
-      logical, intent(in) :: repeats         !! whether opposite borders are neighbours
+      real(dp), intent(in) :: step(2)        !! steps between the points along x and y [length]
+      logical, intent(in) :: repeats         !! whether opposite borders are neighbours, as in a periodic map
 
       type(grid_slab) :: slab
       real(dp) :: extremes(2), unit
@@ -58,36 +58,45 @@ contains
       if (unit > 0.0_dp) call take_sums(slab, height, unit, step, repeats, statistics)
    end function statistics_of
 
-   !> Finds the moments of the heights, the steps between neighbours, and slope and curvature by these.
+   !> Computes the moments of the heights, the differences between neighbours, and from these slope and curvature, in
+   !> one pass over the columns.
    subroutine take_sums(slab, height, unit, step, repeats, statistics)
       type(grid_slab), intent(in) :: slab
-      real(dp), intent(in) :: height(:, :)                  !! own columns [length]
-      real(dp), intent(in) :: unit                          !! the largest size of all heights, > 0 [length]
+      real(dp), intent(in) :: height(:, :)                  !! the own columns [length]
+      real(dp), intent(in) :: unit                          !! the largest |height|, > 0 [length]
       real(dp), intent(in) :: step(2)                       !! as of statistics_of
-      logical, intent(in) :: repeats
+      logical, intent(in) :: repeats                        !! as of statistics_of
       type(map_statistics), intent(inout) :: statistics
 
       real(dp), dimension(size(height, 1), 1) :: behind, next
       real(dp), dimension(size(height, 1)) :: ahead, bend, here, here_squared, to_last, to_next
-      real(dp) :: across(2)   ! squares of a step along y: the largest within the map, and that across its border
-      real(dp) :: moments(2:4), over_step(2), squares(size(height, 1)), sums(3), x_steps(0:size(height, 1))
-      !> Of each column the sums of the squared differences along x and y and of the squared curvature, the squared step
-      !> from the last point along x to the first, and the sums of the second to fourth powers of the heights.
-      real(dp) :: parts(7, size(height, 2)), totals(7)
+      !> Sums over a column of the squared differences to the next column: the largest within the map; across its
+      !> border.
+      real(dp) :: across(2)
+      real(dp) :: moments(2:4), over_step(2), squares(size(height, 1)), numbers(3), x_steps(0:size(height, 1))
+      !> For each column: 1, 2: sums of the squared differences along x, along y; 3: sum of the squared curvature; 4:
+      !> squared difference between the last point along x and the first; 5 to 7: sums of the heights' powers 2 to 4.
+      real(dp) :: column_sums(7, size(height, 2)), totals(7)
       integer :: first, j, last
 
-      ! Powers of heights over the largest one and of steps over the least do not overflow.
+      ! Heights are divided by the largest one, steps by the least one: their powers do not overflow.
       over_step = minval(step)/step
       call slab%halo(height, .false., behind, next)
       ahead = height(:, 1)/unit
       to_next = ahead - behind(:, 1)/unit
       squares = 0.0_dp
       across = 0.0_dp
-      parts = 0.0_dp
+      column_sums = 0.0_dp
       associate (m => slab%points(1), n => slab%points(2))
-         first = merge(1, 2, repeats)
-         last = merge(m, m - 1, repeats)
-         sums = merge([m*n, m*n, m*n], [(m - 1)*n, m*(n - 1), (m - 2)*max(n - 2, 1)], repeats)
+         if (repeats) then
+            first = 1
+            last = m
+            numbers = m*n
+         else
+            first = 2
+            last = m - 1
+            numbers = [(m - 1)*n, m*(n - 1), (m - 2)*max(n - 2, 1)]
+         end if
          do j = 1, size(height, 2)
             here = ahead
             to_last = to_next
@@ -101,24 +110,24 @@ contains
             x_steps(m) = here(1) - here(m)
             x_steps(0) = x_steps(m)
             squares = squares + x_steps(1:)**2
-            parts(1, j) = inner_product(x_steps(1:last), x_steps(1:last))
-            parts(4, j) = x_steps(m)**2
+            column_sums(1, j) = inner_product(x_steps(1:last), x_steps(1:last))
+            column_sums(4, j) = x_steps(m)**2
             here_squared = here**2
-            parts(5:7, j) = [inner_product(here, here), inner_product(here_squared, here), &
+            column_sums(5:7, j) = [inner_product(here, here), inner_product(here_squared, here), &
                              inner_product(here_squared, here_squared)]
             associate (column => slab%first - 1 + j, y_squares => inner_product(to_next, to_next))
                if (column < n) across(1) = max(across(1), y_squares)
                if (column == n) across(2) = y_squares
-               if (column < n .or. repeats) parts(2, j) = y_squares
+               if (column < n .or. repeats) column_sums(2, j) = y_squares
                if (n > 1 .and. .not. repeats .and. any(column == [1, n])) cycle
             end associate
             bend = over_step(1)**2*(x_steps(1:) - x_steps(:m - 1))
             if (n > 1) bend = 0.5_dp*(bend + over_step(2)**2*(to_next - to_last))
-            parts(3, j) = inner_product(bend(first:last), bend(first:last))
+            column_sums(3, j) = inner_product(bend(first:last), bend(first:last))
          end do
          squares = slab%total(squares)
          across = slab%largest(across)
-         totals = slab%column_totals(parts)
+         totals = slab%column_totals(column_sums)
          statistics%largest_step = unit*sqrt([maxval(squares(:m - 1))/n, across(1)/m])
          statistics%border_step = unit*sqrt([totals(4)/n, across(2)/m])
          moments = totals(5:)/(real(m, dp)*n)
@@ -126,12 +135,12 @@ contains
       statistics%rms = unit*sqrt(moments(2))
       statistics%skewness = moments(3)/(moments(2)*sqrt(moments(2)))
       statistics%kurtosis = moments(4)/moments(2)**2
-      totals(:3) = totals(:3)/max(sums, 1.0_dp)
+      totals(:3) = totals(:3)/max(numbers, 1.0_dp)
       statistics%slope_by_differences = unit/minval(step)*norm2(over_step*sqrt(totals(:2)))
       statistics%curvature_by_differences = unit/minval(step)**2*sqrt(totals(3))
    end subroutine take_sums
 
-   !> The sum of products of two vectors, several at a time.
+   !> The scalar product of two vectors, by the vector instructions of the processor.
    pure real(dp) function inner_product(a, b) result(total)
       real(dp), intent(in), contiguous :: a(:), b(:)
 
@@ -144,8 +153,9 @@ contains
       end do
    end function inner_product
 
-   !> Whether the steps across the border are much larger than those across any line inside: in a periodic map they are
-   !> like the others, in a tilted or cut patch as large as its heights. A mirrored map has none.
+   !> Whether the map jumps at its borders: whether the differences across the border are much larger than those across
+   !> any line inside. In a periodic map they are like the others, in a tilted or cut patch as large as the heights. A
+   !> map that is mirrored or has free edges has no differences across its border.
    elemental logical function is_broken_along(self, direction)
       class(map_statistics), intent(in) :: self
       integer, intent(in) :: direction   !! 1 or 2: along x or y

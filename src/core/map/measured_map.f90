@@ -1,4 +1,5 @@
-!> A height map as a file or an array gives it: perhaps with holes, tilted, and not periodic; how large it may be.
+!> A height map as a file or an array gives it. It may have holes, be tilted, and not be periodic. This module also
+!> checks the size of maps.
 module wavycon_measured_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
@@ -10,26 +11,26 @@ module wavycon_measured_map
 
    public :: check_map_size, check_room, laid_along_x, measured_map
 
-   !> Fewest and most points along a side.
+   !> The least and the largest number of points along a side.
    integer, parameter :: least_points = 3
    integer, parameter, public :: most_points = 1048576
 
    type :: measured_map
-      !> As in the file, 0 where it is missing, shape (M, N): along x, along y; N = 1 for a profile. If the map is
-      !> distributed it has the own columns.
+      !> The heights as in the file, 0 where a height is missing, shape (M, N): M points along x, N along y; N = 1 for a
+      !> profile. If the map is distributed over processes, `height` has the process's own columns.
       real(dp), allocatable :: height(:, :)
       logical, allocatable :: missing(:, :)        !! shape of `height`; not allocated if no height is missing
       logical :: has_missing_value = .false.       !! whether a height had the value that stands for a missing one
-      real(dp) :: step(2) = 0.0_dp                 !! between points along x and y; 0 where the file does not give it
-      real(dp), allocatable :: x(:)                !! of a profile until it is resampled, if its steps are not equal
-      real(dp) :: uneven_steps(2) = 0.0_dp         !! least and largest of a profile that was resampled, otherwise 0
-      real(dp), allocatable :: no_data             !! height that stands for a missing one, if the file names it
-      integer :: head_lines = 0                    !! of a text that begin with words and were left out
-      logical :: is_usual_side(2) = .false.        !! whether a step is that of the format's default of the side
-      character(7) :: format = ''                  !! of the file, as of read_height_map, but not 'auto'
-      character(:), allocatable :: length_unit     !! of the steps; not allocated if the file does not name units
-      character(:), allocatable :: height_unit     !! of the heights; allocated if length_unit is
-      type(grid_slab) :: slab                      !! of the points of a map that is distributed
+      real(dp) :: step(2) = 0.0_dp                 !! steps between points along x and y; 0 where the file gives none
+      real(dp), allocatable :: x(:)                !! x of a profile with unequal steps, until the profile is resampled
+      real(dp) :: uneven_steps(2) = 0.0_dp         !! least and largest step of a resampled profile; otherwise 0
+      real(dp), allocatable :: no_data             !! the height that stands for a missing one, if the file names one
+      integer :: head_lines = 0                    !! number of lines of a text that begin with words and were skipped
+      logical :: is_usual_side(2) = .false.        !! whether the side, and so the step, is the format's default
+      character(7) :: format = ''                  !! format of the file, as of read_height_map, but not 'auto'
+      character(:), allocatable :: length_unit     !! unit of the steps; not allocated if the file does not name units
+      character(:), allocatable :: height_unit     !! unit of the heights; allocated if length_unit is
+      type(grid_slab) :: slab                      !! if the map is distributed, which columns are the own ones
    contains
       procedure :: set_units
       procedure :: columns
@@ -38,7 +39,7 @@ module wavycon_measured_map
 
 contains
 
-   !> Sets the units that a file names; if it names one, it is that of both.
+   !> Sets the units that a file names. If the file names only one of the two, this one is taken for both.
    pure subroutine set_units(self, length_unit, height_unit)
       class(measured_map), intent(inout) :: self
       character(*), intent(in) :: length_unit, height_unit   !! empty if the file does not name them
@@ -50,7 +51,7 @@ contains
       if (height_unit == '') self%height_unit = length_unit
    end subroutine set_units
 
-   !> The columns that `height` has: the whole grid, unless the map is distributed.
+   !> Which columns `height` has: those of the whole grid unless the map is distributed.
    pure type(grid_slab) function columns(self)
       class(measured_map), intent(in) :: self
 
@@ -59,7 +60,7 @@ contains
          columns = grid_slab(points=shape(self%height), width=size(self%height, 2), last=size(self%height, 2))
    end function columns
 
-   !> Distributes a whole map if it is large.
+   !> Distributes a whole map over the processes if it is large: each process keeps its own columns.
    subroutine keep_own_columns(self)
       class(measured_map), intent(inout) :: self
 
@@ -75,8 +76,8 @@ contains
 
    !> Checks the number of points. Errors: exit_bad_input for a map that is too small or too large.
    subroutine check_map_size(source, points, error)
-      character(*), intent(in) :: source   !! of the map, for the message
-      integer, intent(in) :: points(2)     !! along x and y; the second is 1 for a profile
+      character(*), intent(in) :: source   !! name of the map, for the message
+      integer, intent(in) :: points(2)     !! numbers of points along x and y; the second is 1 for a profile
       type(error_type), allocatable, intent(out) :: error
 
       associate (m => points(1), n => points(2))
@@ -87,24 +88,24 @@ contains
       end associate
    end subroutine check_map_size
 
-   !> The points of a map; of one column those of a profile along x.
+   !> The numbers of points of a map along x and y. A single column along y is taken as a profile along x.
    pure function laid_along_x(points) result(laid)
-      integer, intent(in) :: points(2)
+      integer, intent(in) :: points(2)   !! as the file gives them
       integer :: laid(2)
 
       laid = points
       if (points(1) == 1) laid = points(2:1:-1)
    end function laid_along_x
 
-   !> Checks that there is memory for a map and its surface besides what is in use, because later allocations have no
-   !> error handling. Errors: exit_file_trouble, of this process alone.
+   !> Checks that there is enough free memory for a map and its surface, because later allocations have no error
+   !> handling. Errors: exit_file_trouble, in this process alone.
    subroutine check_room(source, points, error, slab)
-      character(*), intent(in) :: source   !! of the map, for the message
-      integer, intent(in) :: points(2)     !! along x and y
+      character(*), intent(in) :: source   !! name of the map, for the message
+      integer, intent(in) :: points(2)     !! numbers of points along x and y
       type(error_type), allocatable, intent(out) :: error
-      type(grid_slab), intent(in), optional :: slab   !! of a map that may be distributed; absent: of a whole one
+      type(grid_slab), intent(in), optional :: slab   !! the own columns of a map that may be distributed; absent: all
 
-      !> Real numbers for each height: the map, the Fourier coefficients, work space of the transforms.
+      !> Real numbers for each height: those of the map, of the Fourier coefficients and of the transforms' work space.
       integer, parameter :: copies = 5
       character(:), allocatable :: words
       type(grid_slab) :: part

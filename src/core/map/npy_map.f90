@@ -12,13 +12,15 @@ module wavycon_npy_map
 
    !> First bytes of an .npy file.
    character(*), parameter, public :: npy_magic = char(147)//'NUMPY'
-   !> Bytes up to the version, and up to the length of the words; of version 1 this length has two bytes, later four.
+   !> The head of an .npy file: the magic bytes, two bytes of the version, the length of the words, and the words. These
+   !> are the numbers of bytes before the version and before the length. The length has two bytes in version 1, later
+   !> four.
    integer, parameter :: before_version = len(npy_magic), before_length = before_version + 2
 
 contains
 
-   !> Reads a map: heights[j, i] at x number i and y number j, or a profile heights[i]. Errors: exit_bad_input,
-   !> exit_file_trouble.
+   !> Reads a map in the .npy format. The array is heights[j, i], i the number of the point along x and j that along y,
+   !> or a profile heights[i]. Errors: exit_bad_input, exit_file_trouble.
    subroutine read_npy_map(file, map, error)
       class(binary_file), intent(inout) :: file
       type(measured_map), intent(inout) :: map
@@ -44,7 +46,8 @@ contains
       select case (type_words)
       case ("'<f4'", "'>f4'", "'<f8'", "'>f8'")
          file%big_end_first = type_words(2:2) == '>'
-         file%number_bytes = merge(4, 8, type_words(4:4) == '4')
+         file%number_bytes = 8
+         if (type_words(4:4) == '4') file%number_bytes = 4
       case ('')
          call file%refuse("the head of this .npy file does not give 'descr', the type of its numbers: write it by "// &
                           'numpy.save', error)
@@ -66,10 +69,10 @@ contains
       call file%read_heights(int(last, int64), points, points(2) > 1 .and. order == 'True', map, error)
    end subroutine read_npy_map
 
-   !> The place of the words of a head: a Python dictionary. last < first if there are none.
+   !> Finds the words of a head, which are a Python dictionary.
    pure subroutine find_words(head, first, last)
-      character(*), intent(in) :: head
-      integer, intent(out) :: first, last
+      character(*), intent(in) :: head        !! first bytes of the file, longer than the magic bytes
+      integer, intent(out) :: first, last     !! positions of the first and the last byte; last < first if none
 
       integer :: bytes, i, version
       integer(int64) :: length
@@ -79,14 +82,15 @@ contains
       if (len(head) < before_length + 4) return
       version = iachar(head(before_version + 1:before_version + 1))
       if (version < 1 .or. version > 3) return
-      bytes = merge(2, 4, version == 1)
+      bytes = 4
+      if (version == 1) bytes = 2
       length = sum([(iachar(head(before_length + i:before_length + i))*256_int64**(i - 1), i=1, bytes)])
       if (length > len(head) - before_length - bytes) return
       first = before_length + bytes + 1
       last = before_length + bytes + int(length)
    end subroutine find_words
 
-   !> The entry of a key in a Python dictionary, without the blanks around it; empty if it is not there.
+   !> The entry of a key in a Python dictionary, without the blanks around the entry; empty if the key is not there.
    pure function entry_of(words, key) result(entry)
       character(*), intent(in) :: words   !! such as {'descr': '<f8', 'shape': (3, 4), }
       character(*), intent(in) :: key
@@ -96,7 +100,7 @@ contains
 
       entry = words
       do i = 1, len(entry)
-         ! Python knows both quotes, and Python 2 writes an L behind some numbers.
+         ! Python may write double quotes, and Python 2 writes an L behind some numbers.
          if (entry(i:i) == '"') entry(i:i) = "'"
          if (entry(i:i) == 'L') entry(i:i) = ' '
       end do
@@ -114,11 +118,11 @@ contains
       end select
    end function entry_of
 
-   !> The numbers of a Python tuple of whole numbers, such as (3, 4).
+   !> Reads a Python tuple of whole numbers, such as (3, 4).
    pure subroutine read_shape(words, sides, number)
       character(*), intent(in) :: words
-      integer, intent(out) :: sides(3)   !! the first three
-      integer, intent(out) :: number     !! of the sides, at most 3; 0 if this is no such tuple
+      integer, intent(out) :: sides(3)   !! the first three numbers of the tuple, -1 where it has fewer
+      integer, intent(out) :: number     !! how many numbers the tuple has, at most 3; 0 if this is not such a tuple
 
       character(:), allocatable :: inner
       integer :: status
@@ -127,7 +131,7 @@ contains
       sides = -1
       if (len(words) < 2) return
       if (words(1:1) /= '(' .or. verify(words(2:len(words) - 1), '0123456789, ') > 0) return
-      ! The slash ends the reading.
+      ! The slash ends list-directed reading, so that fewer than three numbers are no error.
       inner = words(2:len(words) - 1)//' /'
       read (inner, *, iostat=status) sides
       if (status == 0) number = count(sides >= 0)

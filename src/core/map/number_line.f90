@@ -1,7 +1,8 @@
-!> Reads the numbers of a line.
+!> Reads the numbers of one line of a text.
 !>
-!> Numbers are separated by blanks, tabs, commas or semicolons, and written as `read_decimal` takes them, perhaps in
-!> quotes. Words such as `nan` and `--` are missing numbers, and so is nothing between two commas, semicolons or tabs.
+!> Numbers are separated by blanks, tabs, commas or semicolons, and may stand in quotes. Their forms are those that
+!> `read_decimal` reads. Words such as `nan` and `--` stand for missing numbers. A number is also missing where two
+!> commas, semicolons or tabs follow each other.
 module wavycon_number_line
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: largest_number
@@ -14,22 +15,27 @@ module wavycon_number_line
    public :: is_missing, read_line
 
    character(*), parameter :: tab = achar(9)
-   !> What separates numbers.
+   !> The characters that may stand between numbers.
    character(*), parameter, public :: gaps = ' ,;"'//tab
 
 contains
 
    !> Reads the numbers of a line. Callers must switch off traps of overflow.
+   !>
+   !> A decimal comma would make two numbers of one. It is suspected, and refused, where one comma stands without blanks
+   !> between two numbers of a line that separates other numbers in another way.
    subroutine read_line(line, values, used, ends_open, trouble)
       character(*), intent(in) :: line         !! without comment and line end
-      real(dp), intent(inout) :: values(:)     !! more than the line has bytes; a missing number is NaN
-      integer, intent(out) :: used             !! number of values
+      real(dp), intent(inout) :: values(:)     !! numbers, NaN if missing; its size must exceed the bytes of the line
+      integer, intent(out) :: used             !! how many values are set
       logical, intent(out) :: ends_open        !! whether the line ends in a separator: a last number may be missing
-      character(:), allocatable, intent(out) :: trouble   !! message of the problem; not allocated if there is none
+      character(:), allocatable, intent(out) :: trouble   !! message of a problem; not allocated if there is none
 
-      integer :: behind           !! the number before, place behind its last byte; 1 at the start of the line
-      integer :: commas, first, holes, last, separators, tight
-      logical :: are_tabs, is_loose, is_quoted
+      integer :: behind           !! position behind the last byte of the previous number; 1 at the start of the line
+      integer :: commas, first, holes, last, separators   !! see next_word; holes: missing numbers between separators
+      integer :: tight            !! position behind a comma that directly joins two numbers; 0 if there is none
+      logical :: are_tabs, is_quoted
+      logical :: is_loose         !! whether some numbers of the line are separated without a comma
 
       ends_open = .false.
       used = 0
@@ -64,7 +70,7 @@ contains
          behind = last + 1
       end do
       if (behind == 1) then
-         ! One separator may be left behind by a spreadsheet or an editor; more stand for numbers.
+         ! A spreadsheet or an editor may leave one separator on an empty line. More of them stand for missing numbers.
          if (separators > 1) trouble = 'this line has separators and no numbers: write nan for the numbers that '// &
                                        'are missing, or take the line out'
          return
@@ -75,16 +81,15 @@ contains
       used = used + holes
    end subroutine read_line
 
-   !> The next word from a place on, and what stands before it; first > len(line) if there is none. Between quotes all
-   !> is one word.
-   pure subroutine next_word(line, place, first, last, commas, separators, are_tabs, is_quoted)
+   !> Finds the next word of a line, and counts the separators before it. Everything between two quotes is one word.
+   pure subroutine next_word(line, start, first, last, commas, separators, are_tabs, is_quoted)
       character(*), intent(in) :: line
-      integer, intent(in) :: place
-      integer, intent(out) :: first, last
-      integer, intent(out) :: commas        !! before the word
-      integer, intent(out) :: separators    !! before the word: commas and semicolons or, without these, tabs
+      integer, intent(in) :: start          !! position from which the word is searched
+      integer, intent(out) :: first, last   !! positions of the word's first and last byte; first > len(line) if none
+      integer, intent(out) :: commas        !! number of commas before the word
+      integer, intent(out) :: separators    !! number of commas and semicolons before the word; without these of tabs
       logical, intent(out) :: are_tabs      !! whether the separators are tabs
-      logical, intent(inout) :: is_quoted   !! whether a quote is open, at the place and at the word
+      logical, intent(inout) :: is_quoted   !! whether a quote is open: on entry at `start`, on exit at the word
 
       character(1) :: byte
       integer :: tabs
@@ -92,7 +97,7 @@ contains
       commas = 0
       separators = 0
       tabs = 0
-      do first = place, len(line)
+      do first = start, len(line)
          byte = line(first:first)
          if (is_quoted .and. byte /= '"' .and. byte /= ' ') exit
          select case (byte)
@@ -124,8 +129,8 @@ contains
    !> Reads a word as a number.
    subroutine read_number(word, value, trouble)
       character(*), intent(in) :: word
-      real(dp), intent(out) :: value
-      character(:), allocatable, intent(out) :: trouble
+      real(dp), intent(out) :: value                       !! NaN if the word stands for a missing number
+      character(:), allocatable, intent(out) :: trouble    !! message if the word is not a number; else not allocated
 
       logical :: is_number
 
@@ -140,7 +145,8 @@ contains
          value = ieee_value(0.0_dp, ieee_quiet_nan)
          return
       end if
-      select case (lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):)))
+      ! `scan` is 1 if the word has a sign, otherwise 0.
+      select case (lower_case(word(1 + scan(word(1:1), '+-'):)))
       case ('inf', 'infinity')
          trouble = "'"//excerpt(word)//"' is not a height: write nan if it is missing"
       case default
@@ -149,8 +155,8 @@ contains
       end select
    end subroutine read_number
 
-   !> Whether a word stands for a missing number: as programs write what is no number, and the errors of spreadsheets.
-   !> Older C libraries of Windows write 1.#QNAN and -1.#IND, with few digits 1.#R.
+   !> Whether a word stands for a missing number: a form in which programs write NaN, or an error of a spreadsheet.
+   !> Older C libraries of Windows write 1.#QNAN and -1.#IND, and 1.#R if few digits are asked for.
    pure logical function is_missing(word)
       character(*), intent(in) :: word   !! not empty
 
@@ -158,15 +164,15 @@ contains
                                              '#num!', '#value!', '#div/0!', '#ref!']
       character(:), allocatable :: unsigned
 
-      unsigned = lower_case(word(merge(2, 1, scan(word(1:1), '+-') == 1):))
+      unsigned = lower_case(word(1 + scan(word(1:1), '+-'):))
       is_missing = any(unsigned == words) .or. index(unsigned, '1.#') == 1 .or. word == '--'
    end function is_missing
 
-   !> Whether a byte separates numbers.
+   !> Whether a byte separates numbers, as those of `gaps` do.
    elemental logical function is_gap(byte)
       character(1), intent(in) :: byte
 
-      ! gfortran 12 compares with a blank by a call of its library.
+      ! The blank is compared by its code: gfortran 12 compares characters with a blank by a call of its library.
       is_gap = iachar(byte) == iachar(' ') .or. byte == tab .or. byte == ',' .or. byte == ';' .or. byte == '"'
    end function is_gap
 

@@ -1,8 +1,8 @@
-!> Reads a file of lines of numbers, as many on each.
+!> Reads a text file of numbers, with the same number of them on each line.
 !>
-!> Comments, from '#' to the end of the line, and lines without numbers are ignored, and so is a head: lines before the
-!> first number that begin with a word. Lines end in LF, CR LF or CR. The marks of missing numbers that have a '#', such
-!> as `#N/A` and `1.#QNAN`, begin no comment.
+!> A comment reaches from '#' to the end of the line. Comments and lines without numbers are ignored, and so is the
+!> head: lines before the first number that begin with a word. Lines end in LF, CR LF or CR. The '#' of a mark for a
+!> missing number, such as `#N/A` and `1.#QNAN`, does not begin a comment.
 module wavycon_number_table
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
@@ -17,9 +17,9 @@ module wavycon_number_table
 
    type :: number_table
       character(:), allocatable :: path         !! as the user named the file
-      real(dp), allocatable :: values(:, :)     !! of each row, a line with numbers; a missing number is NaN
-      integer, allocatable :: line(:)           !! line of the file of each row
-      integer :: words = 0                      !! lines of the head that begin with a word
+      real(dp), allocatable :: values(:, :)     !! shape (columns, rows), a row for a line with numbers; NaN if missing
+      integer, allocatable :: line(:)           !! for each row the number of its line in the file
+      integer :: words = 0                      !! number of lines of the head
    contains
       procedure :: refuse
    end type number_table
@@ -28,29 +28,32 @@ module wavycon_number_table
 
 contains
 
-   !> Makes an error with the name of the file and the line of a row, and the status exit_bad_input.
+   !> Makes an error of status exit_bad_input whose message begins with the name of the file and the line of a row.
    pure subroutine refuse(self, row, words, error)
       class(number_table), intent(in) :: self
-      integer, intent(in) :: row
+      integer, intent(in) :: row             !! number of the row in `values`
       character(*), intent(in) :: words
       type(error_type), allocatable, intent(out) :: error
 
       call fatal_error(error, exit_bad_input, escaped(self%path)//':'//integer_text(self%line(row))//': '//words)
    end subroutine refuse
 
-   !> Reads a file. Callers must switch off traps of overflow. Errors: exit_file_trouble if it cannot be read;
-   !> exit_bad_input for a word that is not a number, a number above largest_number, a possible decimal comma, a line of
-   !> separators, rows of unequal length, a file of more than one map, and one without numbers.
+   !> Reads a file. Callers must switch off traps of overflow. Errors: exit_file_trouble if the file cannot be read or
+   !> there is not enough memory; exit_bad_input for a word that is not a number, a number above largest_number, a
+   !> possible decimal comma, a line of separators only, rows of unequal length, a file of more than one map, and a file
+   !> without numbers.
    subroutine read_number_table(path, most_bytes, table, error)
       character(*), intent(in) :: path
-      integer, intent(in) :: most_bytes   !! a larger file is not read
+      integer, intent(in) :: most_bytes   !! a file with more bytes is not read
       type(number_table), intent(out) :: table
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: content, trouble
       real(dp), allocatable :: row(:), values(:, :)
       integer :: behind, columns, first, i, last, line, most_rows, rows, status, used
-      logical :: ends_open, may_grow   ! whether all rows so far end open: a last number may be missing in all of them
+      !> Whether a row ends in a separator, so that a last number may be missing; whether all rows so far end so, so
+      !> that the table may lack a column.
+      logical :: ends_open, may_grow
 
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
@@ -60,7 +63,7 @@ contains
       call write_decimal_points(content)
       most_rows = 1
       do i = 1, len(content)
-         most_rows = most_rows + merge(1, 0, is_line_end(content(i:i)))
+         if (is_line_end(content(i:i))) most_rows = most_rows + 1
       end do
       allocate (row(0))
       rows = 0
@@ -93,10 +96,10 @@ contains
          end if
          if (used == 0) cycle
          if (rows == 0) then
-            ! With room for a number that the first row may lack.
+            columns = used
+            ! The first row may lack a last number.
             allocate (table%values(merge(used + 1, used, ends_open), most_rows), table%line(most_rows), stat=status)
             if (status /= 0) exit
-            columns = used
          else if (may_grow .and. used == min(columns + 1, size(table%values, 1))) then
             columns = used
          end if
@@ -124,6 +127,7 @@ contains
 
    contains
 
+      !> Makes an error whose message begins with the name of the file and the current line.
       subroutine trouble_in_line(words)
          character(*), intent(in) :: words
 
@@ -132,7 +136,7 @@ contains
 
    end subroutine read_number_table
 
-   !> Whether a line begins with a word that is no number, no missing one and not `inf` or its like.
+   !> Whether a line begins with a word: not with a number, a mark for a missing number or `inf` and the like.
    pure logical function is_remark(line)
       character(*), intent(in) :: line
 
@@ -144,10 +148,10 @@ contains
          (is_missing(word_at(line, first)) .or. index(lower_case(word_at(line, first)), 'inf') == 1)
    end function is_remark
 
-   !> The word that begins at a place, as far as the longest word for a missing number.
+   !> The word that begins at a position of a text. A word longer than any mark for a missing number is cut.
    pure function word_at(text, first) result(word)
       character(*), intent(in) :: text
-      integer, intent(in) :: first
+      integer, intent(in) :: first       !! position of the word's first byte
       character(:), allocatable :: word
 
       integer, parameter :: longest = 9
@@ -156,12 +160,12 @@ contains
       word = word(:scan(word, gaps//line_feed//carriage_return) - 1)
    end function word_at
 
-   !> Replaces decimal commas by points. Commas are decimal if each line that has one separates its numbers by tabs or
-   !> semicolons, and each comma stands between two digits, one in a number.
+   !> Replaces decimal commas by points. The commas of a text are decimal if each line with a comma separates its
+   !> numbers by tabs or semicolons, each comma stands between two digits, and no number has two commas.
    pure subroutine write_decimal_points(content)
       character(*), intent(inout) :: content
 
-      character(*), parameter :: digits = '0123456789'
+      character(*), parameter :: decimal_digits = '0123456789'
       integer :: behind, first, k, last, next, pass
 
       if (index(content, ',') == 0) return
@@ -175,23 +179,23 @@ contains
                if (content(k:k) /= ',') cycle
                if (pass == 2) content(k:k) = '.'
                if (pass == 2) cycle
-               next = k + verify(content(k + 1:last)//' ', digits)
+               next = k + verify(content(k + 1:last)//' ', decimal_digits)
                if (k == first .or. next == k + 1) return
-               if (verify(content(k - 1:k - 1), digits) > 0 .or. content(next:min(next, last)) == ',') return
+               if (verify(content(k - 1:k - 1), decimal_digits) > 0 .or. content(next:min(next, last)) == ',') return
             end do
          end do
       end do
    end subroutine write_decimal_points
 
-   !> The next line, without its comment.
+   !> Finds the next line, without its comment.
    pure subroutine next_line(content, behind, first, last)
       character(*), intent(in) :: content
-      integer, intent(inout) :: behind        !! place of the line; then the place of the line behind it
-      integer, intent(out) :: first, last     !! bytes of the line; last < first if it is empty
+      integer, intent(inout) :: behind        !! position of the line's first byte; on exit that of the following line's
+      integer, intent(out) :: first, last     !! positions of the line's first and last byte; last < first if empty
 
       first = behind
       do behind = first, len(content)
-         ! Most bytes are beyond '#', and line ends are before it.
+         ! This test passes over most bytes at once: their codes are above that of '#', those of line ends are below.
          if (iachar(content(behind:behind)) > iachar('#')) cycle
          if (is_line_end(content(behind:behind))) exit
          if (content(behind:behind) /= '#') cycle
@@ -205,14 +209,14 @@ contains
       behind = behind + 1
    end subroutine next_line
 
-   !> Whether a '#' starts a comment: not in `#N/A` and the like, nor in `1.#QNAN`.
-   pure logical function starts_comment(content, place)
+   !> Whether a '#' starts a comment. The '#' in `#N/A` and the like and in `1.#QNAN` does not.
+   pure logical function starts_comment(content, hash)
       character(*), intent(in) :: content
-      integer, intent(in) :: place
+      integer, intent(in) :: hash   !! position of the '#'
 
-      starts_comment = .not. is_missing(word_at(content, place)) .and. .not. &
-                       (content(max(1, place - 2):place - 1) == '1.' .and. &
-                        scan(lower_case(word_at(content, place)), 'abcdefghijklmnopqrstuvwxyz') == 2)
+      starts_comment = .not. is_missing(word_at(content, hash)) .and. .not. &
+                       (content(max(1, hash - 2):hash - 1) == '1.' .and. &
+                        scan(lower_case(word_at(content, hash)), 'abcdefghijklmnopqrstuvwxyz') == 2)
    end function starts_comment
 
    !> Whether a byte ends a line.

@@ -1,4 +1,5 @@
-!> Makes height maps from lines of x, y and z, and profiles from lines of x and z.
+!> Makes height maps from lines of x, y and z, and profiles from lines of x and z; says whether numbers may be a matrix
+!> of heights. README.md in this directory, "Points and tables", has the rules.
 module wavycon_point_map
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr, c_size_t
@@ -16,35 +17,36 @@ module wavycon_point_map
 
    public :: check_matrix, resample_profile, take_points, take_profile
 
-   !> Largest deviation of a point from the grid, in steps. Coordinates in files are rounded, by up to a hundredth of a
-   !> step, and so are the outermost ones, through which the grid is laid.
+   !> Largest distance of a coordinate from the grid, in steps. Files round coordinates by up to a hundredth of a step.
+   !> So do the outermost points, through which the grid is laid, and a point between may be off by twice as much.
    real(dp), parameter :: tolerance = 0.0201_dp
 
-   !> Equidistant coordinates.
+   !> Equidistant coordinates along x or y.
    type :: axis_type
-      real(dp) :: first = 0.0_dp   !! the least
-      real(dp) :: step = 0.0_dp    !! >= 0; 0 if there is one coordinate
-      integer :: number = 1
+      real(dp) :: first = 0.0_dp   !! the least coordinate
+      real(dp) :: step = 0.0_dp    !! >= 0; 0 if there is only one coordinate
+      integer :: number = 1        !! number of coordinates
    end type axis_type
 
 contains
 
-   !> Checks that numbers are a matrix of heights. Errors: exit_bad_input for coordinates or numbers of lines in the
-   !> first row or column, and for points with other values behind their heights.
+   !> Checks that a table is a matrix of heights. Errors: exit_bad_input if the first row or column seems to have
+   !> coordinates or numbers of lines, and if the lines seem to be points x, y, z with further values behind z.
    subroutine check_matrix(table, error)
       type(number_table), intent(in) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      !> So many numbers in equal steps, whose slope does not go on beside them, are no heights, and so many of both
-      !> sides together: README.md of this directory has the chances.
+      !> A first row or column with equal steps is not one of heights if the slope of the next one differs and if there
+      !> are at least so many numbers: in one of them, and in both together. Fewer may have equal steps by chance:
+      !> README.md of this directory.
       integer, parameter :: least_numbers = 5, least_of_both = 7
-      !> More columns are no points, and fewer lines may be a grid by chance.
+      !> A table with more columns is not one of points, and fewer lines may form a grid by chance.
       integer, parameter :: most_columns = 8, least_points = 9
       character(*), parameter :: advice = ": leave out what is no height, or give file_format = 'matrix' if all are"
       type(measured_map) :: map
       type(number_table) :: points
       type(error_type), allocatable :: trouble
-      logical :: is_axis(2)
+      logical :: is_axis(2)   ! whether the first column, and the first row, may be coordinates
 
       associate (v => table%values, columns => size(table%values, 1), rows => size(table%values, 2))
          if (min(columns, rows) < 4) return
@@ -62,20 +64,20 @@ contains
       end associate
    end subroutine check_matrix
 
-   !> Makes a map from points in any order; heights of points without a line are NaN. x and y of the map rise. Errors:
-   !> exit_bad_input if the points do not form a regular grid.
+   !> Makes a map from lines of x, y and z in any order. The height is NaN at points of the grid that have no line. x
+   !> and y of the map rise. Errors: exit_bad_input if the points do not form a regular grid.
    subroutine take_points(table, map, error)
-      type(number_table), intent(in) :: table
-      type(measured_map), intent(inout) :: map
+      type(number_table), intent(in) :: table    !! of three columns
+      type(measured_map), intent(inout) :: map   !! gets heights and steps
       type(error_type), allocatable, intent(out) :: error
 
-      !> So few points are more likely points without a grid.
+      !> If less than this percentage of the grid's points is there, the points are probably not those of a grid.
       integer, parameter :: least_percentage = 10
       type(axis_type) :: axis(2)
       character(:), allocatable :: grid_words
       logical, allocatable :: is_there(:, :)
-      real(dp) :: steps(2)   ! from the first coordinates to a point
-      integer :: k, place(2), points(2)
+      real(dp) :: steps(2)   ! a point's distance from the first coordinates, in steps
+      integer :: k, node(2), points(2)
 
       if (size(table%values, 1) /= 3) then
          call table%refuse(1, 'this line has '//integer_text(size(table%values, 1))// &
@@ -105,23 +107,24 @@ contains
       do k = 1, size(table%line)
          associate (point => table%values(:, k))
             steps = (point(:2) - axis%first)/merge(axis%step, 1.0_dp, points > 1)
-            place = 1 + nint(steps)
+            node = 1 + nint(steps)
             if (any(abs(steps - nint(steps)) > tolerance)) then
                call refuse(' is out of step: the points must form a regular grid, of '//grid_words// &
                            ' as it seems. Interpolate the heights to one')
                return
-            else if (is_there(place(1), place(2))) then
+            else if (is_there(node(1), node(2))) then
                call refuse(' is a point of a line before')
                return
             end if
-            is_there(place(1), place(2)) = .true.
-            map%height(place(1), place(2)) = point(3)
+            is_there(node(1), node(2)) = .true.
+            map%height(node(1), node(2)) = point(3)
          end associate
       end do
       map%step = axis%step
 
    contains
 
+      !> Makes an error of the point k.
       subroutine refuse(words)
          character(*), intent(in) :: words
 
@@ -131,19 +134,21 @@ contains
 
    end subroutine take_points
 
-   !> The equidistant coordinates that points have, if they have such.
+   !> The equidistant coordinates that the points may have. Whether all points are on them is for the caller to check.
    !>
-   !> The range is divided into bins, four to the least step. The gaps between the bins that hold coordinates are steps,
-   !> multiples of steps where whole rows are missing, or rounding errors, which are smaller than all of these. The
-   !> search begins with the largest gap: the least one says what may be a rounding error, until there is none smaller.
+   !> The range is divided into bins, four to the least possible step, and the lowest coordinate of each bin is kept.
+   !> The gaps between these are steps, multiples of steps where whole rows are missing, or rounding errors. A gap below
+   !> 1.25*tolerance of the step is a rounding error. The step is at first taken as the largest gap, and then again and
+   !> again as the least gap that is no rounding error, until this does not change.
    pure type(axis_type) function axis_of(coordinate) result(axis)
       real(dp), intent(in) :: coordinate(:)   !! at least one
 
-      !> Four to a step of 65536 points, more than texts have along a side.
+      !> Four bins to a step if there are 65536 points along a side, which is more than texts have.
       integer, parameter :: bins = 262144
-      real(dp), allocatable :: lowest(:)   ! in each bin
-      real(dp) :: extent, gap, largest, last, step, steps
-      integer :: b, k, number
+      real(dp), allocatable :: lowest(:)   ! lowest coordinate of each bin, then only of the bins that have any
+      real(dp) :: extent, gap, largest, last, step
+      real(dp) :: steps                    ! sum of the gaps of one step
+      integer :: b, k, number              ! number: how many gaps have one step
 
       axis%first = minval(coordinate)
       extent = maxval(coordinate) - axis%first
@@ -156,7 +161,7 @@ contains
       lowest = pack(lowest, lowest < huge(1.0_dp))
       step = maxval(lowest(2:) - lowest(:size(lowest) - 1))
       do
-         ! The mean of the equal steps has a smaller rounding error than the least.
+         ! The mean of all gaps of one step has a smaller rounding error than the least of them.
          largest = step
          number = 0
          steps = 0.0_dp
@@ -172,17 +177,18 @@ contains
          end do
          if (.not. step < largest) exit
       end do
-      ! Without a gap that large there are more coordinates than a map can have.
+      ! If all gaps are below two bins, there are more coordinates than a map can have.
       if (number > 0) axis%number = nint(extent/(steps/number)) + 1
       if (number == 0) axis%number = bins + 1
       axis%step = extent/(axis%number - 1)
    end function axis_of
 
-   !> Makes a profile, whose x rise; missing heights are NaN. If the steps of x are not equal it has these in `x` and is
-   !> to be resampled. Errors: exit_bad_input for lines that have not two numbers, and for x that neither rise nor fall.
+   !> Makes a profile from lines of x and z, in the order of rising x; missing heights are NaN. If the steps of x are
+   !> not equal, the component `x` of the map is set, and the profile must be resampled. Errors: exit_bad_input if lines
+   !> do not have two numbers, and if x neither rises nor falls from line to line.
    subroutine take_profile(table, map, error)
-      type(number_table), intent(in) :: table
-      type(measured_map), intent(inout) :: map
+      type(number_table), intent(in) :: table    !! of two columns
+      type(measured_map), intent(inout) :: map   !! gets heights and the mean step along x
       type(error_type), allocatable, intent(out) :: error
 
       real(dp), allocatable :: x(:)
@@ -217,10 +223,11 @@ contains
       if (.not. rises_evenly(x)) call move_alloc(x, map%x)
    end subroutine take_profile
 
-   !> Whether a row or column has equal steps, and the next one does not go on with its slope, as on a tilted plane: by
-   !> least squares the slope is less than half, or more than twice, as large.
+   !> Whether the numbers of the first row or column have equal steps, while the slope of the next row or column
+   !> differs: by least squares it is less than half or more than twice as large. On a tilted plane both slopes are
+   !> equal.
    pure logical function are_coordinates(values, next)
-      real(dp), intent(in) :: values(:), next(:)   !! as many
+      real(dp), intent(in) :: values(:), next(:)   !! the two rows or columns, of equal size
 
       logical :: is_there(size(next))
       real(dp) :: from_mean(size(values)), squares
@@ -232,9 +239,9 @@ contains
                         abs(2*sum(from_mean*next, mask=is_there) - 2.5_dp*squares) > 1.5_dp*squares
    end function are_coordinates
 
-   !> Whether three or more numbers rise, or fall, in equal steps.
+   !> Whether numbers rise, or fall, in equal steps.
    pure logical function rises_evenly(x)
-      real(dp), intent(in) :: x(:)
+      real(dp), intent(in) :: x(:)   !! three or more
 
       real(dp) :: step
       integer :: i
@@ -243,18 +250,18 @@ contains
       rises_evenly = abs(step) > 0.0_dp .and. all(abs(x - x(1) - step*[(i, i=0, size(x) - 1)]) <= tolerance*abs(step))
    end function rises_evenly
 
-   !> Replaces the heights of a profile whose steps are not equal by those at as many points that are equally far apart,
-   !> from its first x to its last: (M7) of README.md in this directory. A point next to a missing height is missing.
-   !> Errors: exit_bad_input if there are fewer than three heights.
+   !> Resamples a profile of unequal steps: interpolates the heights at as many points with equal steps, from the first
+   !> x to the last, by (M7) of README.md in this directory. A new point is missing if one of the old points beside it
+   !> is. Errors: exit_bad_input if there are fewer than three heights.
    subroutine resample_profile(path, map, error)
-      character(*), intent(in) :: path           !! of the map, for messages
-      type(measured_map), intent(inout) :: map   !! with x; then without
+      character(*), intent(in) :: path           !! path of the map's file, for messages
+      type(measured_map), intent(inout) :: map   !! its component `x` is allocated on entry, and not on exit
       type(error_type), allocatable, intent(out) :: error
 
       integer(c_size_t), parameter :: fewest = 3
       logical, allocatable :: missing(:)
       real(dp), allocatable :: x(:), z(:)
-      real(dp) :: place
+      real(dp) :: position
       type(c_ptr) :: curve
       integer :: i, k, n
       integer(c_int) :: ignored
@@ -274,12 +281,12 @@ contains
       ignored = gsl_interp_init(curve, x, z, size(x, kind=c_size_t))
       k = 1
       do i = 1, n
-         place = map%x(1) + (i - 1)*map%step(1)
-         do while (k < n - 1 .and. map%x(k + 1) < place)
+         position = map%x(1) + (i - 1)*map%step(1)
+         do while (k < n - 1 .and. map%x(k + 1) < position)
             k = k + 1
          end do
          if (allocated(map%missing)) map%missing(i, 1) = any(missing(k:k + 1))
-         map%height(i, 1) = gsl_interp_eval(curve, x, z, min(max(place, x(1)), x(size(x))), c_null_ptr)
+         map%height(i, 1) = gsl_interp_eval(curve, x, z, min(max(position, x(1)), x(size(x))), c_null_ptr)
       end do
       call gsl_interp_free(curve)
       if (allocated(map%missing)) where (map%missing) map%height = 0.0_dp

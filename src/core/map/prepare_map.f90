@@ -1,4 +1,5 @@
-!> Makes a measured map a surface that a contact can be solved for: spikes, trend, holes, borders, in this order.
+!> Prepares a measured map for a contact solver: removes spikes, subtracts the trend, fills holes and treats the
+!> borders, in this order.
 module wavycon_prepare_map
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_detrend, only: detrend_map
@@ -15,47 +16,49 @@ module wavycon_prepare_map
 
    public :: map_changes, map_preparation, prepare_map
 
-   !> Heights are set to zero if, after preparation, they differ by at most this part of the largest original one: they
-   !> are rounding.
+   !> If the prepared heights differ from each other by at most this part of the largest original one, the differences
+   !> are rounding, and all heights are set to zero.
    real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
 
-   !> What is done to a map.
+   !> The preparation of a map that a deck asks for.
    type :: map_preparation
-      character(9) :: detrend = 'none'         !! what is subtracted: 'none', 'mean', 'plane', 'quadratic'
+      character(9) :: detrend = 'none'         !! the trend to be subtracted: 'none', 'mean', 'plane', 'quadratic'
       character(8) :: fill_missing = 'none'    !! 'none': missing heights are an error; 'harmonic': (M3) fills them
-      !> 'periodic'; 'mirror': mirror images continue it; 'window': tapered; 'free': nothing continues it.
+      !> How the map continues beyond its borders. 'periodic': by itself, again and again. 'mirror': by its mirror
+      !> images. 'window': as 'periodic', after a taper of the borders. 'free': the surface ends there.
       character(8) :: edges = 'periodic'
-      real(dp) :: window_width = usual_window_width   !! over the side, 0 < window_width <= 1/2
+      real(dp) :: window_width = usual_window_width   !! width of the taper over the side, 0 < window_width <= 1/2
       logical :: crop_missing = .false.        !! whether rows and columns at the border without any height are cut off
-      logical :: despike = .false.             !! whether spikes (M8) become the median of their neighbours
-      real(dp) :: short_wavelength = 0.0_dp    !! shortest wave that stays [length]; 0: all waves stay
+      logical :: despike = .false.             !! whether spikes (M8) are replaced by the median of their neighbours
+      real(dp) :: short_wavelength = 0.0_dp    !! shortest wavelength that stays [length]; 0: all waves stay
    end type map_preparation
 
-   !> What was done to it.
+   !> The preparation, and what it changed.
    type, extends(map_preparation) :: map_changes
-      real(dp) :: step = 0.0_dp             !! along x [length]
-      real(dp) :: uneven_steps(2) = 0.0_dp  !! as of measured_map
-      real(dp) :: rise(2) = 0.0_dp          !! of the linear part that was removed, from border to border [length]
-      integer :: points(2) = 0              !! of the map along x and y
-      integer :: head_lines = 0             !! as of measured_map
-      integer :: cropped_from(2) = 0        !! points of the map before it was cropped; 0: it was not
+      real(dp) :: step = 0.0_dp             !! step between points along x [length]
+      real(dp) :: uneven_steps(2) = 0.0_dp  !! component of the same name of measured_map
+      real(dp) :: rise(2) = 0.0_dp          !! rise of the removed linear part between first and last points [length]
+      integer :: points(2) = 0              !! numbers of points of the map along x and y
+      integer :: head_lines = 0             !! component of the same name of measured_map
+      integer :: cropped_from(2) = 0        !! numbers of points before the map was cropped; 0 if it was not
       integer :: spikes = 0                 !! number of heights that were replaced
-      integer :: filled = 0                 !! number of points that were missing
-      real(dp) :: rms_of_short = 0.0_dp     !! of the waves that were left out [length]
+      integer :: filled = 0                 !! number of missing heights that were filled
+      real(dp) :: rms_of_short = 0.0_dp     !! root mean square of the waves that were removed [length]
       real(dp) :: tapered = 0.0_dp          !! part of the points that the window changed
    end type map_changes
 
 contains
 
-   !> Prepares a map. 'mirror' leaves the heights as they are: the surface adds the mirror images. Errors:
-   !> exit_bad_input for holes that are not to be filled, and for heights that do not determine the trend;
-   !> exit_file_trouble without memory. The holes and spikes of a distributed map cannot be treated.
+   !> Prepares a map, except for the removal of short waves. With the edges 'mirror' and 'free' the heights at the
+   !> borders do not change: the surface adds the mirror images. A distributed map must have no holes and spikes to be
+   !> treated. Errors: exit_bad_input if there are holes that are not to be filled, and if the heights do not determine
+   !> the trend; exit_file_trouble if there is not enough memory.
    subroutine prepare_map(source, preparation, length, map, changes, error)
-      character(*), intent(in) :: source                !! of the map, for messages
+      character(*), intent(in) :: source                !! name of the map, for messages
       type(map_preparation), intent(in) :: preparation
       real(dp), intent(in) :: length(2)                 !! sides of the map along x and y, in one unit, > 0
-      type(measured_map), intent(inout) :: map          !! then without holes
-      type(map_changes), intent(out) :: changes         !! `rise` in the unit of the heights
+      type(measured_map), intent(inout) :: map          !! on exit prepared, and without holes
+      type(map_changes), intent(out) :: changes         !! `rise` is in the unit of the heights
       type(error_type), allocatable, intent(out) :: error
 
       character(*), parameter :: trends(*) = [character(9) :: 'mean', 'plane', 'quadratic']
@@ -99,18 +102,19 @@ contains
       if (sum(extremes) <= rounding*largest) map%height = 0.0_dp
    end subroutine prepare_map
 
-   !> Cuts off rows and columns at the border of a map in which all heights are missing.
+   !> Cuts off the rows and columns at the border of a map in which all heights are missing.
    subroutine crop(map, points)
       type(measured_map), intent(inout) :: map
-      integer, intent(out) :: points(2)   !! that it had; zeros if it stays
+      integer, intent(out) :: points(2)   !! numbers of points before; zeros if nothing is cut off
 
       integer :: first(2), last(2)
 
       points = 0
       if (.not. allocated(map%missing)) return
-      associate (there => .not. map%missing)
-         first = [findloc(any(there, dim=2), .true.), findloc(any(there, dim=1), .true.)]
-         last = [findloc(any(there, dim=2), .true., back=.true.), findloc(any(there, dim=1), .true., back=.true.)]
+      associate (is_there => .not. map%missing)
+         first = [findloc(any(is_there, dim=2), .true.), findloc(any(is_there, dim=1), .true.)]
+         last = [findloc(any(is_there, dim=2), .true., back=.true.), &
+                 findloc(any(is_there, dim=1), .true., back=.true.)]
       end associate
       if (any(first == 0) .or. all(last - first + 1 == shape(map%height))) return
       points = shape(map%height)
@@ -119,11 +123,11 @@ contains
       if (.not. any(map%missing)) deallocate (map%missing)
    end subroutine crop
 
-   !> Errors: exit_bad_input for missing heights that are not to be filled, or cannot be.
+   !> Checks the missing heights. Errors: exit_bad_input if some are missing and are not to be filled, and if all are.
    subroutine check_holes(source, preparation, map, error)
-      character(*), intent(in) :: source
+      character(*), intent(in) :: source                  !! name of the map, for the message
       type(map_preparation), intent(in) :: preparation
-      type(measured_map), intent(inout) :: map
+      type(measured_map), intent(inout) :: map            !! `missing` may become allocated
       type(error_type), allocatable, intent(out) :: error
 
       type(grid_slab) :: slab
@@ -144,7 +148,8 @@ contains
          if (.not. allocated(map%missing)) allocate (map%missing(slab%points(1), slab%columns()), source=.false.)
          call slab%find_largest(merge(1.0_dp, 0.0_dp, map%missing), unused, first)
          remedy = "fill_missing = 'harmonic' fills them"
-         if (all(first == 1)) remedy = remedy//', crop_missing = .true. leaves out a frame of them'
+         if (all(first == 1)) remedy = remedy//', crop_missing = .true. cuts off rows and columns at the border '// &
+                                       'that have no heights'
          call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes)//' of '// &
                           integer_text(points)//' heights are missing ('// &
                           percent(real(holes, dp)/points)//'), the first is number '// &

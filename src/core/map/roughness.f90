@@ -1,5 +1,5 @@
-!> Root mean squares of height, slope and curvature of a surface, and its power spectra, from its Fourier series. The
-!> equations are those of src/core/map/README.md.
+!> Root mean squares of height, slope and curvature of a surface, and its power spectra, computed from its Fourier
+!> series. The equations are those of README.md in this directory.
 module wavycon_roughness
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
@@ -10,42 +10,43 @@ module wavycon_roughness
    public :: roughness_type, roughness_of, spectrum_bin, line_spectrum, radial_spectrum
 
    type :: roughness_type
-      real(dp) :: height = 0.0_dp      !! of the height over its mean, eq. (M22) [length]
-      real(dp) :: slope = 0.0_dp       !! of the size of the gradient, eq. (M23)
-      real(dp) :: curvature = 0.0_dp   !! of half the Laplacian, of a profile of h'', eq. (M24) [1/length]
-      !> Sum of the mean squares of all waves, each over its wavelength, eq. (M25a) [length].
+      real(dp) :: height = 0.0_dp      !! root mean square of the height less its mean, eq. (M22) [length]
+      real(dp) :: slope = 0.0_dp       !! root mean square of |gradient|, eq. (M23) [-]
+      real(dp) :: curvature = 0.0_dp   !! that of half the Laplacian, for a profile of h'', eq. (M24) [1/length]
+      !> Sum over all waves of the mean square divided by the wavelength, eq. (M25a) [length].
       real(dp) :: frequency_moment = 0.0_dp
    end type roughness_type
 
-   !> A bin of a spectrum, which has them in the order of rising wave numbers.
+   !> A bin of a spectrum. The bins of a spectrum are in the order of rising wave numbers.
    type :: spectrum_bin
-      real(dp) :: wave_number    !! mean of its waves [rad/length]
-      integer :: waves           !! how many there are, >= 1
-      !> Mean of the power spectral densities of its waves: [length^4] of a radial spectrum, [length^3] along a line.
+      real(dp) :: wave_number    !! mean wave number of the waves in the bin [rad/length]
+      integer :: waves           !! number of these waves, >= 1
+      !> Mean power spectral density of these waves: [length^4] for a radial spectrum, [length^3] for one along a line.
       real(dp) :: density
-      !> Root mean squares of the waves up to this bin: height [length], slope, curvature [1/length].
+      !> Root mean squares, of all waves up to this bin, of height [length], slope [-] and curvature [1/length].
       real(dp) :: height, slope, curvature
    end type spectrum_bin
 
-   !> Most bins of a radial spectrum, more than those of the largest square map with its mirror images, 11584.
+   !> The largest number of bins of a radial spectrum. The largest square map with its mirror images has 11584.
    integer, parameter :: most_bins = 12000
 
 contains
 
-   !> The roughness of a surface.
+   !> Computes the roughness of a surface from the Fourier series of its height.
    type(roughness_type) function roughness_of(series, amplitude, length, points) result(roughness)
-      type(fourier_series), intent(in) :: series   !! of the height over `amplitude`; its mean is ignored
+      type(fourier_series), intent(in) :: series   !! series of the height over `amplitude`; its mean is not used
       real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
-      integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
+      integer, intent(in) :: points(2)             !! numbers of points of the grid that the series interpolates, or 0
 
-      !> (M22) to (M25a), in the order of roughness_type, of the waves of each wave number in X.
+      !> For each wave number in X the sums (M22) to (M25a) over the waves, in the order of roughness_type.
       real(dp) :: moments(4, series%first():series%last(1))
       real(dp), dimension(series%first():series%last(1)) :: powers, q_squared, x_squared
       real(dp) :: sums(4), unit
       integer :: k, l
 
-      ! Wave numbers over 2 pi/unit neither overflow nor make all squares underflow, whatever the unit of length.
+      ! Wave numbers are taken over 2 pi/unit. So their powers do not overflow and do not all underflow, whatever the
+      ! unit of length is.
       unit = minval(length)
       x_squared = [((k*(unit/length(1)))**2, k=series%first(), series%last(1))]
       moments = 0.0_dp
@@ -64,13 +65,13 @@ contains
    end function roughness_of
 
    !> The isotropic spectrum of a surface, eqs (M26) and (M27). Bin b has the wave numbers from (b - 1/2) dq to
-   !> (b + 1/2) dq, where dq is 2 pi over the longer side, or the largest wave number over most_bins if that is more;
-   !> bin 1 also has those below. Bins without waves are left out.
+   !> (b + 1/2) dq. The width dq is 2 pi over the longer side or, if this is larger, the largest wave number over
+   !> `most_bins`. Bin 1 also has the wave numbers below dq/2. Bins without waves are left out.
    pure function radial_spectrum(series, amplitude, length, points) result(spectrum)
-      type(fourier_series), intent(in) :: series   !! of the height over `amplitude`, in 2-D; its mean is ignored
+      type(fourier_series), intent(in) :: series   !! series of the height over `amplitude`, in 2-D; mean not used
       real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
-      integer, intent(in) :: points(2)             !! of the grid that the series interpolates; zeros if there is none
+      integer, intent(in) :: points(2)             !! numbers of points of the grid that the series interpolates, or 0
       type(spectrum_bin), allocatable :: spectrum(:)
 
       real(dp), allocatable :: bins(:, :)
@@ -94,6 +95,7 @@ contains
 
    contains
 
+      !> The length of the wave vector over 2 pi/unit.
       pure real(dp) function number(k, l)
          integer, intent(in) :: k, l
 
@@ -102,17 +104,19 @@ contains
 
    end function radial_spectrum
 
-   !> The spectrum of the lines along x or y, the mean of all lines, eq. (M28). There is a bin for each wave number; the
-   !> first, of a surface in 2-D, is 0: the means of the lines. Slope and curvature are those along the line.
+   !> The spectrum of the profiles along x or along y, the mean over all of them, eq. (M28). There is a bin for each
+   !> wave number. In 2-D the first one is that of the wave number 0, the means of the profiles. Slope and curvature are
+   !> those along the profile.
    pure function line_spectrum(series, amplitude, length, points, direction) result(spectrum)
-      type(fourier_series), intent(in) :: series   !! as of radial_spectrum, also in 1-D
+      type(fourier_series), intent(in) :: series   !! as of radial_spectrum, also in 1-D; so the next three arguments
       real(dp), intent(in) :: amplitude            !! [length]
       real(dp), intent(in) :: length(2)            !! [length]
       integer, intent(in) :: points(2)
-      integer, intent(in) :: direction             !! 1 or 2: along x or y
+      integer, intent(in) :: direction             !! 1: along x, 2: along y
       type(spectrum_bin), allocatable :: spectrum(:)
 
       real(dp) :: bins(5, 0:series%last(direction))
+      !> `of_lines`: mean squares, summed over the wave numbers across the profiles.
       real(dp) :: of_lines(0:series%last(direction)), powers(0:series%last(1))
       integer :: first, k, l
 
@@ -125,30 +129,32 @@ contains
       do k = 0, ubound(bins, 2)
          bins(:, k) = sums_of(real(k, dp), waves_of_number(k, points(direction)), of_lines(k))
       end do
-      first = merge(1, 0, series%last(2) == 0)
+      first = 0
+      if (series%last(2) == 0) first = 1
       spectrum = spectrum_of(bins(:, first:), amplitude, length(direction), length(direction))
    end function line_spectrum
 
-   !> What waves of one wave number add to the sums of a bin: their number, the wave numbers, the mean squares, and
-   !> these times q^2 and q^4.
+   !> The contribution of waves of one wave number q to the five sums of a bin: number of waves, sum of wave numbers,
+   !> mean square, mean square times q^2, and mean square times q^4.
    pure function sums_of(number, waves, power) result(sums)
-      real(dp), intent(in) :: number     !! wave number over 2 pi/unit
-      integer, intent(in) :: waves       !! how many
-      real(dp), intent(in) :: power      !! their mean square
+      real(dp), intent(in) :: number     !! q over 2 pi/unit
+      integer, intent(in) :: waves       !! how many waves there are
+      real(dp), intent(in) :: power      !! mean square of all of them together
       real(dp) :: sums(5)
 
       sums = [real(waves, dp), waves*number, power*[1.0_dp, number**2, number**4]]
    end function sums_of
 
-   !> The spectrum of the bins that have waves.
+   !> Makes a spectrum from the sums of its bins. Bins without waves are left out.
    pure function spectrum_of(bins, amplitude, unit, size_of_cell) result(spectrum)
-      real(dp), intent(in) :: bins(:, :)       !! sums of each
+      real(dp), intent(in) :: bins(:, :)       !! the five sums, as of `sums_of`, of each bin
       real(dp), intent(in) :: amplitude        !! unit of the heights [length]
-      real(dp), intent(in) :: unit             !! of the wave numbers, which are over 2 pi/unit [length]
-      real(dp), intent(in) :: size_of_cell     !! area of the cell [length^2], of lines their length [length]
+      real(dp), intent(in) :: unit             !! the wave numbers in the sums are over 2 pi/unit [length]
+      real(dp), intent(in) :: size_of_cell     !! area of the cell [length^2], for profiles their length [length]
       type(spectrum_bin), allocatable :: spectrum(:)
 
-      real(dp) :: rms(3), up_to(3)   ! of the waves up to a bin
+      !> Of all waves up to a bin: root mean squares of height, slope and curvature, and the sums 3 to 5.
+      real(dp) :: rms(3), up_to(3)
       integer :: b, n
 
       allocate (spectrum(count(bins(1, :) > 0.0_dp)))
@@ -164,12 +170,12 @@ contains
       end do
    end function spectrum_of
 
-   !> The mean square of all waves of wave numbers +-k and +-l in X and Y, for all k of the series, eq. (M21); 0 for the
-   !> mean.
+   !> For each k of the series the mean square of all waves with the wave numbers +-k in X and +-l in Y, eq. (M21). The
+   !> mean, k = l = 0, gets 0.
    pure function wave_powers(series, points, l) result(powers)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: points(2)             !! as of roughness_of
-      integer, intent(in) :: l                     !! 0 to series%last(2)
+      integer, intent(in) :: l                     !! wave number in Y, 0 to series%last(2)
       real(dp) :: powers(series%first():series%last(1))
 
       integer :: k
@@ -185,11 +191,12 @@ contains
       if (l == 0 .and. lbound(powers, 1) == 0) powers(0) = 0.0_dp
    end function wave_powers
 
-   !> How many different waves have the wave numbers k and -k: one for the mean and, on an even number of points, for
-   !> the highest wave, which equals its opposite at the points; otherwise two.
+   !> The number of different waves with the wave numbers k and -k. There is one for k = 0 and, if the number of points
+   !> is even, for the highest wave number, as both waves then have the same values at the points. Otherwise there are
+   !> two.
    elemental integer function waves_of_number(k, points) result(waves)
       integer, intent(in) :: k        !! >= 0
-      integer, intent(in) :: points   !! of the grid in this direction; 0 if there is none
+      integer, intent(in) :: points   !! number of points of the grid in this direction; 0 if there is no grid
 
       waves = merge(1, 2, k == 0 .or. 2*k == points)
    end function waves_of_number

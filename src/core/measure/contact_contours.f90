@@ -1,4 +1,4 @@
-!> The edge of contact as closed curves.
+!> The edge of contact as closed curves, contact contours, which are traced through the cells of a grid.
 module wavycon_contact_contours
    use, intrinsic :: iso_fortran_env, only: int8
    use wavycon_constants, only: pi
@@ -10,73 +10,75 @@ module wavycon_contact_contours
 
    public :: contact_contour, keep_curves_of_quarter, make_strips, rotate_contours, shift_contour, trace_edges
 
-   !> A curve with the contact on its left. Its last point is the first again; that of a curve through the whole plane
-   !> is one period on. In 1-D it is the two ends of a strip.
+   !> A curve along the edge of contact, with the contact on its left. The last point of a closed curve equals the first
+   !> one. A curve that goes through the whole plane ends one or more periods from its start. In 1-D the points are the
+   !> two ends of a strip of contact.
    type :: contact_contour
       real(dp), allocatable :: phi(:), theta(:)   !! [rad], not reduced to one cell, so that the curve does not jump
-      !> 1: closed, about contact; -1: closed, about a gap; 0: it goes around the periodic cell.
+      !> 1: closed, around contact; -1: closed, around a gap; 0: the curve winds around the periodic cell.
       integer :: turns = 0
-      !> Numbers, from 1, of the regions on its left and right; in 1-D inside and after. Of a mirrored height map in 2-D
-      !> a region and its mirror images have one number.
+      !> Numbers, from 1, of the spot on the left of the curve and the pool on the right; in 1-D of the strip and of the
+      !> gap after the strip. On a mirrored height map in 2-D a region and its mirror images have the same number.
       integer :: spot = 0, pool = 0
-      real(dp) :: area = 0.0_dp       !! (A1), of a strip its width times 2 pi [rad^2]
-      real(dp) :: length = 0.0_dp     !! [length] if it is known better than from the points; otherwise 0
+      real(dp) :: area = 0.0_dp       !! the area (A1) [rad^2]; in 1-D the width of the strip times 2 pi
+      real(dp) :: length = 0.0_dp     !! length [length] if the solver knows it better than the points; otherwise 0
    end type contact_contour
 
 contains
 
-   !> All curves of one cell, which is the period of phi and theta unless another is given.
+   !> Traces all curves of one periodic cell. By default this cell is the period of phi and theta.
    subroutine trace_edges(edge, curves, cell, skew, numbers, with_images)
       class(contact_edge), intent(in) :: edge
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      !> Points of the cell along phi and theta, and the steps along phi after which it comes again in the next row of
-      !> cells. Absent: those of the period, 0.
+      !> The periodic cell: its numbers of points along phi and theta, and the steps along phi by which a row of cells
+      !> is shifted against the row below. Absent: the period of the edge, and 0.
       integer, intent(in), optional :: cell(2), skew
-      type(region_numbers), intent(out), optional :: numbers   !! of the points
+      type(region_numbers), intent(out), optional :: numbers   !! numbers of the regions that the points belong to
       logical, intent(in), optional :: with_images             !! as for find_region_numbers
 
       type(contact_contour), allocatable :: found(:)
-      type(region_numbers) :: own
-      integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a cell
-      integer :: count, k, l, number, place(2), points(2), regions(5), steps
+      type(region_numbers) :: regions
+      integer(int8), allocatable :: seen(:, :)   ! a bit for each side of a grid cell
+      integer :: at_corner(5)   ! numbers of the regions at the corners of a grid cell; the fifth is the first one
+      integer :: curve, k, l, number, point(2), points(2), steps
 
       points = edge%period
       if (present(cell)) points = cell
       steps = 0
       if (present(skew)) steps = skew
-      call find_region_numbers(edge, points, steps, own, with_images)
-      ! There are no more curves than regions, of which four images may have one number.
-      allocate (found(4*(own%spots + own%pools)), seen(0:points(1) - 1, 0:points(2) - 1))
+      call find_region_numbers(edge, points, steps, regions, with_images)
+      ! There are at most as many curves as regions. A number may stand for a region and its three mirror images.
+      allocate (found(4*(regions%spots + regions%pools)), seen(0:points(1) - 1, 0:points(2) - 1))
       seen = 0_int8
-      count = 0
+      curve = 0
       do l = 0, points(2) - 1
          do k = 0, points(1) - 1
-            ! Most cells have no edge: their corners belong to one region.
+            ! The edge does not pass through most grid cells: all their corners belong to the same region.
             if (k < points(1) - 1 .and. l < points(2) - 1) then
-               if (all(own%at(k:k + 1, l:l + 1) == own%at(k, l))) cycle
+               if (all(regions%at(k:k + 1, l:l + 1) == regions%at(k, l))) cycle
             end if
             do number = 1, 5
-               place = own%wrap(k + corner(1, number), l + corner(2, number))
-               regions(number) = own%at(place(1), place(2))
+               point = regions%wrap(k + corner(1, number), l + corner(2, number))
+               at_corner(number) = regions%at(point(1), point(2))
             end do
             do number = 1, 4
-               ! A curve with the contact on its left enters the cell where its boundary, followed counter-clockwise,
-               ! leaves the contact.
-               if (btest(seen(k, l), number) .or. regions(number) < 0 .or. regions(number + 1) > 0) cycle
-               count = count + 1
-               call trace(edge, own, [k, l], number, seen, found(count))
-               found(count)%spot = regions(number)
-               found(count)%pool = -regions(number + 1)
+               ! Follow the boundary of the grid cell counter-clockwise. A curve with the contact on its left enters the
+               ! cell on the side where the boundary leaves the contact.
+               if (btest(seen(k, l), number) .or. at_corner(number) < 0 .or. at_corner(number + 1) > 0) cycle
+               curve = curve + 1
+               call trace(edge, regions, [k, l], number, seen, found(curve))
+               found(curve)%spot = at_corner(number)
+               found(curve)%pool = -at_corner(number + 1)
             end do
          end do
       end do
-      curves = found(:count)
-      if (present(numbers)) numbers = own
+      curves = found(:curve)
+      if (present(numbers)) numbers = regions
    end subroutine trace_edges
 
-   !> Keeps the curves of an even contact that have a point in the quarter 0 <= phi, theta <= pi of the cell. Each is
-   !> moved by whole periods to where it has the most points there. A curve across the border of the quarter is its own
-   !> mirror image and extends beyond it.
+   !> Keeps the curves of an even contact that have a point in the quarter 0 <= phi, theta <= pi of the cell. Each curve
+   !> is moved by whole periods so that the most of its points lie in the quarter. A curve that crosses the border of
+   !> the quarter is its own mirror image; its part beyond the border is kept.
    subroutine keep_curves_of_quarter(curves)
       type(contact_contour), allocatable, intent(inout) :: curves(:)
 
@@ -107,9 +109,9 @@ contains
       curves = kept(:last)
    end subroutine keep_curves_of_quarter
 
-   !> Transforms curves to axes rotated by 45 degrees: factor times the sum and the difference of the angles.
+   !> Transforms curves to axes at 45 degrees: the new angles are factor*(phi + theta) and factor*(phi - theta).
    pure subroutine rotate_contours(curves, factor)
-      type(contact_contour), intent(inout) :: curves(:)
+      type(contact_contour), intent(inout) :: curves(:)   !! their areas become those in the new angles
       real(dp), intent(in) :: factor
 
       real(dp), allocatable :: rotated(:)
@@ -117,7 +119,8 @@ contains
 
       do i = 1, size(curves)
          associate (x => curves(i)%phi, y => curves(i)%theta)
-            ! The new axes mirror the old ones: the points are reversed, so that the contact stays on the left.
+            ! The transformation contains a reflection. So the order of the points is reversed, which keeps the contact
+            ! on the left.
             rotated = factor*(x(size(x):1:-1) + y(size(y):1:-1))
             y = factor*(x(size(x):1:-1) - y(size(y):1:-1))
             x = rotated
@@ -126,21 +129,22 @@ contains
       end do
    end subroutine rotate_contours
 
-   !> The strips of a 1-D contact over a whole period, as curves of two points each.
+   !> Makes the strips of a 1-D contact over one whole period, as curves of two points each.
    pure subroutine make_strips(edges, starts_in_contact, even, curves)
-      real(dp), intent(in) :: edges(:)            !! ascending, within a period or, of an even contact, its half [rad]
-      logical, intent(in) :: starts_in_contact    !! whether 0 is
-      logical, intent(in) :: even
+      !> Edges of contact, ascending, between 0 and 2 pi or, of an even contact, between 0 and pi [rad].
+      real(dp), intent(in) :: edges(:)
+      logical, intent(in) :: starts_in_contact    !! whether there is contact at phi = 0
+      logical, intent(in) :: even                 !! whether the contact is symmetric to phi = 0 and phi = pi
       type(contact_contour), allocatable, intent(out) :: curves(:)
 
-      real(dp) :: ends(merge(2, 1, even)*size(edges))
+      real(dp), allocatable :: ends(:)
       integer :: i
 
-      ends(:size(edges)) = edges
-      if (even) ends(size(edges) + 1:) = 2*pi - edges(size(edges):1:-1)
+      allocate (ends, source=edges)
+      if (even) ends = [edges, 2*pi - edges(size(edges):1:-1)]
       if (starts_in_contact .and. size(ends) > 0) then
          ends = [ends(size(ends)) - 2*pi, ends(:size(ends) - 1)]
-         ! The difference of two periods is not exact.
+         ! 2 pi - edge - 2 pi would not be exactly -edge.
          if (even) ends(1) = -edges(1)
       end if
       allocate (curves(size(ends)/2))
@@ -153,12 +157,13 @@ contains
       end do
    end subroutine make_strips
 
-   !> Moves a curve into the contact, at right angles to it where the steps of the grid are 1: by the given number of
-   !> steps, but at most by half of its mean radius, so that the curve of the smallest contact stays about it.
+   !> Moves each point of a curve into the contact, along the normal of the curve in coordinates in which the steps of
+   !> the grid are 1. The distance is `shift` steps, but at most half of the mean radius of the curve (area over
+   !> length): by more, the curve of the smallest contact would be turned inside out.
    pure subroutine shift_contour(curve, period, shift)
       type(contact_contour), intent(inout) :: curve
-      integer, intent(in) :: period(2)   !! points to a period of phi and theta
-      real(dp), intent(in) :: shift      !! >= 0
+      integer, intent(in) :: period(2)   !! numbers of points in a period of phi and theta
+      real(dp), intent(in) :: shift      !! >= 0 [steps of the grid]
 
       real(dp), dimension(size(curve%phi)) :: along_x, along_y, x, y
       real(dp) :: distance, sides
@@ -167,7 +172,7 @@ contains
       n = size(x)
       x = curve%phi*period(1)/(2*pi)
       y = curve%theta*period(2)/(2*pi)
-      ! The last point is the first again, or one period on.
+      ! Central differences. The last point is the first one, perhaps one or more periods on.
       along_x(2:n - 1) = x(3:) - x(:n - 2)
       along_y(2:n - 1) = y(3:) - y(:n - 2)
       along_x([1, n]) = x(2) - x(1) + x(n) - x(n - 1)
@@ -182,36 +187,38 @@ contains
       end associate
    end subroutine shift_contour
 
-   !> Follows one curve from an edge of a cell back to it.
+   !> Follows one curve from a side of a grid cell until the curve comes back to that side, perhaps a period on.
    subroutine trace(edge, numbers, first_cell, first_number, seen, curve)
       class(contact_edge), intent(in) :: edge
       type(region_numbers), intent(in) :: numbers
-      integer, intent(in) :: first_cell(2), first_number
-      integer(int8), intent(inout) :: seen(0:, 0:)
-      type(contact_contour), intent(out) :: curve
+      integer, intent(in) :: first_cell(2)               !! the grid cell that the curve enters first
+      integer, intent(in) :: first_number                !! number of the side through which the curve enters this cell
+      integer(int8), intent(inout) :: seen(0:, 0:)       !! bit n: a curve has entered the grid cell through side n
+      type(contact_contour), intent(out) :: curve        !! without the numbers of its spot and pool
 
-      !> To the cell beyond each side.
+      !> The step to the grid cell beyond each side.
       integer, parameter :: step(2, 4) = reshape([0, -1, 1, 0, 0, 1, -1, 0], [2, 4])
-      real(dp), allocatable :: points(:, :)   ! shape (2, *)
+      real(dp), allocatable :: points(:, :)   ! phi, theta of the points so far, shape (2, *)
       type(edge_point) :: first, last, next
-      integer :: cell(2), number, count, place(2), quarters
+      integer :: cell(2), found, in_period(2), number, quarters
 
       allocate (points(2, 64))
       cell = first_cell
       number = first_number
       first = edge%side(cell(1), cell(2), number)
       last = first
-      count = 0
+      found = 0
       quarters = 0
       do
-         count = count + 1
-         if (count > size(points, 2)) points = reshape(points, [2, 2*size(points, 2)], pad=[0.0_dp])
-         points(:, count) = last%angle
-         place = numbers%wrap(cell(1), cell(2))
-         if (btest(seen(place(1), place(2)), number)) exit
-         seen(place(1), place(2)) = ibset(seen(place(1), place(2)), number)
+         found = found + 1
+         if (found > size(points, 2)) points = reshape(points, [2, 2*size(points, 2)], pad=[0.0_dp])
+         points(:, found) = last%angle
+         in_period = numbers%wrap(cell(1), cell(2))
+         if (btest(seen(in_period(1), in_period(2)), number)) exit
+         seen(in_period(1), in_period(2)) = ibset(seen(in_period(1), in_period(2)), number)
 
-         ! The curve leaves the cell through the next side, counter-clockwise, that the edge crosses (see cell_area).
+         ! The curve leaves the cell through the next side, counter-clockwise, that the edge crosses. If the edge
+         ! crosses all four sides, this joins the two parts in contact, as `cell_area` does.
          do
             number = mod(number, 4) + 1
             next = edge%side(cell(1), cell(2), number)
@@ -221,16 +228,16 @@ contains
          curve%area = curve%area - edge%beside_chord(last, next) &
                       + 0.5_dp*cross(last%angle - first%angle, next%angle - first%angle)
          cell = cell + step(:, number)
-         ! The opposite side.
+         ! The curve enters the next cell through that cell's opposite side.
          number = mod(number + 1, 4) + 1
          last = next
          last%number = number
       end do
       curve%turns = quarters/4
-      ! (A1): the curve may go around the cell.
+      ! The last term of (A1), which is not zero if the curve winds around the periodic cell.
       curve%area = curve%area - cross(last%angle - first%angle, first%angle)
-      allocate (curve%phi, source=points(1, :count))
-      allocate (curve%theta, source=points(2, :count))
+      allocate (curve%phi, source=points(1, :found))
+      allocate (curve%theta, source=points(2, :found))
    end subroutine trace
 
 end module wavycon_contact_contours

@@ -1,4 +1,5 @@
-!> The quantities of a pressure that is a Fourier series, of full contact, and by the linear law of rough surfaces.
+!> Quantities of a solution whose pressure is a Fourier series, of full contact, and the contact area by the linear law
+!> of rough surfaces.
 module wavycon_contact_measures
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
@@ -14,25 +15,26 @@ module wavycon_contact_measures
 
    public :: full_contact_quantities, linear_area_fraction, measure_series, measuring_intervals
 
-   !> Grid intervals on half a wavelength for areas and extremes: so many a harmonic, and at least so many.
+   !> Grid intervals on half a wavelength for areas and extremes: the number for each harmonic, and the least number.
    integer, parameter :: intervals_per_harmonic = 8, least_intervals = 64
 
-   !> kappa. Theories give (8/pi)^(1/2) = 1.60, B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840-3861, and (2 pi)^(1/2)
-   !> = 2.51, A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87-111. Computed contacts of self-affine surfaces
-   !> lie between them, S. Hyun, L. Pei, J.-F. Molinari, M. O. Robbins, Phys. Rev. E 70 (2004) 026117; 2 is the value
-   !> that results are compared with.
+   !> The coefficient kappa of the linear law. Theories give (8/pi)^(1/2) = 1.60 (B. N. J. Persson, J. Chem. Phys. 115
+   !> (2001) 3840-3861) and (2 pi)^(1/2) = 2.51 (A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87-111).
+   !> Computed contacts of self-affine surfaces lie between the two (S. Hyun, L. Pei, J.-F. Molinari, M. O. Robbins,
+   !> Phys. Rev. E 70 (2004) 026117). Results are compared with the value 2.
    real(dp), parameter :: area_coefficient = 2.0_dp
 
 contains
 
-   !> Intervals on half a wavelength on which a series of n harmonics is measured.
+   !> The number of grid intervals on half a wavelength on which a series of n harmonics is measured.
    elemental integer function measuring_intervals(harmonics)
       integer, intent(in) :: harmonics   !! n >= 1
 
       measuring_intervals = max(least_intervals, intervals_per_harmonic*harmonics)
    end function measuring_intervals
 
-   !> The quantities of full contact, P >= 1, eq. (22): p - P is at least -1.
+   !> The quantities of full contact, P >= 1, by eq. (22). The least value of p - P is -1 (in p*) by the definition of
+   !> p*.
    type(quantities) function full_contact_quantities(surface, pbar_over_pstar) result(answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: pbar_over_pstar   !! P
@@ -46,12 +48,14 @@ contains
       answer%error(elastic_energy) = 0.0_dp
    end function full_contact_quantities
 
-   !> The fraction of the nominal area in contact by the linear law of light loads on rough surfaces, A/A0 = kappa
-   !> pbar/(E* h'), for comparison with those that are computed. It is a straight line at all loads, and exceeds 1 at
-   !> heavy ones. Unknown for surfaces that are no height maps: the law is one of random surfaces.
+   !> The fraction of the nominal area in contact by the linear law of rough surfaces at light loads, A/A0 = kappa
+   !> pbar/(E* h'). It serves for comparison with computed areas. The law is evaluated at all loads, so the result
+   !> exceeds 1 at heavy ones. As the law is that of random surfaces, the result is `unknown` if the surface is not a
+   !> height map in 2-D, is flat, or has free edges.
    pure real(dp) function linear_area_fraction(surface, rms_slope, pbar_over_pstar) result(fraction)
       type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: rms_slope         !! h' of the surface; an argument because it takes a sum over all waves
+      !> Root mean square slope h' of the surface. It is an argument because its computation takes a sum over all waves.
+      real(dp), intent(in) :: rms_slope
       real(dp), intent(in) :: pbar_over_pstar   !! P >= 0
 
       fraction = unknown
@@ -60,21 +64,21 @@ contains
       fraction = area_coefficient*pbar_over_pstar*surface%full_contact_pressure(e_star=1.0_dp)/rms_slope
    end function linear_area_fraction
 
-   !> Measures the series of a pressure and its displacement, eqs. (19), (28) of Johnson, Greenwood & Higginson (1985).
-   !> The edge of contact is the isobar p = edge_level p*. Mean gap and approach are those of a crest in elastic
-   !> contact.
+   !> Computes the quantities of a contact from the Fourier series of its pressure and displacement, eqs. (19), (28) of
+   !> Johnson, Greenwood & Higginson (1985). The edge of contact is the isobar p = edge_level p*. Mean gap and approach
+   !> hold for elastic contact at the crest phi = theta = 0.
    subroutine measure_series(pressure, displacement, edge_level, answer, hardness)
       type(fourier_series), intent(in) :: pressure       !! p/p*
       type(fourier_series), intent(in) :: displacement   !! (u - ubar)/Delta
-      real(dp), intent(in) :: edge_level                !! over p*
+      real(dp), intent(in) :: edge_level                 !! pressure at the edge of contact [p*]
       type(quantities), intent(out) :: answer
-      !> H/p*, huge or absent: there is none. The edge of the area where p = H is the isobar as far below H as that of
-      !> contact is above zero, but at least H/2.
+      !> Hardness H/p*; huge or absent if there is none. The edge of the area where p = H is the isobar
+      !> p = H - edge_level p* or, if that is higher, p = H/2.
       real(dp), intent(in), optional :: hardness
 
       real(dp) :: extremes(2)
 
-      ! The crest, phi = theta = 0, is in contact and h = 0 there: the approach is the displacement.
+      ! At the crest phi = theta = 0 there is contact and h = 0. So the approach is the displacement there.
       answer%value(approach) = sum(displacement%c)
       answer%value(mean_gap) = 1.0_dp - answer%value(approach)
       call measure_isobar(pressure, edge_level, answer%value(contact_area), extremes)
@@ -86,12 +90,12 @@ contains
       answer%value(load_at_hardness) = hardness*answer%value(area_at_hardness)/pressure%c(0, 0)
    end subroutine measure_series
 
-   !> The area within an isobar, and the extreme pressures.
+   !> The area where the pressure is at least a level, and the extreme pressures.
    subroutine measure_isobar(pressure, level, area, extremes)
       type(fourier_series), intent(in) :: pressure
-      real(dp), intent(in) :: level           !! over p*
+      real(dp), intent(in) :: level           !! [p*]
       real(dp), intent(out) :: area           !! fraction of the nominal area
-      real(dp), intent(out) :: extremes(2)    !! least and largest pressure over p*
+      real(dp), intent(out) :: extremes(2)    !! least and largest pressure at the points of the grid [p*]
 
       real(dp), allocatable :: edges(:), values(:, :)
       real(dp) :: line(0:ubound(pressure%c, 1))

@@ -1,7 +1,8 @@
-!> The area of contact of a solution on the points of a grid, by the edge between the points: eqs. (C11), (C12) of
-!> src/core/contact/README.md; in 1-D also the edges. For comparison with other programs the number of points in
-!> contact, and its correction by the number of changes along the lines of the grid: (C26). How closely the load stands
-!> together.
+!> The contact area of a solution on the points of a grid, interpolated between the points: eqs. (C11), (C12) of
+!> src/core/contact/README.md, and in 1-D the edges of contact.
+!>
+!> For comparison with other programs also the counted area, the number of points in contact over the number of points,
+!> and its correction (C26). Another number says how concentrated the load is in the cell.
 module wavycon_grid_area
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
@@ -16,14 +17,15 @@ module wavycon_grid_area
    public :: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area, grid_strip_edges, &
       load_concentration
 
-   !> c_p of (C26), the area by which each change makes the counted area too large, in cells of the grid.
+   !> The coefficient c_p of (C26): the area, in grid cells, by which the counted area is too large for each pair of
+   !> neighbouring points of which one is in contact and the other is not.
    real(dp), parameter :: area_of_change = (pi - 1.0_dp + log(2.0_dp))/24
 
 contains
 
-   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D. After `fetch_neighbours`.
+   !> The fraction of the surface in contact: (C11) in 1-D, (C12) in 2-D.
    real(dp) function grid_contact_area(edge) result(fraction)
-      type(grid_edge), intent(in) :: edge
+      type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
 
       real(dp), allocatable :: areas(:, :), edges(:)
       integer, dimension(0:edge%slab%points(1) + 1) :: here, next   ! 1 at points in contact, else 0
@@ -37,8 +39,10 @@ contains
 
       m = edge%slab%points(1)
       allocate (areas(1, edge%slab%columns()), source=0.0_dp)
-      ! The mirror line divides the cells at the rim of the quarter.
-      first = merge(0, edge%slab%first, edge%even .and. edge%slab%first == 1)
+      ! On a quarter of the cell the mirror line divides the grid cells before the first column of points: they are
+      ! those of the column 0.
+      first = edge%slab%first
+      if (edge%even .and. first == 1) first = 0
       if (size(areas) > 0) next = edge%marks(first)
       do j = first, edge%slab%last
          here = next
@@ -51,11 +55,12 @@ contains
       fraction = max(sum(edge%slab%column_totals(areas)), 0.0_dp)/product(real(edge%slab%points, dp))
    end function grid_contact_area
 
-   !> The area in contact of a column of cells [cells], by (C12).
+   !> The area in contact within a column of grid cells, by (C12), in units of a grid cell.
    pure real(dp) function area_of_cells(edge, l, corners) result(area)
       type(grid_edge), intent(in) :: edge
-      integer, intent(in) :: l             !! the column of points before
-      integer, intent(in) :: corners(0:)   !! of each cell that are in contact, from the cell before the first point
+      integer, intent(in) :: l             !! the column of points before the cells
+      !> For each cell how many of its corners are in contact. Cell 0 lies before the first point.
+      integer, intent(in) :: corners(0:)
 
       real(dp) :: of_cell
       integer :: i, m
@@ -66,42 +71,42 @@ contains
          if (corners(i) == 0) cycle
          of_cell = 1.0_dp
          if (corners(i) < 4) of_cell = edge%cell_area(i, l)/product(edge%step)
-         ! The mirror lines divide the cells at the rim of the quarter: half of each counts.
+         ! The mirror lines divide the grid cells along the border of the quarter in halves, one of which counts.
          if (edge%even .and. (i == 0 .or. i == m)) of_cell = 0.5_dp*of_cell
          area = area + of_cell
       end do
       if (edge%even .and. (l == 0 .or. l == edge%slab%points(2))) area = 0.5_dp*area
    end function area_of_cells
 
-   !> The edges of contact in 1-D, ascending [rad]: between 0 and pi of an even surface, otherwise within a period from
-   !> the first point.
+   !> The edges of contact in 1-D, by (C11): on an even surface those between 0 and pi, otherwise those of one period
+   !> from the first point on.
    pure subroutine grid_strip_edges(edge, edges)
-      type(grid_edge), intent(in) :: edge
-      real(dp), allocatable, intent(out) :: edges(:)
+      type(grid_edge), intent(in) :: edge              !! of a grid in 1-D
+      real(dp), allocatable, intent(out) :: edges(:)   !! ascending [rad]
 
-      real(dp) :: distance, found(edge%slab%points(1)), place(2)
-      integer :: count, i
+      real(dp) :: angle(2), distance, crossings(edge%slab%points(1))
+      integer :: found, i
       type(edge_point) :: point
 
       call assert(edge%slab%points(2) == 1, 'the grid is one of 1-D')
-      count = 0
-      do i = 1, size(found) - merge(1, 0, edge%even)
+      found = 0
+      do i = 1, size(crossings) - merge(1, 0, edge%even)
          point = edge%side(i, 1, 1)
          if (point%number == 0) cycle
-         count = count + 1
-         ! In steps from the point in contact, (C11).
+         found = found + 1
+         ! Distance of the edge from the point in contact, in grid steps, (C11).
          distance = balance(edge, point, edge%rule%aligned_weight) - edge%rule%aligned_offset
-         associate (way => point%outer - point%inner)
-            ! A contact of one point has no negative width.
-            if (.not. edge%in_contact(point%inner(1) - way(1), 1)) distance = max(distance, 0.0_dp)
-            place = edge%angles(point%inner + distance*way)
+         associate (outwards => point%outer - point%inner)
+            ! Without this bound the two edges of a contact of one point could be exchanged.
+            if (.not. edge%in_contact(point%inner(1) - outwards(1), 1)) distance = max(distance, 0.0_dp)
+            angle = edge%angles(point%inner + distance*outwards)
          end associate
-         found(count) = place(1)
+         crossings(found) = angle(1)
       end do
-      allocate (edges, source=found(:count))
+      allocate (edges, source=crossings(:found))
    end subroutine grid_strip_edges
 
-   !> Points in contact over all points.
+   !> The number of points in contact over the number of points.
    real(dp) function counted_area_fraction(edge) result(fraction)
       type(grid_edge), intent(in) :: edge
 
@@ -115,18 +120,18 @@ contains
       fraction = edge%slab%total_count(own)/product(real(edge%slab%points, dp))
    end function counted_area_fraction
 
-   !> The counted area less c_p for each change from contact to gap (C26).
+   !> The counted area, less c_p grid cells for each pair of neighbours that `edge_crossings` counts, (C26).
    real(dp) function corrected_area_fraction(edge) result(fraction)
-      type(grid_edge), intent(in) :: edge   !! of a surface: a profile has no lines in a second direction
+      type(grid_edge), intent(in) :: edge   !! in 2-D: (C26) needs grid lines in two directions
 
       fraction = counted_area_fraction(edge) - area_of_change*edge_crossings(edge)/product(real(edge%slab%points, dp))
    end function corrected_area_fraction
 
-   !> Number of pairs of neighbouring points of the grid, along both directions, of which one is in contact and the
-   !> other is not. On a whole cell the last points are neighbours of the first; on a quarter those next to a mirror
-   !> line have their own images as neighbours.
+   !> The number of pairs of neighbouring points, along both directions of the grid, of which one is in contact and the
+   !> other is not. On a whole cell the last points are neighbours of the first ones. On a quarter of the cell the
+   !> points next to a mirror line have their own images as neighbours.
    integer(int64) function edge_crossings(edge) result(crossings)
-      type(grid_edge), intent(in) :: edge   !! with the columns of the neighbours, if the grid is distributed
+      type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
 
       integer, dimension(0:edge%slab%points(1) + 1) :: here, next
       integer :: j, m
@@ -143,10 +148,11 @@ contains
       crossings = edge%slab%total_count(crossings)
    end function edge_crossings
 
-   !> |mean of exp(i X)| with the pressure as weight, or of exp(i Y) if that is less: 1 if all load is at one place,
-   !> about 1 - (2 pi d/L)^2/2 if it has the standard deviation d along a side L, 0 if it is distributed evenly.
+   !> How concentrated the load is in the periodic cell: the smaller of |mean of exp(i X)| and |mean of exp(i Y)|, with
+   !> the pressure as the weight of the means. The result is 1 if all load is at one point and 0 if the load is uniform.
+   !> A load with the small standard deviation d along a side L has about 1 - (2 pi d/L)^2/2.
    real(dp) function load_concentration(edge) result(least)
-      type(grid_edge), intent(in) :: edge   !! on the whole cell or, of an even surface, its quarter
+      type(grid_edge), intent(in) :: edge   !! on the whole cell or, of an even surface, on its quarter
 
       real(dp) :: angle(2), p, sums(5)
       integer :: j, k
@@ -165,7 +171,7 @@ contains
       least = 0.0_dp
       if (.not. sums(1) > 0.0_dp) return
       sums = sums/sums(1)
-      ! The sines of the other quarters are those of the first with the other sign.
+      ! Summed over the four quarters of an even load the sines cancel.
       if (edge%even) sums([3, 5]) = 0.0_dp
       least = min(norm2(sums(2:3)), norm2(sums(4:5)))
    end function load_concentration

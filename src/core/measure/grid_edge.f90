@@ -1,10 +1,13 @@
-!> The edge of contact of a solution on the points of a grid, placed between the points: eqs. (C11), (C12) of
+!> The edge of contact of a solution on the points of a grid, interpolated between the points: eqs. (C11), (C12) of
 !> src/core/contact/README.md.
 !>
-!> The points are those of wavycon_grid_points: M x N on a quarter of the cell, whose mirror images fill the
-!> plane, or on the whole cell. The edge lies in the own columns and in those of the neighbours that
-!> `fetch_neighbours` gets. The pressure of the last point in contact and the gap of the first
-!> outside are both linear in the place of the edge between them, so that their ratio gives the place.
+!> The points are those of wavycon_grid_points: M x N on a quarter of the cell, whose mirror images fill the plane, or
+!> on the whole cell. On a line of the grid that the edge crosses, the pressure of the last point in contact and the gap
+!> of the first point outside are both linear in the position of the edge between the two. So their ratio gives the
+!> position.
+!>
+!> A grid may be distributed over processes, each of which has the pressures and gaps of its own columns. The edge is
+!> then known in these columns and in those that `fetch_neighbours` copies from the neighbouring processes.
 module wavycon_grid_edge
    use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, edge_point, quarter_turns
@@ -19,31 +22,36 @@ module wavycon_grid_edge
 
    public :: edge_rule, grid_edge, balance, join, make_grid_edge, pressure_per_gap, start_grid_edge
 
-   !> Constants of (C11), (C12), which depend on the kernel of the half-space. The defaults are those of waves.
+   !> Constants of (C11), (C12). They depend on the discrete kernel of the half-space. The defaults hold for pressures
+   !> that are sums of waves.
    type :: edge_rule
-      !> For an edge that runs along a line of the grid (C11): the weight of the first gap, times E*/(2 l), against the
-      !> last pressure; and how far inside the last point in contact the edge lies when that pressure vanishes [steps].
+      !> For an edge along a line of the grid, (C11): the weight of the first gap outside, times E*/(2 l), against the
+      !> last pressure inside [-]; the distance by which the edge lies inside the last point in contact when the
+      !> pressure at this point vanishes [grid steps].
       real(dp) :: aligned_weight = pi/exp(1.0_dp), aligned_offset = 0.19000928592905364_dp
-      !> The same for any direction, and what a turn adds to the area, in cells (C12).
+      !> For an edge of any direction, (C12): the weight of the gap [-]; the distance of the edge from the point where
+      !> pressure and weighted gap balance, into the contact [grid steps]; the area that a full turn of the edge adds
+      !> [grid cells].
       real(dp) :: gap_weight = gap_weight, offset = edge_offset, turn_area = turn_area
    end type edge_rule
 
-   !> Those of uniform pressures on cells (C11a).
+   !> The constants for pressures that are uniform on grid cells, (C11a).
    type(edge_rule), parameter :: rule_of_cells = edge_rule(1.15987199_dp, 0.17465323_dp, cell_gap_weight, &
                                                            cell_edge_offset, cell_turn_area)
 
    type, extends(contact_edge) :: grid_edge
-      !> The pressure, > 0, in contact, minus the gap, <= 0, elsewhere, in any unit, at the own columns of the grid,
-      !> shape (M, slab%columns()): all N of them unless it is distributed; N = 1 in 1-D.
+      !> At points in contact the pressure, > 0; elsewhere minus the gap, <= 0; in any units. The columns are the
+      !> process's own, shape (M, slab%columns()): all N columns unless the grid is distributed; N = 1 in 1-D.
       real(dp), allocatable :: pressure_or_gap(:, :)
-      !> The same at the columns before and after the own ones, shape (M, reach); only of a grid that is distributed.
+      !> The same at `reach` columns before and after the own ones, shape (M, reach). Allocated only if the grid is
+      !> distributed.
       real(dp), allocatable, private :: low(:, :), high(:, :)
-      logical, allocatable, private :: touched(:)   !! whether an own column has points in contact
-      type(grid_slab) :: slab
-      real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 l), l the steps along phi and theta, in these units
-      logical :: even = .true.   !! whether the points are those of a quarter
-      logical :: of_cells = .false.   !! whether pressures are uniform on cells, as with free edges; else sums of waves
-      type(edge_rule) :: rule
+      logical, allocatable, private :: touched(:)   !! for each own column, whether it has points in contact
+      type(grid_slab) :: slab             !! which columns are the process's own
+      real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 l), l the steps along phi and theta, in the units of pressure and gap
+      logical :: even = .true.            !! whether the points are those of a quarter of the cell
+      logical :: of_cells = .false.       !! true: pressures are uniform on grid cells, as with free edges; false: waves
+      type(edge_rule) :: rule             !! the constants for this kind of pressures
    contains
       procedure :: in_contact
       procedure :: place_edge
@@ -56,19 +64,21 @@ module wavycon_grid_edge
       procedure :: fetch_neighbours
    end type grid_edge
 
-   !> Columns of the neighbours that area and peak pressure of a distributed grid need.
+   !> How many columns of the neighbouring processes the area and the peak pressure of a distributed grid need.
    integer, parameter :: reach = 3
 
 contains
 
+   !> Makes the edge from the pressures and gaps of a solution.
    pure subroutine start_grid_edge(edge, pressure, gap, even, stiffness, slab, of_cells)
       type(grid_edge), intent(out) :: edge
       real(dp), intent(in) :: pressure(:, :)   !! positive in contact, zero elsewhere, in any unit, shape (M, columns)
       real(dp), intent(in) :: gap(:, :)        !! in any unit, of the same shape
-      logical, intent(in) :: even
-      !> From `pressure_per_gap`, in the units of pressure and gap. Only the place of the edge depends on it; absent: 1.
+      logical, intent(in) :: even              !! whether the points are those of a quarter of the cell
+      !> E*/(2 l) from `pressure_per_gap`, in the units of pressure and gap. It moves the edge between the points, and
+      !> decides nothing else. Absent: 1.
       real(dp), intent(in), optional :: stiffness(2)
-      type(grid_slab), intent(in), optional :: slab   !! whose columns these are; absent: all columns of a grid
+      type(grid_slab), intent(in), optional :: slab   !! which columns the arrays have; absent: all columns of the grid
       logical, intent(in), optional :: of_cells       !! whether pressures are uniform on cells; absent: .false.
 
       real(dp), allocatable :: field(:, :)
@@ -78,11 +88,12 @@ contains
       call make_grid_edge(edge, field, even, stiffness, slab, of_cells)
    end subroutine start_grid_edge
 
-   !> As start_grid_edge, from pressure and gap in one field, whose memory it takes.
+   !> Makes the edge, as `start_grid_edge`, from pressures and gaps in one field, whose memory the edge takes over.
    pure subroutine make_grid_edge(edge, field, even, stiffness, slab, of_cells)
       type(grid_edge), intent(out) :: edge
-      real(dp), allocatable, intent(inout) :: field(:, :)   !! as edge%pressure_or_gap; not allocated afterwards
-      logical, intent(in) :: even
+      !> On entry the values of edge%pressure_or_gap; not allocated on exit.
+      real(dp), allocatable, intent(inout) :: field(:, :)
+      logical, intent(in) :: even   !! this and the following arguments are those of start_grid_edge
       real(dp), intent(in), optional :: stiffness(2)
       type(grid_slab), intent(in), optional :: slab
       logical, intent(in), optional :: of_cells
@@ -102,16 +113,17 @@ contains
       if (present(stiffness)) edge%stiffness = stiffness
    end subroutine make_grid_edge
 
-   !> Puts pressure and gap into one field.
+   !> Joins pressure and gap to one field, as edge%pressure_or_gap.
    pure subroutine join(pressure, gap)
-      real(dp), intent(in) :: pressure(:, :)
-      real(dp), intent(inout) :: gap(:, :)   !! then as edge%pressure_or_gap
+      real(dp), intent(in) :: pressure(:, :)   !! positive in contact, zero elsewhere
+      real(dp), intent(inout) :: gap(:, :)     !! on entry the gap, on exit the joined field
 
-      ! Overlaps by rounding are no pressures: the pressures of the lightest loads are as small.
+      ! Gaps that rounding made negative are set to 0. Their negatives would count as pressures, and the pressures of
+      ! the lightest loads are as small.
       gap = merge(pressure, -max(gap, 0.0_dp), pressure > 0.0_dp)
    end subroutine join
 
-   !> Gets the columns of the neighbours, if the grid is distributed.
+   !> Copies the columns next to the own ones from the neighbouring processes. Does nothing if the grid is whole.
    subroutine fetch_neighbours(self)
       class(grid_edge), intent(inout) :: self
 
@@ -121,16 +133,17 @@ contains
       call self%slab%halo(self%pressure_or_gap, self%even, self%low, self%high)
    end subroutine fetch_neighbours
 
-   !> E*/(2 l) of the steps l along phi and theta [p*/Delta].
+   !> E*/(2 l) for the grid's steps l along phi and theta [p*/Delta].
    pure function pressure_per_gap(surface, points) result(stiffness)
       type(surface_type), intent(in) :: surface
-      integer, intent(in) :: points(2)   !! of the part of the cell that is solved
+      integer, intent(in) :: points(2)   !! points of the grid: of a quarter of the cell if the surface is even
       real(dp) :: stiffness(2)
 
       ! sigma = pi E* by (C2) and eq. (22) of Johnson, Greenwood & Higginson (1985).
       stiffness = surface%stiffness/(2*pi)*merge(2, 1, surface%shape%is_even())*points/surface%length
    end function pressure_per_gap
 
+   !> Whether a point of the plane is in contact.
    pure logical function in_contact(self, k, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
@@ -138,8 +151,8 @@ contains
       in_contact = self%at(k, l) > 0.0_dp
    end function in_contact
 
-   !> Pressure or minus the gap at any point of the plane; of a grid that is distributed, at the own columns and those
-   !> of the neighbours.
+   !> Pressure, or minus the gap, at any point of the plane. If the grid is distributed, only at points of the own
+   !> columns and of `reach` columns on either side.
    pure real(dp) function at(self, k, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
@@ -159,15 +172,16 @@ contains
       end if
    end function at
 
-   !> Pressure or minus the gap of a column, from the last point of the period before to the first one of the next.
+   !> Pressure, or minus the gap, at the points 1 .. M of a column, and at the two points 0 and M + 1 beyond its ends,
+   !> which are images of others.
    pure function column(self, l) result(values)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l   !! as of `at`
+      integer, intent(in) :: l   !! any column that `at` may be called for
       real(dp) :: values(0:self%slab%points(1) + 1)
 
       integer :: m
 
-      ! One by one by `at` they would take a tenth of the time of a solution.
+      ! Whole columns are copied: calls of `at` for each point would take a tenth of the time of a solution.
       m = self%slab%points(1)
       if (.not. self%slab%is_distributed) then
          values(1:m) = self%pressure_or_gap(:, self%place(l, 2))
@@ -182,54 +196,60 @@ contains
       values(m + 1) = values(self%place(m + 1, 1))
    end function column
 
-   !> Whether a column has points in contact; .true. if the grid is distributed, where neighbours have some columns.
+   !> Whether a column has points in contact. If the grid is distributed the result is .true., as this is not known for
+   !> columns of other processes.
    pure logical function may_touch(self, l)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l   !! as of `at`
+      integer, intent(in) :: l   !! any column that `at` may be called for
 
       may_touch = self%slab%is_distributed
       if (.not. may_touch) may_touch = self%touched(self%place(l, 2))
    end function may_touch
 
-   !> As `column`, 1 at points in contact and 0 at others.
+   !> At the points of `column`: 1 in contact, 0 elsewhere.
    pure function marks(self, l)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l
+      integer, intent(in) :: l   !! as of `column`
       integer :: marks(0:self%slab%points(1) + 1)
 
       marks = 0
-      if (self%may_touch(l)) marks = merge(1, 0, self%column(l) > 0.0_dp)
+      if (.not. self%may_touch(l)) return
+      where (self%column(l) > 0.0_dp) marks = 1
    end function marks
 
-   !> The index of the grid's point of which a point of the plane is the image.
+   !> The number, along one direction, of the grid's point of which a point of the plane is an image.
    elemental integer function place(self, k, direction)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: k           !! any
-      integer, intent(in) :: direction   !! 1 or 2
+      integer, intent(in) :: k           !! number of the point of the plane along this direction, any integer
+      integer, intent(in) :: direction   !! 1: phi, 2: theta
 
       place = image_of_point(k, self%slab%points(direction), self%even)
    end function place
 
-   !> Where pressure and weighted gap balance: the edge is `edge_offset` steps further inside.
+   !> Sets the angles of the point where pressure and weighted gap balance. The edge itself lies rule%offset steps
+   !> farther inside the contact, which `beside_chord` takes into account.
    pure subroutine place_edge(self, point)
       class(grid_edge), intent(in) :: self
-      type(edge_point), intent(inout) :: point
+      type(edge_point), intent(inout) :: point   !! on entry `inner` and `outer` are set
 
       point%angle = self%angles(point%inner + balance(self, point, self%rule%gap_weight)*(point%outer - point%inner))
    end subroutine place_edge
 
-   !> The distance of the place where pressure and weighted gap balance from the point in contact, in steps, 0 .. 1.
+   !> The distance of the point where pressure and weighted gap balance from the grid's point in contact, in grid steps,
+   !> 0 to 1: p/(p + w s g), with the pressure p at the point in contact, the gap g at the point outside, the weight w
+   !> and s = E*/(2 l).
    pure real(dp) function balance(edge, point, weight)
       type(grid_edge), intent(in) :: edge
-      type(edge_point), intent(in) :: point       !! its neighbours
-      real(dp), intent(in) :: weight              !! of the gap
+      type(edge_point), intent(in) :: point       !! `inner` and `outer` are set
+      real(dp), intent(in) :: weight              !! weight w of the gap [-]
 
       integer :: across(2)
       real(dp) :: slope(2), stiffness
 
       stiffness = edge%stiffness(1)
       if (abs(edge%stiffness(2) - stiffness) > epsilon(stiffness)*stiffness) then
-         ! That of the step along the normal, whose direction follows from the differences along and across the step.
+         ! The steps along phi and theta differ. Take E*/(2 l) of the step l along the normal of the edge. The direction
+         ! of the normal follows from the differences of the values along and across the line of the grid.
          associate (inner => point%inner, outer => point%outer)
             across = abs([outer(2) - inner(2), outer(1) - inner(1)])
             slope(1) = 4*(height(inner) - height(outer))
@@ -243,21 +263,22 @@ contains
 
    contains
 
-      !> Pressure, or minus the weighted gap.
-      pure real(dp) function height(place)
-         integer, intent(in) :: place(2)
+      !> The pressure at a point of the grid, or minus the weighted gap.
+      pure real(dp) function height(node)
+         integer, intent(in) :: node(2)   !! (k, l)
 
-         height = edge%at(place(1), place(2))
+         height = edge%at(node(1), node(2))
          if (height <= 0.0_dp) height = height*weight*edge%stiffness(1)
       end function height
 
    end function balance
 
-   !> The terms of (C12) besides the polygon [rad^2]: the strip between balance and edge, less what a turn of the edge
-   !> adds and, where it runs along a line of the grid, (C11).
+   !> The terms of (C12) besides the area of the polygon, for one grid cell [rad^2]: the strip between the points of
+   !> balance and the edge, less the area that a turn of the edge adds. Where the edge runs nearly along a line of the
+   !> grid, the position by (C11) is taken, the more the smaller the angle between the two.
    pure real(dp) function beside_chord(self, from, to) result(area)
       class(grid_edge), intent(in) :: self
-      type(edge_point), intent(in) :: from, to
+      type(edge_point), intent(in) :: from, to   !! where the edge enters and leaves the grid cell
 
       real(dp) :: aligned(2), any_direction(2), slope
 

@@ -1,4 +1,4 @@
-!> The density of values over an area, in bins of equal width.
+!> Histogram of the values of a field over an area, in bins of equal width.
 module wavycon_histogram
    use wavycon_kinds, only: dp
    implicit none (type, external)
@@ -7,9 +7,9 @@ module wavycon_histogram
    public :: histogram, make_histogram
 
    type :: histogram
-      real(dp) :: first = 0.0_dp, width = 0.0_dp   !! lower end of the first bin, and the width of each
-      real(dp), allocatable :: fraction(:)         !! of the area with values in the bin
-      real(dp), allocatable :: mean(:)             !! of these values; the middle of the bin if there are none
+      real(dp) :: first = 0.0_dp, width = 0.0_dp   !! lower end of the first bin, and the width of each bin
+      real(dp), allocatable :: fraction(:)         !! for each bin, part of the whole area with values in the bin
+      real(dp), allocatable :: mean(:)             !! mean of the values in the bin; its middle if there are none
    contains
       procedure :: middle
       procedure :: density
@@ -17,14 +17,17 @@ module wavycon_histogram
 
 contains
 
-   !> Sorts the values of equal parts of the area that are selected into bins between the lowest, but at most 0, and the
-   !> highest. The sum of fraction*mean is exactly their part of the mean over the whole area.
+   !> Makes a histogram of selected values of a field, such as the pressures at the points in contact.
+   !>
+   !> The bins reach from the least selected value, or 0 if that is less, to the largest one. Each value stands for an
+   !> equal part of the area, or the field is linear between selected points, (A7). In both cases the sum of
+   !> fraction*mean over the bins is the sum of the selected values over the number of all values.
    pure subroutine make_histogram(values, selected, bins, is_continuous, answer)
       real(dp), intent(in) :: values(:, :)
-      logical, intent(in) :: selected(:, :)      !! of the same shape
-      integer, intent(in) :: bins                !! >= 1
-      !> Whether the values are those at points of a periodic grid of a field that is linear between points that are
-      !> selected, (A7).
+      logical, intent(in) :: selected(:, :)      !! which values to take, of the same shape
+      integer, intent(in) :: bins                !! number of bins, >= 1
+      !> False: each value stands for an equal part of the area. True: the values are those at the points of a periodic
+      !> grid, and between selected points the field is linear, (A7).
       logical, intent(in) :: is_continuous
       type(histogram), intent(out) :: answer
 
@@ -51,13 +54,13 @@ contains
       answer%fraction = answer%fraction/size(values)
    end subroutine make_histogram
 
-   !> Adds the cell from a point to the next along both directions: both pairs of triangles that it can be divided into,
-   !> with half of the weight each.
+   !> Adds one grid cell. A cell can be divided into two triangles in two ways. All four triangles are added, each with
+   !> half of its area, so that no diagonal is preferred.
    pure subroutine add_cell(answer, values, selected, k, l)
       type(histogram), intent(inout) :: answer
       real(dp), intent(in) :: values(:, :)
       logical, intent(in) :: selected(:, :)
-      integer, intent(in) :: k, l
+      integer, intent(in) :: k, l   !! lower left corner of the cell
 
       real(dp) :: corner(4)
       logical :: inside(4)
@@ -74,15 +77,15 @@ contains
       end do
    end subroutine add_cell
 
-   !> Adds a triangle: if it is selected in full, what a linear function has in each bin, otherwise a third for each of
-   !> its corners that is.
+   !> Adds a triangle. If all corners are selected, each bin gets the part of the triangle in which the linear function
+   !> through the corners has values in the bin. Otherwise each selected corner gets a third of the weight.
    pure subroutine add_triangle(answer, corner, inside, weight)
       type(histogram), intent(inout) :: answer
-      real(dp), intent(in) :: corner(3)
-      logical, intent(in) :: inside(3)
-      real(dp), intent(in) :: weight
+      real(dp), intent(in) :: corner(3)    !! values at the corners
+      logical, intent(in) :: inside(3)     !! whether each corner is selected
+      real(dp), intent(in) :: weight       !! area of the triangle that counts, in grid cells
 
-      real(dp) :: high, least, middle, most, part(2), last(2)
+      real(dp) :: high, least, middle, most, up_to_high(2), up_to_last(2)
       integer :: bin, i, lowest, highest
 
       least = minval(corner)
@@ -96,24 +99,25 @@ contains
          return
       end if
       middle = max(min(corner(1), corner(2)), min(max(corner(1), corner(2)), corner(3)))
-      last = 0.0_dp
+      up_to_last = 0.0_dp
       do bin = lowest, highest
          high = answer%first + bin*answer%width
          if (bin == highest) high = most
-         part = below(high, least, middle, most)
-         answer%fraction(bin) = answer%fraction(bin) + weight*(part(1) - last(1))
-         answer%mean(bin) = answer%mean(bin) + weight*(part(2) - last(2))
-         last = part
+         up_to_high = below(high, least, middle, most)
+         answer%fraction(bin) = answer%fraction(bin) + weight*(up_to_high(1) - up_to_last(1))
+         answer%mean(bin) = answer%mean(bin) + weight*(up_to_high(2) - up_to_last(2))
+         up_to_last = up_to_high
       end do
    end subroutine add_triangle
 
-   !> The part of a triangle in which a linear function is below a value, and its integral over that part.
+   !> The part of a triangle in which a linear function is below a value, (A7), and the integral of the function over
+   !> this part, both over the area of the triangle.
    pure function below(value, least, middle, most) result(part)
       real(dp), intent(in) :: value                   !! least <= value <= most
-      real(dp), intent(in) :: least, middle, most     !! the function at the corners, least < most
+      real(dp), intent(in) :: least, middle, most     !! the function at the corners, ascending, least < most
       real(dp) :: part(2)
 
-      real(dp) :: rest
+      real(dp) :: rest   ! the part in which the function is above the value
 
       if (value < middle) then
          part(1) = (value - least)**2/((middle - least)*(most - least))
@@ -126,9 +130,11 @@ contains
       end if
    end function below
 
+   !> Adds a value to its bin.
    pure subroutine add_value(answer, value, weight)
       type(histogram), intent(inout) :: answer
-      real(dp), intent(in) :: value, weight
+      real(dp), intent(in) :: value
+      real(dp), intent(in) :: weight   !! area that has the value, in grid cells
 
       associate (bin => bin_of(answer, value))
          answer%fraction(bin) = answer%fraction(bin) + weight
@@ -136,7 +142,7 @@ contains
       end associate
    end subroutine add_value
 
-   !> The bin of a value; of one outside all bins the nearest.
+   !> The number of a value's bin; for a value outside all bins the number of the nearest bin.
    pure integer function bin_of(answer, value) result(bin)
       type(histogram), intent(in) :: answer
       real(dp), intent(in) :: value
@@ -154,7 +160,7 @@ contains
       middle = self%first + (bin - 0.5_dp)*self%width
    end function middle
 
-   !> Fraction of the area over width of a bin; 0 if all values are 0.
+   !> The density (A6) in a bin: the fraction of the area over the bin's width; 0 if all values are 0.
    elemental real(dp) function density(self, bin)
       class(histogram), intent(in) :: self
       integer, intent(in) :: bin   !! 1 .. bins

@@ -1,4 +1,4 @@
-!> Zeros of a cosine series along a line.
+!> Zeros of a cosine series in one variable, and the part of a range that lies between them.
 module wavycon_line_zeros
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: evaluate_line
@@ -10,32 +10,33 @@ module wavycon_line_zeros
 
 contains
 
-   !> The zeros between 0 and pi, ascending: those of the intervals of a grid at whose ends the signs differ.
+   !> Finds the zeros of a cosine series between 0 and pi: one in each interval of a grid at whose ends the series has
+   !> different signs. Two zeros within one interval are not found.
    pure subroutine line_zeros(c, intervals, zeros)
       real(dp), intent(in) :: c(0:)                        !! sum_i c_i cos(i x), shape (0:n)
-      integer, intent(in) :: intervals                     !! of the grid
-      real(dp), allocatable, intent(out) :: zeros(:)       !! [rad]
+      integer, intent(in) :: intervals                     !! number of intervals between 0 and pi
+      real(dp), allocatable, intent(out) :: zeros(:)       !! ascending [rad]
 
-      real(dp) :: found(intervals), values(0:intervals), slope, step
-      integer :: k, count
+      real(dp) :: crossings(intervals), values(0:intervals), slope, step
+      integer :: k, found
 
       step = pi/intervals
       do k = 0, intervals
          call evaluate_line(c, k*step, values(k), slope)
       end do
-      count = 0
+      found = 0
       do k = 1, intervals
          if ((values(k - 1) >= 0.0_dp) .eqv. (values(k) >= 0.0_dp)) cycle
-         count = count + 1
-         call zero_between(c, (k - 1)*step, step, values(k - 1), values(k), found(count), slope)
+         found = found + 1
+         call zero_between(c, (k - 1)*step, step, values(k - 1), values(k), crossings(found), slope)
       end do
-      allocate (zeros, source=found(:count))
+      allocate (zeros, source=crossings(:found))
    end subroutine line_zeros
 
-   !> The part of a range from 0 on that is inside, given the places where inside and outside change.
+   !> The fraction of the range from 0 to `last` that lies inside. At each edge inside and outside change.
    pure real(dp) function part_inside(edges, starts_inside, last) result(part)
-      real(dp), intent(in) :: edges(:)          !! ascending [rad]
-      logical, intent(in) :: starts_inside
+      real(dp), intent(in) :: edges(:)          !! ascending, within the range [rad]
+      logical, intent(in) :: starts_inside      !! whether 0 lies inside
       real(dp), intent(in) :: last              !! end of the range [rad]
 
       associate (ends => [0.0_dp, edges, last])
@@ -45,8 +46,8 @@ contains
       end associate
    end function part_inside
 
-   !> Where sum_i c_i cos(i x) changes sign between two points: Newton's method, kept inside the bracket by
-   !> bisection.
+   !> The zero of sum_i c_i cos(i x) between two points at which its signs differ, by Newton's method. A step that would
+   !> leave the bracket of the zero is replaced by bisection.
    pure subroutine zero_between(c, start, step, at_start, at_end, x, slope)
       real(dp), intent(in) :: c(0:)                 !! shape (0:n)
       real(dp), intent(in) :: start, step           !! bracket [start, start + step]

@@ -1,7 +1,7 @@
-!> The quantities of a solution: the one list of them, and the record of their values and errors that solvers fill and
-!> that tables, log, searches and checkpoints read.
+!> The quantities of a solution: the only list of them, and the record of their values and errors. Solvers fill the
+!> record; tables, log, searches and checkpoints read it.
 !>
-!> A further quantity is a number and a row of the list here, and an assignment in a solver: src/README.md.
+!> A new quantity takes a number and a row of the list here, and an assignment in a solver: src/README.md, "A quantity".
 module wavycon_quantities
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
@@ -12,37 +12,39 @@ module wavycon_quantities
 
    public :: find_quantity, is_known, known_errors, listed_columns, or_nan, scaled
 
-   !> Stands for a number that is not known, and exceeds every accuracy. Not NaN, whose comparisons Debug builds trap:
-   !> `or_nan` makes it NaN for the user. Its powers in estimates of errors are finite.
+   !> This number stands for a value that is not known. It is larger than every accuracy. It is not NaN, because Debug
+   !> builds trap comparisons with NaN: `or_nan` makes NaN of it for the user. Its powers in estimates of errors are
+   !> finite.
    real(dp), parameter, public :: unknown = 1e30_dp
 
-   !> Mean gap G [Delta]: eqs. (19), (28). Approach of the mean planes of the elastic bodies, delta'/Delta: 1 - G, plus
-   !> the mean residual indentation (C22) if there is a hardness; its error is that of the mean gap, which with free
-   !> edges is that of the approach. Contact area over the nominal area: 1 by definition from P = 1 on. Largest pressure
-   !> [p*], `unknown` where it is infinite, and smallest pressure, which is negative between the points of a series.
+   !> `mean_gap`: G [Delta], eqs. (19), (28). `approach`: approach of the mean planes of the elastic bodies,
+   !> delta'/Delta = 1 - G, plus the mean residual indentation (C22) if there is a hardness. The errors of both are
+   !> equal. With free edges in 2-D they are that of the approach, otherwise that of the mean gap. `contact_area`: over
+   !> the nominal area; by definition 1 for P >= 1. `peak_pressure`: largest pressure [p*], `unknown` where it is
+   !> infinite. `min_pressure`: smallest pressure [p*]; that of a series is negative between its points.
    integer, parameter, public :: mean_gap = 1, approach = 2, contact_area = 3, peak_pressure = 4, min_pressure = 5
-   !> Where the pressure is the hardness: fractions of the nominal area and of the load.
+   !> Of the area where the pressure is the hardness: its fraction of the nominal area, and its fraction of the load.
    integer, parameter, public :: area_at_hardness = 6, load_at_hardness = 7
-   !> On a grid: the points in contact over all points, and this area corrected by (C26) of src/core/contact/README.md,
-   !> which is for surfaces alone.
+   !> On a grid: the number of points in contact over the number of points; the same corrected by (C26) of
+   !> src/core/contact/README.md, in 2-D only.
    integer, parameter, public :: contact_area_counted = 8, contact_area_corrected = 9
    !> Elastic energy per nominal area, the mean of p u/2 [p* Delta].
    integer, parameter, public :: elastic_energy = 10
-   !> Gap at a trough [Delta]; gap and pressure at the saddle between nearest crests, where spots merge first; length of
-   !> the edge of one contact spot or, once the spots have merged, of one closed pool [length]; degree of the
-   !> polynomials. Collocation has them, if it keeps its fields.
+   !> Gap at a trough [Delta]; gap [Delta] and pressure [p*] at the saddle between nearest crests, where spots merge
+   !> first; length of the edge of one contact spot or, once the spots have merged, of one closed pool [length]; degree
+   !> of the polynomials. Only collocation fitted to the edge sets these, and only if it keeps its fields.
    integer, parameter, public :: trough_gap = 11, saddle_gap = 12, saddle_pressure = 13, perimeter = 14, &
       polynomial_degree = 15
-   !> load_concentration of wavycon_grid_area, of a light contact on a height map, and with free edges the part of the
-   !> load that lies within `border` sides of the border; otherwise 0.
+   !> `load_concentration` of wavycon_grid_area, for a light contact on a height map; with free edges, the part of the
+   !> load that lies within `border` sides of the border of the map. Otherwise both are 0.
    integer, parameter, public :: concentrated_load = 16, border_load = 17
-   !> How a solution changes with the load, of `contact_solution%derivatives`: G'(P) <= 0 [Delta/p*], A'(P) of the area
-   !> fraction [1/p*], G''(P) >= 0 [Delta/p*^2]. src/beyond/README.md derives what follows from them.
+   !> Derivatives by the load, from `contact_solution%derivatives`: G'(P) <= 0 [Delta/p*], A'(P) of the area fraction
+   !> [1/p*], G''(P) >= 0 [Delta/p*^2]. src/beyond/README.md derives what follows from them.
    integer, parameter, public :: gap_slope = 18, area_slope = 19, gap_curvature = 20
    integer, parameter, public :: number_of_quantities = 20
 
-   !> Kinds of quantities: a column of tables has the quantity's name and what is below, and no unit, or its name alone,
-   !> and the unit.
+   !> Kinds of quantities. Tables have a quantity without unit in a column of its name with the ending `behind_name`, or
+   !> in the deck's units in a column of its name alone.
    integer, parameter, public :: of_length = 1, of_pressure = 2, of_area = 3, of_energy = 4, of_load = 5, &
       in_length = 6, of_count = 7, number_of_kinds = 7
    character(*), parameter :: behind_name(number_of_kinds) = [character(21) :: '_over_amplitude', '_over_pstar', &
@@ -51,13 +53,13 @@ module wavycon_quantities
       '-', 'length', '#']
 
    type :: quantity_type
-      integer :: number                  !! one of the names above
-      character(22) :: name              !! in tables
+      integer :: number                  !! one of the numbers above
+      character(22) :: name              !! name in tables
       integer :: kind                    !! one of the kinds above
-      character(16) :: listed_in = ''    !! tables in which its columns have no place but that in the list
+      character(16) :: listed_in = ''    !! tables that take its columns, by `listed_columns`, in the order of the list
    end type quantity_type
 
-   !> Those that tables have.
+   !> The quantities that tables have.
    type(quantity_type), parameter, public :: quantity_list(*) = [ &
       quantity_type(mean_gap, 'mean_gap', of_length, 'details'), &
       quantity_type(approach, 'approach', of_length), &
@@ -75,9 +77,9 @@ module wavycon_quantities
       quantity_type(perimeter, 'perimeter', in_length, 'details'), &
       quantity_type(polynomial_degree, 'degree', of_count, 'details')]
 
-   !> The three that every solver computes, to its accuracy.
+   !> The three quantities that every solver computes to the requested accuracy.
    integer, parameter, public :: main_quantities(3) = [mean_gap, contact_area, peak_pressure]
-   !> Those that are known without load: zeros, but for the gap.
+   !> The quantities that are known without load: zeros, except for the mean gap, which is 1.
    integer, parameter :: without_load(*) = [main_quantities, approach, min_pressure, area_at_hardness, &
       load_at_hardness, concentrated_load, border_load, polynomial_degree]
    integer :: i
@@ -85,10 +87,10 @@ module wavycon_quantities
       initial_error(*) = [(merge(0.0_dp, unknown, any(i == without_load)), i=1, number_of_quantities)], &
       initial_value(*) = [(merge(1.0_dp, initial_error(i), i == mean_gap), i=1, number_of_quantities)]
 
-   !> The record. Without a solver it is that of no load.
+   !> The record of a solution's quantities. Before a solver fills it, it is that of no load.
    type, public :: quantities
-      real(dp) :: value(number_of_quantities) = initial_value   !! by the numbers above, or `unknown`
-      real(dp) :: error(number_of_quantities) = initial_error   !! their error estimates, or `unknown`
+      real(dp) :: value(number_of_quantities) = initial_value   !! value of each quantity, or `unknown`
+      real(dp) :: error(number_of_quantities) = initial_error   !! error estimate of each quantity, or `unknown`
    contains
       procedure :: main_values
       procedure :: are_resolved
@@ -96,14 +98,15 @@ module wavycon_quantities
 
 contains
 
-   !> Whether a number is not `unknown`.
+   !> Whether a number is known, which means less than `unknown`.
    elemental logical function is_known(number)
       real(dp), intent(in) :: number
 
       is_known = number < unknown
    end function is_known
 
-   !> A number times a factor, which is unknown if the number is: a product with a small factor would pass for known.
+   !> A number times a factor, or `unknown` if the number is unknown. The plain product of `unknown` and a small factor
+   !> would be taken for a known number.
    elemental real(dp) function scaled(number, factor)
       real(dp), intent(in) :: number, factor
 
@@ -111,7 +114,7 @@ contains
       if (is_known(number)) scaled = factor*number
    end function scaled
 
-   !> A number for the user: NaN if it is unknown.
+   !> A number as the user sees it: NaN if the number is unknown.
    elemental real(dp) function or_nan(number)
       real(dp), intent(in) :: number
 
@@ -119,32 +122,33 @@ contains
       if (.not. is_known(number)) or_nan = ieee_value(1.0_dp, ieee_quiet_nan)
    end function or_nan
 
-   !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*], unknown where an estimate is
-   !> no smaller than the largest error that the value can have, and so says nothing: gap and area lie between zero and
-   !> one, the peak is below that of just full contact.
+   !> Error estimates of the main quantities, made `unknown` where they say nothing: where an estimate is as large as
+   !> the largest error that the value can have. Mean gap [Delta] and area fraction lie between 0 and 1. The peak
+   !> pressure [p*] is less than that of just full contact.
    pure function known_errors(estimates, largest) result(errors)
-      real(dp), intent(in) :: estimates(3)
-      real(dp), intent(in) :: largest   !! p - P in full contact [p*], of the waves of the paper 1
+      real(dp), intent(in) :: estimates(3)   !! of mean gap [Delta], area fraction and peak pressure [p*]
+      real(dp), intent(in) :: largest        !! largest p - P in full contact [p*]; 1 for the waves of the paper
       real(dp) :: errors(3)
 
-      errors = merge(estimates, unknown, estimates < [1.0_dp, 1.0_dp, 1.0_dp + largest])
+      errors = estimates
+      where (.not. estimates < [1.0_dp, 1.0_dp, 1.0_dp + largest]) errors = unknown
    end function known_errors
 
-   !> What the errors of the main quantities are of: mean gap, with free edges in 2-D the approach, contact area and
-   !> peak pressure.
+   !> The values whose errors are those of the main quantities: mean gap (with free edges in 2-D the approach in its
+   !> place), contact area and peak pressure.
    pure function main_values(self, surface) result(values)
       class(quantities), intent(in) :: self
-      type(surface_type), intent(in) :: surface   !! that was solved
+      type(surface_type), intent(in) :: surface   !! the surface that was solved
       real(dp) :: values(3)
 
       values = self%value(main_quantities)
       if (surface%has_free_edges .and. surface%dimension == 2) values(1) = self%value(approach)
    end function main_values
 
-   !> Whether these values are exact, larger than their error estimates, or do not exist.
+   !> For each of `main_values` whether it is larger than its error estimate, exact, or does not exist.
    pure function are_resolved(self, surface)
       class(quantities), intent(in) :: self
-      type(surface_type), intent(in) :: surface   !! that was solved
+      type(surface_type), intent(in) :: surface   !! the surface that was solved
       logical :: are_resolved(3)
 
       associate (errors => self%error(main_quantities), values => self%main_values(surface))
@@ -152,13 +156,13 @@ contains
       end associate
    end function are_resolved
 
-   !> The quantity that a column of tables has.
+   !> Finds the quantity that stands in a column of tables.
    pure subroutine find_quantity(name, quantity, kind, is_error, in_unit)
-      character(*), intent(in) :: name        !! of the column, which has a quantity
-      integer, intent(out) :: quantity        !! one of the names above
-      integer, intent(out) :: kind            !! of it, one of the kinds above
-      logical, intent(out) :: is_error        !! whether the column is that of its error
-      logical, intent(out) :: in_unit         !! whether it is in the deck's units
+      character(*), intent(in) :: name        !! name of the column, which must be that of a quantity or of its error
+      integer, intent(out) :: quantity        !! one of the numbers above
+      integer, intent(out) :: kind            !! kind of the quantity, one of the kinds above
+      logical, intent(out) :: is_error        !! whether the column has the error of the quantity
+      logical, intent(out) :: in_unit         !! whether the column is in the deck's units
 
       character(len(name)) :: of_value
       integer :: i, length
@@ -181,10 +185,10 @@ contains
       call assert(quantity > 0, 'a column of the list: '//name)
    end subroutine find_quantity
 
-   !> The columns that a table has of its quantities at the place that the list gives them, as name[unit] with a blank
-   !> behind each: value and error without a unit and, in the summary, in the deck's units.
+   !> The columns of all quantities that are listed in a table, in the order of the list, as name[unit] and a blank
+   !> each: value and error without unit and, in the summary, in the deck's units.
    pure function listed_columns(table) result(columns)
-      character(*), intent(in) :: table
+      character(*), intent(in) :: table   !! 'summary' or 'details'
       character(:), allocatable :: columns
 
       character(:), allocatable :: name, unit

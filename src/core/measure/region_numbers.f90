@@ -1,8 +1,8 @@
 !> The spots of contact and the pools of gap that the points of a grid belong to.
 !>
-!> Points in contact are connected with their eight neighbours and points of the gap with four, as the curves of the
-!> edge are traced: where two parts in contact meet at a corner they are one. The method is that of runs along rows,
-!> joined where they touch (union-find): its time is proportional to the number of points.
+!> Points in contact are connected with their eight neighbours, and points of the gap with four. So two parts in contact
+!> that meet at a corner are one spot, as in the curves of the edge. Runs of points of one kind along the rows are
+!> joined where they touch (union-find). The time is proportional to the number of points.
 module wavycon_region_numbers
    use wavycon_contact_edge, only: contact_edge
    implicit none (type, external)
@@ -11,42 +11,42 @@ module wavycon_region_numbers
    public :: find_region_numbers, region_numbers
 
    type :: region_numbers
-      !> The number of the spot, from 1, or minus the number of the pool, of the points of one cell; shape
+      !> For each point of one periodic cell the number of its spot, from 1, or minus the number of its pool; shape
       !> (0:cell_k - 1, 0:cell_l - 1).
       integer, allocatable :: at(:, :)
-      integer :: spots = 0, pools = 0
-      integer :: skew = 0   !! steps along k after which the cell comes again, cell_l rows on
+      integer :: spots = 0, pools = 0   !! numbers of spots and of pools
+      integer :: skew = 0               !! steps along k by which a row of cells is shifted against the row below
    contains
       procedure :: wrap
    end type region_numbers
 
 contains
 
-   !> Numbers the regions of one cell, in the order in which its rows meet them.
+   !> Numbers the regions of one periodic cell, in the order in which they appear row by row.
    subroutine find_region_numbers(edge, cell, skew, numbers, with_images)
-      class(contact_edge), intent(in) :: edge
-      integer, intent(in) :: cell(2)    !! points of the cell along k and l, >= 1
-      integer, intent(in) :: skew       !! as above; 0 if the cell is that of the grid's axes
+      class(contact_edge), intent(in) :: edge        !! says which points are in contact
+      integer, intent(in) :: cell(2)                 !! points of the cell along k and l, >= 1
+      integer, intent(in) :: skew                    !! the component `skew`; 0 if the cell repeats along k and l
       type(region_numbers), intent(out) :: numbers
-      !> Whether a region and its mirror images have one number: the cell is a map, the points 1 .. cell/2, and its
-      !> images. Absent: they do not.
+      !> Whether a region and its mirror images get the same number. The cell then consists of a map, the points
+      !> 1 .. cell/2, and its mirror images. Absent: .false.
       logical, intent(in), optional :: with_images
 
       integer, allocatable :: parent(:), number_of(:)
-      logical :: contact, last, with_mirrored
+      logical :: is_contact, last, with_mirrored
       integer :: k, l, root, runs
 
       allocate (numbers%at(0:cell(1) - 1, 0:cell(2) - 1))
       numbers%skew = skew
-      ! Runs of equal points along the rows: positive in contact, negative elsewhere.
+      ! Number the runs of points of one kind along the rows: positive in contact, negative elsewhere.
       runs = 0
       last = .false.
       do l = 0, cell(2) - 1
          do k = 0, cell(1) - 1
-            contact = edge%in_contact(k, l)
-            if (k == 0 .or. (contact .neqv. last)) runs = runs + 1
-            numbers%at(k, l) = merge(runs, -runs, contact)
-            last = contact
+            is_contact = edge%in_contact(k, l)
+            if (k == 0 .or. (is_contact .neqv. last)) runs = runs + 1
+            numbers%at(k, l) = merge(runs, -runs, is_contact)
+            last = is_contact
          end do
       end do
       with_mirrored = .false.
@@ -59,10 +59,10 @@ contains
       allocate (number_of(runs), source=0)
       do l = 0, cell(2) - 1
          do k = 0, cell(1) - 1
-            associate (at => numbers%at(k, l))
-               call find_root(parent, abs(at), root)
+            associate (run => numbers%at(k, l))
+               call find_root(parent, abs(run), root)
                if (number_of(root) == 0) then
-                  if (at > 0) then
+                  if (run > 0) then
                      numbers%spots = numbers%spots + 1
                      number_of(root) = numbers%spots
                   else
@@ -70,31 +70,32 @@ contains
                      number_of(root) = -numbers%pools
                   end if
                end if
-               at = number_of(root)
+               run = number_of(root)
             end associate
          end do
       end do
    end subroutine find_region_numbers
 
-   !> The point of the cell of which a point of the plane is the image.
-   pure function wrap(self, k, l) result(place)
+   !> The point of the cell of which a point of the plane is a periodic image.
+   pure function wrap(self, k, l) result(point)
       class(region_numbers), intent(in) :: self
-      integer, intent(in) :: k, l   !! any
-      integer :: place(2)
+      integer, intent(in) :: k, l   !! the point of the plane, any integers
+      integer :: point(2)           !! its image in the cell, from 0
 
       integer :: rows
 
       rows = size(self%at, 2)
-      place(2) = modulo(l, rows)
-      place(1) = modulo(k - self%skew*((l - place(2))/rows), size(self%at, 1))
+      point(2) = modulo(l, rows)
+      point(1) = modulo(k - self%skew*((l - point(2))/rows), size(self%at, 1))
    end function wrap
 
-   !> Joins the runs of a row with those that they touch in the same row, over the side of the cell, and in the next.
+   !> Joins the runs of a row with the runs that they touch: across the side of the cell in the same row, and in the
+   !> next row.
    subroutine join_row(numbers, l, with_images, parent)
-      type(region_numbers), intent(in) :: numbers   !! its `at` has the numbers of runs
-      integer, intent(in) :: l
-      logical, intent(in) :: with_images            !! whether to join mirror images, which are of one kind, too
-      integer, intent(inout) :: parent(:)
+      type(region_numbers), intent(in) :: numbers   !! numbers%at has the numbers of the runs with their signs
+      integer, intent(in) :: l                      !! the row, from 0
+      logical, intent(in) :: with_images            !! whether runs are joined with their mirror images as well
+      integer, intent(inout) :: parent(:)           !! the forest of joined runs: each run's parent, a root's is itself
 
       integer :: above(-1:size(numbers%at, 1)), k
 
@@ -117,7 +118,7 @@ contains
       end associate
    end subroutine join_row
 
-   !> Joins two runs, if both or neither are in contact.
+   !> Joins two runs if they are of one kind: both in contact or both outside. The lower number becomes the root.
    pure subroutine join(parent, a, b)
       integer, intent(inout) :: parent(:)
       integer, intent(in) :: a, b   !! numbers of runs with their signs
@@ -131,7 +132,8 @@ contains
       parent(max(root_a, root_b)) = min(root_a, root_b)
    end subroutine join
 
-   !> The first run of the region of a run. Halves the way to it for the next time.
+   !> Finds the root of a run, the first run of its region. On the way each run visited is attached to its grandparent,
+   !> which halves the path of later searches.
    pure subroutine find_root(parent, run, root)
       integer, intent(inout) :: parent(:)
       integer, intent(in) :: run

@@ -11,6 +11,7 @@
 !> on that set is computed from D, c, C and b, and its Karush-Kuhn-Tucker conditions are checked. Where the factors have
 !> lost digits the set is factorised afresh and the pass continues.
 module wavycon_dual_solver
+   use wavycon_interior_point, only: likely_active
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: ddot, dgemv, dtrsv
    use wavycon_qp_problem, only: kkt_tolerance, qp_converged, qp_iteration_limit, qp_problem, qp_solution
@@ -49,8 +50,15 @@ contains
       type(qp_problem), intent(in) :: problem
       type(qp_solution), intent(out) :: solution
 
+      integer, allocatable :: list(:)
+      real(dp) :: all_multipliers(size(problem%bounds)), multipliers(size(problem%linear)), x(size(problem%linear))
+
       self%problem = problem
       call self%set%start(problem)
+      call likely_active(problem, list, all_multipliers, solution%pivots)
+      call self%set%assign_active(problem, list)
+      multipliers(:self%set%count) = all_multipliers(self%set%active(:self%set%count))
+      call release_negative(problem, self%set, x, multipliers, solution%pivots)
       call finish(self, solution)
    end subroutine solve
 
@@ -108,6 +116,7 @@ contains
       small_steps = 0
       count = 0
       kept_slack = 0.0_dp
+      multipliers = 0.0_dp
       call release_negative(problem, set, x, multipliers, pivots)
       do while (pivots < pivot_limit)
          ! The most violated constraint of the candidates, or of all if none of these is violated by much.
@@ -148,24 +157,36 @@ contains
       end do
    end subroutine restore_optimum
 
-   !> Computes the minimum on the set, and releases the constraints with negative multipliers until there are none.
+   !> Goes from the multipliers given towards those of the minimum on the set, and releases the constraints whose
+   !> multipliers vanish first, until none is negative at the minimum: (Q13). From multipliers of 0 all negative ones
+   !> are released at once.
    subroutine release_negative(problem, set, x, multipliers, pivots)
       type(qp_problem), intent(in) :: problem
       type(working_set), intent(inout) :: set
-      real(dp), intent(out), contiguous :: x(:), multipliers(:)   !! shape (n)
+      real(dp), intent(out), contiguous :: x(:)              !! shape (n)
+      real(dp), intent(inout), contiguous :: multipliers(:)  !! >= 0 in the order of the set, shape (n)
       integer, intent(inout) :: pivots
 
-      integer :: i, count_before
+      real(dp) :: minimum(size(x)), vanishing(size(x))   ! vanishing: part of the way at which a multiplier is 0
+      integer :: i, k
 
       do
-         call set%solve(problem, x, multipliers(:set%count))
-         count_before = set%count
-         do i = count_before, 1, -1
-            if (multipliers(i) < 0.0_dp) call set%remove(i)
-         end do
-         pivots = pivots + count_before - set%count
-         if (set%count == count_before) return
+         k = set%count
+         call set%solve(problem, x, minimum(:k))
+         vanishing(:k) = 1.0_dp
+         where (minimum(:k) < 0.0_dp) vanishing(:k) = multipliers(:k)/(multipliers(:k) - minimum(:k))
+         associate (step => minval(vanishing(:k)))
+            if (.not. step < 1.0_dp) exit
+            multipliers(:k) = multipliers(:k) + step*(minimum(:k) - multipliers(:k))
+            do i = k, 1, -1
+               if (vanishing(i) > step) cycle
+               call set%remove(i)
+               multipliers(i:set%count) = multipliers(i + 1:set%count + 1)
+            end do
+         end associate
+         pivots = pivots + k - set%count
       end do
+      multipliers(:k) = minimum(:k)
    end subroutine release_negative
 
    !> Raises the multiplier of a violated constraint until its slack is zero (Q11). Active constraints whose multipliers

@@ -1,4 +1,5 @@
-!> One of the two bodies: how its stresses follow from those of the waves of pressure and from the mean pressure.
+!> One of the two elastic bodies: its stress at a point as the sum of the stress of the pressure's waves and of the
+!> stress of the mean pressure.
 module wavycon_elastic_body
    use wavycon_kinds, only: dp
    use wavycon_stress_tensor, only: xx, yy, zz
@@ -7,29 +8,32 @@ module wavycon_elastic_body
 
    public :: elastic_body
 
-   !> The lateral stresses of the mean pressure pbar: no lateral strain, -nu pbar/(1 - nu); none; -pbar.
+   !> The lateral stress that the mean pressure pbar causes, (S2). `laterally_constrained`: -nu pbar/(1 - nu), as there
+   !> is no lateral strain. `laterally_free`: none. `hydrostatic`: -pbar.
    integer, parameter, public :: laterally_constrained = 1, laterally_free = 2, hydrostatic = 3
 
-   !> The parts where there is the mean pressure alone.
+   !> The argument `parts` of `stress` where the pressure has no waves: `stress` then returns that of the mean pressure.
    real(dp), parameter, public :: no_waves(6, 2) = 0.0_dp
 
    type :: elastic_body
       real(dp) :: nu = 0.3_dp                        !! Poisson's ratio, -1 < nu <= 1/2
-      integer :: lateral = laterally_constrained     !! one of the names above
+      integer :: lateral = laterally_constrained     !! or laterally_free, or hydrostatic
    contains
       procedure :: stress
    end type elastic_body
 
 contains
 
-   !> The stress, tension positive: that of the waves (S1) and that of the mean pressure (S2).
+   !> The stress at a point, tension positive: the sum of that of the pressure's waves, (S1), and that of the mean
+   !> pressure, (S2).
    pure function stress(self, parts, pbar)
       class(elastic_body), intent(in) :: self
-      real(dp), intent(in) :: parts(6, 2)   !! as of wavycon_stress_fields
-      real(dp), intent(in) :: pbar          !! mean pressure, in the unit of the parts
-      real(dp) :: stress(6)                 !! xx, yy, zz, xy, xz, yz
+      !> The stress of the waves is parts(:, 1) + nu*parts(:, 2): see `at` of wavycon_stress_fields.
+      real(dp), intent(in) :: parts(6, 2)
+      real(dp), intent(in) :: pbar          !! mean pressure, in the unit of `parts`
+      real(dp) :: stress(6)                 !! xx, yy, zz, xy, xz, yz, in the same unit
 
-      real(dp) :: lateral(3)   ! over -pbar, in the order of the names
+      real(dp) :: lateral(3)   ! lateral stress over -pbar for each choice of `lateral`
 
       lateral = [self%nu/(1.0_dp - self%nu), 0.0_dp, 1.0_dp]
       stress = parts(:, 1) + self%nu*parts(:, 2)

@@ -1,8 +1,9 @@
 !> The largest von Mises stress and the largest shear stress in a body, and where they are.
 !>
-!> The search starts from the best of the places that the stress fields propose. A quadratic function through the points
-!> about a place predicts the next, better one, while the distance of the points falls: (S6), (S7) of README.md in this
-!> directory. Depths are mirrored at the surface, so that the search may end on it.
+!> The search starts from places that the stress fields propose, those with the largest stresses first. About each place
+!> a quadratic function is fitted to the stress at points around the place. The maximum of this function is the next
+!> place, and the distance of the points is reduced: (S6), (S7) of README.md in this directory. Depths are mirrored at
+!> the surface, so that the search may end on the surface.
 module wavycon_largest_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi
@@ -28,36 +29,39 @@ module wavycon_largest_stress
 
 contains
 
-   !> Finds the largest von Mises stress and the largest shear stress in a body. NaN if there is no solution.
+   !> Finds the largest von Mises stress and the largest shear stress in a body, each if its argument is present. Both
+   !> are NaN if the load has no solution.
    subroutine find_largest_stresses(fields, body, yielding, shear)
-      class(stress_fields), intent(inout) :: fields
-      type(elastic_body), intent(in) :: body
-      type(largest_stress), intent(out), optional :: yielding, shear
+      class(stress_fields), intent(inout) :: fields                    !! the stresses of one load
+      type(elastic_body), intent(in) :: body                           !! Poisson's ratio and the lateral stress
+      type(largest_stress), intent(out), optional :: yielding, shear   !! von Mises stress; shear stress
 
-      real(dp) :: none
+      real(dp) :: unknown
       type(start_place), allocatable :: places(:)
 
-      none = ieee_value(none, ieee_quiet_nan)
-      if (present(yielding)) yielding = largest_stress(none, none, none)
-      if (present(shear)) shear = largest_stress(none, none, none)
+      unknown = ieee_value(unknown, ieee_quiet_nan)
+      if (present(yielding)) yielding = largest_stress(unknown, unknown, unknown)
+      if (present(shear)) shear = largest_stress(unknown, unknown, unknown)
       if (.not. fields%exist) return
       call fields%start_places(body, places)
       if (present(yielding)) call search(fields, body, .false., places, yielding)
       if (present(shear)) call search(fields, body, .true., places, shear)
    end subroutine find_largest_stresses
 
-   !> The place over the sides of the cell, X and Y from 0 to 1, and Z over L_x. Of a mirrored height map that of the
-   !> point of the map whose image it is. NaN if there is no solution.
+   !> The position of the largest stress as parts of the cell: x/L_x and y/L_y, from 0 to 1, and z/L_x. In a cell of a
+   !> height map and its mirror images the position is moved to the equivalent one in the map itself. NaN if the load
+   !> has no solution.
    pure function place_in_cell(self, parts) result(place)
       class(largest_stress), intent(in) :: self
-      integer, intent(in) :: parts(2)   !! of the surface
-      real(dp) :: place(3)
+      integer, intent(in) :: parts(2)   !! maps along x and y in the cell: 2 if mirrored, otherwise 1 (surface%parts())
+      real(dp) :: place(3)              !! [-]
 
-      !> A place so close to 0 is at 0 but for rounding: not on the far side of the cell.
+      !> An angle between -1e-6 and 0 is 0 but for rounding. Without this tolerance the position would be reported on
+      !> the far side of the cell.
       real(dp), parameter :: rounding = 1e-6_dp   ! [rad]
 
       place = self%place
-      ! Comparisons with a NaN raise an exception, which Debug builds trap.
+      ! Comparisons with NaN raise an exception, which Debug builds trap.
       if (ieee_is_nan(self%value)) return
       place(:2) = modulo(place(:2) + rounding, 2*pi) - rounding
       where (abs(place(:2)) <= rounding) place(:2) = 0.0_dp
@@ -65,59 +69,72 @@ contains
       where (parts > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function place_in_cell
 
-   !> Refines the best of the places, each farther from those before it than twice the width of the stress. The largest
-   !> stress is the one that is largest less its error: one at the edge of contact may be large by its error alone. That
-   !> another one plus its error is larger is an error of the largest.
+   !> Refines the places with the largest stresses, at most `refined_places` of them, and returns the largest refined
+   !> stress.
+   !>
+   !> Two refined places are farther apart than twice the width of the maximum at the first one: closer places lead to
+   !> the same maximum. A stress is doubtful if its error is more than a quarter of the stress, as at the edge of
+   !> contact, where the stress may be large by its error alone. A doubtful stress is compared with the others after its
+   !> error is subtracted; two doubtful stresses are compared by their values. The error of the answer is at least the
+   !> largest sum of a refined stress and its own error, less the answer.
    subroutine search(fields, body, by_shear, places, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
-      logical, intent(in) :: by_shear   !! whether for the largest shear stress or the largest von Mises stress
-      type(start_place), intent(in) :: places(:)
+      logical, intent(in) :: by_shear   !! true: the shear stress is searched for; false: the von Mises stress
+      type(start_place), intent(in) :: places(:)   !! at least one
       type(largest_stress), intent(out) :: answer
 
-      real(dp) :: certain, doubt, enough, error, gain, highest, least, parts(6, 2), values(size(places))
+      !> Sizes of stresses [p*]: at the start places, -1 where a place is not to be refined; the least one that is
+      !> refined; the answer less its error if it is doubtful; the largest one plus its error.
+      real(dp) :: values(size(places)), threshold, certain, lower, highest
+      real(dp) :: component_error, least_gain, gain, parts(6, 2), uncertainty
       logical :: is_doubtful, is_larger
       type(largest_stress) :: other
       integer :: best, i, k
 
       values = [(size_of(by_shear, places(i)%stress), i=1, size(places))]
       best = maxloc(values, dim=1)
-      enough = search_accuracy*values(best)
+      least_gain = search_accuracy*values(best)
       associate (here => places(best)%place)
-         call fields%at(here(1), here(2), here(3), parts, error)
+         call fields%at(here(1), here(2), here(3), parts, component_error)
       end associate
-      if (.not. ieee_is_nan(error)) enough = min(gain_part*error, enough)
+      if (.not. ieee_is_nan(component_error)) least_gain = min(gain_part*component_error, least_gain)
       answer%value = -1.0_dp
       certain = -huge(certain)
-      least = 0.0_dp
+      threshold = 0.0_dp
       highest = 0.0_dp
       do i = 1, refined_places
          best = maxloc(values, dim=1)
-         if (values(best) < least) exit
+         if (values(best) < threshold) exit
          other%value = values(best)
          other%place = places(best)%place
-         call refine(fields, body, by_shear, places(best)%width, enough, answer%value, other, gain)
+         call refine(fields, body, by_shear, places(best)%width, least_gain, answer%value, other, gain)
          if (fields%dimension == 1) other%place(2) = 0.0_dp
-         call fields%at(other%place(1), other%place(2), other%place(3), parts, error)
+         call fields%at(other%place(1), other%place(2), other%place(3), parts, component_error)
          other%value = size_of(by_shear, body%stress(parts, fields%pbar_over_pstar))
-         other%error = error_of_invariant*error + gain
-         doubt = merge(0.0_dp, error_of_invariant*error, ieee_is_nan(error))
-         highest = max(highest, other%value + doubt)
-         is_doubtful = doubt > (1.0_dp - close_to_largest)*other%value
-         is_larger = other%value - merge(doubt, 0.0_dp, is_doubtful) > certain
+         ! (S7).
+         other%error = error_of_invariant*component_error + gain
+         uncertainty = 0.0_dp
+         if (.not. ieee_is_nan(component_error)) uncertainty = error_of_invariant*component_error
+         highest = max(highest, other%value + uncertainty)
+         is_doubtful = uncertainty > (1.0_dp - close_to_largest)*other%value
+         lower = other%value
+         if (is_doubtful) lower = other%value - uncertainty
+         is_larger = lower > certain
          if (is_doubtful .and. certain < answer%value) is_larger = other%value > answer%value
          if (is_larger) then
             answer = other
-            certain = other%value - merge(doubt, 0.0_dp, is_doubtful)
+            certain = lower
          end if
-         ! Where a stress is this doubtful it is so at all places no deeper: they leave the others their turn.
+         ! Errors fall with depth. So where a stress is doubtful, the stresses at all places that are no deeper are
+         ! doubtful too. These places are given up, and the next deeper ones are refined.
          if (is_doubtful) then
             associate (no_deeper => places%place(3) <= places(best)%place(3))
-               highest = max(highest, maxval(values, mask=no_deeper) + doubt)
+               highest = max(highest, maxval(values, mask=no_deeper) + uncertainty)
                where (no_deeper) values = -1.0_dp
             end associate
          else
-            least = max(least, close_to_largest*values(best))
+            threshold = max(threshold, close_to_largest*values(best))
          end if
          associate (distances => [(norm2(places(k)%place - places(best)%place), k=1, size(places))])
             where (distances <= 2*places(best)%width) values = -1.0_dp
@@ -126,56 +143,62 @@ contains
       if (.not. ieee_is_nan(answer%error)) answer%error = max(answer%error, highest - answer%value)
    end subroutine search
 
-   !> Improves a place by quadratic models.
-   subroutine refine(fields, body, by_shear, width, enough, to_beat, best, gain)
+   !> Moves a place to a maximum of the stress, by a sequence of quadratic models (S6) of falling size.
+   subroutine refine(fields, body, by_shear, width, least_gain, value_to_exceed, best, gain)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
-      logical, intent(in) :: by_shear                !! as of search
-      real(dp), intent(in) :: width                  !! of the maximum [rad]
-      real(dp), intent(in) :: enough                 !! the search ends when a model gains less [p*]
-      real(dp), intent(in) :: to_beat                !! and when it seems to end below this [p*]
-      type(largest_stress), intent(inout) :: best    !! value and place
-      real(dp), intent(out) :: gain                  !! by the last model, or what it promised if that is more [p*]
+      logical, intent(in) :: by_shear                !! as of `search`
+      real(dp), intent(in) :: width                  !! distance over which the stress changes at the start [rad]
+      real(dp), intent(in) :: least_gain             !! the search ends when a model gains less than this [p*]
+      !> The search is given up when it seems to end at a stress below this [p*].
+      real(dp), intent(in) :: value_to_exceed
+      type(largest_stress), intent(inout) :: best    !! value and place: on entry those of the start
+      !> The increase of the stress by the last model, or the increase that this model promised if that is larger [p*].
+      real(dp), intent(out) :: gain
 
-      !> Relative gains below this are rounding.
+      !> Increases of the stress below this part of the stress are rounding.
       real(dp), parameter :: rounding = 1e-14_dp
-      integer, allocatable :: axes(:)   ! the directions of the search
-      !> The size of a model, where it starts, and changes of the stress by rounding and the like.
-      real(dp) :: noise, reach, start(3)
-      real(dp) :: before, least, promise, step
+      integer, allocatable :: axes(:)   ! the directions of the search: 1, 3 in 1-D, otherwise 1, 2, 3
+      !> Of the current model: bound of the stress's error [p*], distance of its points [rad], its centre X, Y, Z [rad].
+      real(dp) :: noise, reach, start(3), smallest, last_value, promise, step
       integer :: i
 
       allocate (axes, source=pack([1, 2, 3], [.true., fields%dimension > 1, .true.]))
-      least = max(enough, rounding*best%value)
+      smallest = max(least_gain, rounding*best%value)
       reach = first_reach*width
       do i = 1, most_models
-         before = best%value
+         last_value = best%value
          start = best%place
          call fields%expand(start, width, reach, noise)
          if (noise > 0.0_dp) best%value = size_near(start)
          noise = max(noise, rounding)*best%value
          call improve(promise)
          step = maxval(abs(best%place - start))
-         ! A model that is too large for the stress may promise much and gain nothing: the next one is smaller.
-         gain = max(best%value - before, promise)
-         if (gain <= least .or. best%value + likely_gain*gain < to_beat) exit
-         ! A place at the border of the model may be far from the maximum: the next model is as large.
+         ! A model that is so large that the stress is not quadratic over it may promise much and gain nothing. The
+         ! promise then keeps the search going, with a smaller model.
+         gain = max(best%value - last_value, promise)
+         if (gain <= smallest .or. best%value + likely_gain*gain < value_to_exceed) exit
+         ! A place at the border of the model may be far from the maximum. Then the next model is as large as the last.
          if (step < 0.9_dp*reach) reach = max(reach_factor*reach, min(step, reach))
       end do
 
    contains
 
-      !> Moves the best place to the maximum of a quadratic function within the reach along each axis, or to the best of
-      !> the points that the function is made from.
+      !> Fits a quadratic function to the stress at `start` and around it, and moves the best place to the maximum of
+      !> this function, at most by `reach` along each axis. If one of the points of the fit has a larger stress than the
+      !> maximum, the best place is moved to that point.
       subroutine improve(promise)
-         real(dp), intent(out) :: promise   !! gain of the maximum; variation along axes without one [p*]
+         !> Increase of the quadratic function up to its maximum. Along eigenvectors without a maximum, where the
+         !> curvature is not positive, the largest change of the function over the distance `reach` [p*].
+         real(dp), intent(out) :: promise
 
          real(dp) :: axis(size(axes), size(axes)), curvature(size(axes)), move(3), slope(size(axes)), &
             to_maximum(size(axes)), value, value_here, values(-1:1), work(3*3)
          integer :: i, j, k, l, status
 
          value_here = best%value
-         ! The directions are in the order of `axes`, depth last: points of one depth follow each other.
+         ! The directions are in the order of `axes`, with depth as the last. So points at one depth follow each other,
+         ! which `fields` can evaluate faster than points at changing depths.
          axis = 0.0_dp
          do i = 1, size(axes)
             do k = -1, 1, 2
@@ -211,39 +234,39 @@ contains
          call try(move, value)
       end subroutine improve
 
-      !> The value at a place, mirrored at the surface if it is outside the body; one that is better by more than noise
-      !> is kept.
+      !> Evaluates the stress at a place, and keeps the place as the best one if the stress there is larger by more than
+      !> the noise. A place outside the body is first mirrored at the surface.
       subroutine try(move, value)
-         real(dp), intent(in) :: move(3)   !! from the start
-         real(dp), intent(out) :: value
+         real(dp), intent(in) :: move(3)      !! the place less `start` [rad]
+         real(dp), intent(out) :: value       !! the stress there [p*]
 
-         real(dp) :: place(3)
+         real(dp) :: position(3)
 
-         place = start + move
-         place(3) = abs(place(3))
-         value = size_near(place)
+         position = start + move
+         position(3) = abs(position(3))
+         value = size_near(position)
          if (value > best%value + noise) then
             best%value = value
-            best%place = place
+            best%place = position
          end if
       end subroutine try
 
-      !> The stress that is searched for, at a place near that of the last `expand`.
-      real(dp) function size_near(place)
-         real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
+      !> The von Mises or shear stress [p*] at a place near that of the last call of `expand`.
+      real(dp) function size_near(position)
+         real(dp), intent(in) :: position(3)   !! X, Y, Z [rad]
 
          real(dp) :: parts(6, 2)
 
-         call fields%near(place, parts)
+         call fields%near(position, parts)
          size_near = size_of(by_shear, body%stress(parts, fields%pbar_over_pstar))
       end function size_near
 
    end subroutine refine
 
-   !> The von Mises stress or the largest shear stress.
+   !> The von Mises stress or the largest shear stress of a state of stress.
    pure real(dp) function size_of(by_shear, stress)
-      logical, intent(in) :: by_shear
-      real(dp), intent(in) :: stress(6)
+      logical, intent(in) :: by_shear      !! true: the shear stress
+      real(dp), intent(in) :: stress(6)    !! xx, yy, zz, xy, xz, yz
 
       if (by_shear) then
          size_of = largest_shear(stress)

@@ -1,8 +1,9 @@
-!> The smooth part of the stresses below a pressure that nothing repeats, that of a surface with free edges: equations
-!> (S11), (S12) of README.md in this directory.
+!> The smooth part of the stresses below a surface with free edges, where the pressure is not repeated periodically:
+!> equations (S11), (S12) of README.md in this directory.
 !>
-!> The load is a lattice of point forces. From afar, blocks of them are replaced by fewer forces with the same field: a
-!> tree of blocks, all with the same number of forces, each with two blocks of half its length in it.
+!> The load is a lattice of point forces. At a distance, a block of forces is replaced by fewer forces that cause nearly
+!> the same field. The blocks are a binary tree: all blocks have `nodes` x `nodes` forces, and a block of one level
+!> covers two blocks of the level below.
 module wavycon_load_tree
    use wavycon_kinds, only: dp
    use wavycon_stress_kernel, only: add_sources, all_fields, of_pressure, stress_fields
@@ -12,21 +13,21 @@ module wavycon_load_tree
 
    public :: load_tree, plant_load_tree
 
-   !> The number of shifted depths of (S11), and their factors.
+   !> The depth-shifted terms of (S11): their number and their factors.
    integer, parameter :: order = 4
    real(dp), parameter :: factors(order) = [4.0_dp, -6.0_dp, 4.0_dp, -1.0_dp]
 
    type :: tree_level
-      real(dp), allocatable :: force(:, :)   !! [p* rad^2]; blocks are `nodes` forces wide, each way
-      real(dp) :: step(2) = 0.0_dp           !! of the forces [rad of x]
-      integer :: way = 1                     !! along which a block has two blocks of the level below, 1: x, 2: y
+      real(dp), allocatable :: force(:, :)   !! [p* rad^2]; a block is `nodes` x `nodes` of them
+      real(dp) :: step(2) = 0.0_dp           !! distance of neighbouring forces along x and y [rad of x]
+      integer :: way = 1                     !! direction of the pairs of blocks of the level below: 1 is x, 2 is y
    end type tree_level
 
    type :: load_tree
       private
       real(dp) :: shift = 0.0_dp             !! d of (S11) [rad of x]
-      real(dp) :: corner(2) = 0.0_dp         !! of the first block [rad of x]
-      type(tree_level), allocatable :: levels(:)
+      real(dp) :: corner(2) = 0.0_dp         !! x and y of the first block's lower corner [rad of x]
+      type(tree_level), allocatable :: levels(:)   !! the first has the lattice's own forces, the last one block
    contains
       procedure :: left_out
       procedure :: sums
@@ -35,13 +36,15 @@ module wavycon_load_tree
 
 contains
 
-   !> Makes the tree of a lattice of pressures.
+   !> Makes the tree of a lattice of pressures. Blocks are joined in pairs along the direction of the smaller step, so
+   !> that they become nearly square. A force gives each node of the joined block its value times the node's Lagrange
+   !> polynomial there.
    pure subroutine plant_load_tree(tree, pressure, first, step, shift)
       type(load_tree), intent(out) :: tree
       real(dp), intent(in) :: pressure(:, :)   !! [p*]
-      real(dp), intent(in) :: first(2)         !! place of the first of them, x and y [rad of x]
-      real(dp), intent(in) :: step(2)          !! of the lattice, at most a third of the shift
-      real(dp), intent(in) :: shift            !! d of (S11)
+      real(dp), intent(in) :: first(2)         !! x and y of pressure(1, 1) [rad of x]
+      real(dp), intent(in) :: step(2)          !! steps of the lattice along x and y, at most shift/3 [rad of x]
+      real(dp), intent(in) :: shift            !! d of (S11) [rad of x]
 
       real(dp), allocatable :: below(:, :)
       real(dp) :: weight(nodes, 2*nodes)
@@ -75,9 +78,9 @@ contains
       end do
    end subroutine plant_load_tree
 
-   !> Lagrange's polynomials of the nodes 1, 2 .. n at a place.
+   !> The values at a coordinate of the Lagrange polynomials of the nodes 1, 2 .. n.
    pure function lagrange(place, n) result(weight)
-      real(dp), intent(in) :: place
+      real(dp), intent(in) :: place   !! the coordinate, in steps of the nodes
       integer, intent(in) :: n
       real(dp) :: weight(n)
 
@@ -89,15 +92,16 @@ contains
       end do
    end function lagrange
 
-   !> The factor of a wave in what the smooth part leaves out, (S11).
+   !> The first factor of (S11), (1 - e^(-q d))^4: which part of a wave of the pressure the smooth part leaves out, and
+   !> the sum over waves must add.
    elemental real(dp) function left_out(self, q)
       class(load_tree), intent(in) :: self
-      real(dp), intent(in) :: q   !! [1/rad of x]
+      real(dp), intent(in) :: q   !! length of the wave vector [1/rad of x]
 
       left_out = (1.0_dp - exp(-q*self%shift))**order
    end function left_out
 
-   !> The sums (S4) of the smooth part.
+   !> The sums (S4) of the smooth part at one point.
    pure function sums(self, place)
       class(load_tree), intent(in) :: self
       real(dp), intent(in) :: place(3)   !! x, y, Z [rad of x]
@@ -107,23 +111,28 @@ contains
       call add_block(self, size(self%levels), [0, 0], place, sums)
    end function sums
 
-   !> The same on a plane: at fewer places if the smooth part varies less than the plane's points show, and from those
-   !> by Lagrange's polynomials.
+   !> The sums (S4) of the smooth part at the points of a plane. Where the points are closer to each other than the
+   !> smooth part needs, the sums are computed at fewer points and interpolated by Lagrange polynomials.
    pure subroutine sums_on_plane(self, first, step, points, depth, sums)
       class(load_tree), intent(in) :: self
       real(dp), intent(in) :: first(2), step(2)   !! first point, and distance of points along x and y [rad of x]
-      integer, intent(in) :: points(2)
+      integer, intent(in) :: points(2)            !! N_x, N_y
       real(dp), intent(in) :: depth               !! Z [rad of x]
       real(dp), allocatable, intent(out) :: sums(:, :, :)   !! shape (8, N_x, N_y)
 
       real(dp), allocatable :: at_few(:, :, :)
+      !> The points of the computed sums: their distance [rad of x], how many lie before the plane's first point, and
+      !> how many there are.
       real(dp) :: few_step(2)
       integer :: before(2), few(2), i, k, l
 
       few_step = (depth + self%shift)/smooth_places
       few = ceiling(step*(points - 1)/few_step) + nodes
-      before = merge(nodes/2 - 1, 0, few < points)
-      few_step = merge(few_step, step, few < points)
+      before = nodes/2 - 1
+      where (few >= points)
+         before = 0
+         few_step = step
+      end where
       few = min(few, points)
       allocate (at_few(8, few(1), few(2)), sums(8, points(1), points(2)))
       do l = 1, few(2)
@@ -137,29 +146,30 @@ contains
 
    contains
 
-      !> Of the fewer places along a way at the points.
+      !> The weights of the computed sums, in one direction, in the interpolated value at each point of the plane.
       pure function weights(way) result(weight)
-         integer, intent(in) :: way
-         real(dp) :: weight(few(way), points(way)), place
+         integer, intent(in) :: way   !! the direction: 1 is x, 2 is y
+         real(dp) :: weight(few(way), points(way)), position
          integer :: from, k, n
 
          weight = 0.0_dp
          n = min(nodes, few(way))
          do k = 1, points(way)
-            place = 1 + before(way) + (k - 1)*step(way)/few_step(way)
-            from = max(0, min(floor(place) - n/2, few(way) - n))
-            weight(from + 1:from + n, k) = lagrange(place - from, n)
+            position = 1 + before(way) + (k - 1)*step(way)/few_step(way)
+            from = max(0, min(floor(position) - n/2, few(way) - n))
+            weight(from + 1:from + n, k) = lagrange(position - from, n)
          end do
       end function weights
 
    end subroutine sums_on_plane
 
-   !> Adds what a block, as a whole or by the blocks in it, causes.
+   !> Adds the sums (S4) that a block of forces causes at a point: by its nodes if the point is farther from the block's
+   !> middle than `whole_from` times its longer side, otherwise by the two blocks of the level below.
    pure recursive subroutine add_block(tree, number, block, place, sums)
       type(load_tree), intent(in) :: tree
-      integer, intent(in) :: number     !! of the level
-      integer, intent(in) :: block(2)   !! from 0
-      real(dp), intent(in) :: place(3)
+      integer, intent(in) :: number     !! of the block's level
+      integer, intent(in) :: block(2)   !! number of the block along x and y, from 0
+      real(dp), intent(in) :: place(3)  !! x, y, Z of the point [rad of x]
       real(dp), intent(inout) :: sums(stress_fields)
 
       real(dp) :: depth, distance, fields(stress_fields), from_corner(2)
@@ -182,7 +192,8 @@ contains
             end if
             x = spread(from_corner(1) - [(i - 0.5_dp, i=1, nodes)]*level%step(1), 2, nodes)
             y = spread(from_corner(2) - [(i - 0.5_dp, i=1, nodes)]*level%step(2), 1, nodes)
-            ! (S12): where the depth is a factor of a field it is not shifted.
+            ! (S12). `add_sources` takes the shifted depth Z_j in all fields. Five fields have the depth as a factor as
+            ! well, and this factor is Z: they are times Z/Z_j.
             do i = 1, order
                depth = place(3) + i*tree%shift
                fields = 0.0_dp

@@ -1,6 +1,7 @@
-!> The stresses under a pressure that is a Fourier series: full contact, the paper's series, the points of a grid.
+!> The stresses below a pressure that is a Fourier series. The series is that of full contact, that of the paper's
+!> method, or the one through the pressures at the points of a grid.
 !>
-!> Equations (S1) to (S5) and (S9) of README.md in this directory.
+!> Equations (S1) to (S5), (S9) and, for free edges, (S11) of README.md in this directory.
 module wavycon_series_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
@@ -23,30 +24,31 @@ module wavycon_series_stress
 
    public :: series_stress, start_series_stress
 
-   !> Points of the middle of a window across.
+   !> Points across the middle part of a window, where its stresses are compared with others.
    integer, parameter :: middle = window_points/2
 
+   !> The eight sums (S4) and the three sums of the error (S5).
    integer, parameter :: number_of_sums = 11
 
-   !> What of a pressure is rounding.
+   !> Pressures below this part of the largest one are rounding.
    real(dp), parameter :: rounding = 1e-13_dp
 
-   !> The Taylor series (S9) of the moments about a place.
+   !> The Taylor series (S9) of the sums about a point.
    type :: taylor_series
-      complex(dp), allocatable :: moment(:, :, :)
-      real(dp) :: centre(3) = 0.0_dp   !! [rad]
+      complex(dp), allocatable :: moment(:, :, :)   !! M_abc at the centre, as of `find_moments` [p*]
+      real(dp) :: centre(3) = 0.0_dp                !! X, Y, Z of the point [rad]
    end type taylor_series
 
    type, extends(stress_fields) :: series_stress
       private
-      type(stress_waves) :: waves
-      real(dp) :: pressure_error = 0.0_dp       !! of the pressure [p*]; NaN if there is no estimate
-      type(taylor_series), allocatable :: known(:)   !! about places of the search
-      integer :: used = 0                       !! that in use
-      real(dp) :: first(3) = 0.0_dp             !! X, Y, 0 of the first point of the series on the surface [rad]
-      !> Of a surface with free edges the smooth part of its stresses, which `waves` lack, and the waves with all of it
-      !> and with the mean.
+      type(stress_waves) :: waves                    !! the waves of the pressure that (S4) adds up
+      real(dp) :: pressure_error = 0.0_dp            !! error estimate of the pressure [p*]; NaN if there is none
+      type(taylor_series), allocatable :: known(:)   !! series made by `expand` so far
+      integer :: used = 0                            !! number of the one that `near` takes
+      real(dp) :: first(3) = 0.0_dp                  !! X, Y, 0: the surface's position of the series' origin [rad]
+      !> With free edges only: the smooth part of the stresses, (S11), which `waves` lack.
       type(load_tree), allocatable :: load
+      !> With free edges only: the waves of the whole pressure, with its mean.
       type(stress_waves), allocatable :: whole
    contains
       procedure :: remove_images
@@ -60,14 +62,15 @@ module wavycon_series_stress
 
 contains
 
-   !> Prepares the stresses of a series.
+   !> Prepares the stresses below a pressure that is a Fourier series. Waves that the error of the pressure hides at a
+   !> depth are left out there: see `pressure_part`.
    subroutine start_series_stress(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled)
       type(series_stress), intent(out) :: stress
       type(surface_type), intent(in) :: surface
-      type(fourier_series), intent(in) :: pressure    !! p/p*; the mean is ignored
-      real(dp), intent(in) :: pbar_over_pstar         !! P
-      real(dp), intent(in) :: pressure_error          !! estimate of the pressure's error [p*]; NaN: none
-      logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
+      type(fourier_series), intent(in) :: pressure    !! p/p* on the cell; its mean is not used
+      real(dp), intent(in) :: pbar_over_pstar         !! mean pressure P [p*]
+      real(dp), intent(in) :: pressure_error          !! estimate of the pressure's error [p*]; NaN if there is none
+      logical, intent(in) :: is_sampled               !! whether the series is the one through values at a grid's points
 
       stress%pbar_over_pstar = pbar_over_pstar
       stress%dimension = surface%dimension
@@ -81,36 +84,40 @@ contains
          stress%waves%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), coarsest))
    end subroutine start_series_stress
 
-   !> Leaves out the images of a surface with free edges, whose series is that of a cell of twice its sides: (S11).
+   !> Removes the stresses of the images from those of a surface with free edges, (S11).
+   !>
+   !> The pressure's series is that of a cell of twice the sides of the map, so that the series repeats the pressure. On
+   !> exit `waves` have only the first part of (S11), and `load` computes the second one from point forces.
    subroutine remove_images(self, first)
       class(series_stress), intent(inout) :: self   !! just started, with the mean pressure of the cell
-      real(dp), intent(in) :: first(2)              !! X, Y of the first point of the series on the surface [rad]
+      real(dp), intent(in) :: first(2)              !! X, Y of the surface at the origin of the series [rad]
 
       real(dp), allocatable :: pressure(:, :)
-      real(dp) :: scale(2), shift
+      real(dp) :: ratios(2), shift
       integer :: points(2)
 
       self%first(:2) = first
-      scale = [1.0_dp, self%side_ratio]
+      ratios = [1.0_dp, self%side_ratio]
       self%whole = self%waves
       call self%whole%pressure%set_mean(self%pbar_over_pstar)
-      shift = pi*minval(scale)*shift_of_smooth
+      shift = pi*minval(ratios)*shift_of_smooth
       points = 2*self%waves%pressure%last([1, 2])
-      points = points*ceiling(2*pi*scale*steps_in_shift/(points*shift))
+      points = points*ceiling(2*pi*ratios*steps_in_shift/(points*shift))
       call sample_series(self%whole%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
-      ! Rounding between the loads; between finer points than those of the series its ringing is all over the cell.
+      ! Set the pressures outside of contact to zero where they are rounding: blocks without force cost nothing. Where
+      ! the points are finer than those of the series, the series oscillates all over the cell, and no value is zero.
       where (abs(pressure) <= rounding*maxval(pressure)) pressure = 0.0_dp
       pressure = cshift(cshift(pressure, -points(1)/4, 1), -points(2)/4, 2)
       allocate (self%load)
-      associate (step => 2*pi*scale/points)
-         call plant_load_tree(self%load, pressure, first*scale - (points/4)*step, step, shift)
+      associate (step => 2*pi*ratios/points)
+         call plant_load_tree(self%load, pressure, first*ratios - (points/4)*step, step, shift)
       end associate
-      call self%waves%pressure%multiply(self%load%left_out(self%waves%pressure%frequencies(scale)))
+      call self%waves%pressure%multiply(self%load%left_out(self%waves%pressure%frequencies(ratios)))
       self%pressure_error = self%pressure_error + 120*self%pbar_over_pstar*shift_of_smooth**4
       self%pbar_over_pstar = 0.0_dp
    end subroutine remove_images
 
-   !> At one point, which is a line of no length.
+   !> The stress at one point: that on a line of a single point.
    subroutine at(self, x, y, depth, parts, error)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -125,7 +132,9 @@ contains
       if (present(error)) error = errors(1)
    end subroutine at
 
-   !> Prepares the Taylor series (S9) about a place, unless a known one is accurate enough there.
+   !> Chooses the Taylor series (S9) that `near` takes around a place. The known series with the closest centre is
+   !> chosen if its error is below `noise_part` of the change of the stress over the distance `reach`. Otherwise a
+   !> series about the place is made.
    subroutine expand(self, place, width, reach, noise)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: place(3)
@@ -148,22 +157,23 @@ contains
 
    contains
 
+      !> The error of a series over the stress, at most `reach` from the place: (r/w)^9/8, see (S9).
       pure real(dp) function noise_at(distance)
-         real(dp), intent(in) :: distance   !! from the centre of a series [rad]
+         real(dp), intent(in) :: distance   !! of the place from the centre of a series [rad]
 
          noise_at = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
       end function noise_at
 
    end subroutine expand
 
-   !> The width of a maximum at the surface [rad]: half of the shortest wave.
+   !> The least distance over which the stress at the surface changes [rad]: half of the shortest wavelength.
    pure real(dp) function least_width(stress)
       class(series_stress), intent(in) :: stress
 
       least_width = pi/max(plane_points/2.0_dp, maxval(stress%waves%pressure%last([1, 2])/[1.0_dp, stress%side_ratio]))
    end function least_width
 
-   !> By that Taylor series.
+   !> The stress near a place, by the Taylor series that `expand` chose.
    subroutine near(self, place, parts)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: place(3)
@@ -175,14 +185,14 @@ contains
       end associate
    end subroutine near
 
-   !> The sums (S4) by the Taylor series (S9) about a point.
+   !> The sums (S4) at a place, by the Taylor series (S9) about a point close to the place.
    pure function sums_near(moment, move, depth) result(sums)
-      complex(dp), intent(in) :: moment(0:, 0:, -2:)   !! at the point
-      real(dp), intent(in) :: move(3)                  !! from the point: xi, eta', zeta of (S9) [rad]
-      real(dp), intent(in) :: depth                    !! Z there [rad]
+      complex(dp), intent(in) :: moment(0:, 0:, -2:)   !! M_abc at the point [p*]
+      real(dp), intent(in) :: move(3)                  !! the place less the point: xi, eta', zeta of (S9) [rad]
+      real(dp), intent(in) :: depth                    !! Z of the place [rad]
       real(dp) :: sums(8)
 
-      !> Powers of k, l' and q of each sum.
+      !> The powers a, b, c of k, l' and q in the moment that each sum is made from.
       integer, parameter :: power(3, 8) = reshape( &
          [0, 0, 0, 0, 0, 1, 2, 0, -2, 1, 1, -2, 2, 0, -1, 1, 1, -1, 1, 0, 0, 0, 1, 0], [3, 8])
       complex(dp) :: term(0:ubound(moment, 3) - 1, 3), total
@@ -205,14 +215,15 @@ contains
                end associate
             end do
          end do
-         sums(j) = merge(-total%im, total%re, j > 6)
+         sums(j) = total%re
+         if (j > 6) sums(j) = -total%im
       end do
       sums = sums*[1.0_dp, -depth, -2.0_dp, -2.0_dp, -2*depth, -2*depth, depth, depth]
       ! n_y^2 - n_x^2 = 1 - 2 n_x^2.
       sums([3, 5]) = sums([3, 5]) + [sums(1), -sums(2)]
    end function sums_near
 
-   !> The part of the sums (S4) that the waves of a surface with free edges lack.
+   !> The smooth part of the sums (S4), which the waves of a surface with free edges lack; zero for other surfaces.
    pure function smooth_sums(stress, place) result(sums)
       class(series_stress), intent(in) :: stress
       real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
@@ -222,7 +233,8 @@ contains
       if (allocated(stress%load)) sums = stress%load%sums(place*[1.0_dp, stress%side_ratio, 1.0_dp])
    end function smooth_sums
 
-   !> The sums (S4) along a line: its waves are first added up to those with the same wave number d_x k + d_y l along t.
+   !> The stresses along a line. Waves with the same wave number m = d_x k + d_y l along the line are added up first, so
+   !> that each point takes a sum over m only.
    subroutine on_line(self, start, direction, t, depth, parts, error)
       class(series_stress), intent(inout) :: self
       real(dp), intent(in) :: start(2)
@@ -272,18 +284,20 @@ contains
       end do
    end subroutine on_line
 
-   !> The error (S5). Below a pressure there is no tension.
+   !> The error estimate (S5) of a stress component. The vertical stress below a contact is never a tension, so the
+   !> error is at least the computed vertical tension.
    pure real(dp) function error_of(stress, vertical, octave)
       class(series_stress), intent(in) :: stress
-      real(dp), intent(in) :: vertical    !! zz with that of the mean pressure [p*]
-      real(dp), intent(in) :: octave(:)   !! sums over the waves of the last octave; of no size if none reach the depth
+      real(dp), intent(in) :: vertical    !! zz, with that of the mean pressure [p*]
+      real(dp), intent(in) :: octave(:)   !! S, S_x, S_y [p*]; size 0 if no wave of the last octave reaches the depth
 
       error_of = stress%pressure_error + octave_factor*norm2(octave)
       if (.not. ieee_is_nan(error_of)) error_of = max(error_of, vertical)
    end function error_of
 
-   !> One transform for each component, and three for the error (S5). Waves that the points cannot tell from slower
-   !> ones are added to those, so that the values are exact for any number of points.
+   !> The stresses on a plane, by one transform for each component and three for the error (S5). Waves that have the
+   !> same values at the points as a slower wave (aliases) are added to the slower wave. So the values at the points are
+   !> exact for any number of points.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(series_stress), intent(inout) :: self
       integer, intent(in) :: points(2)
@@ -301,11 +315,11 @@ contains
 
       number = merge(9, 6, self%waves%octave_reaches(depth))
       mean = body%stress(no_waves, self%pbar_over_pstar)
-      associate (whole => self%parts*points)
-         step = 2*pi/whole
-         allocate (fields(whole(1), whole(2), number), waves(whole(1)/2 + 1, whole(2), number))
-         call plane%start(whole, even=.false., whole=.true.)
-         call self%waves%find_spectra(whole, offset - self%first(:2)/step, depth, body%nu, waves)
+      associate (of_cell => self%parts*points)
+         step = 2*pi/of_cell
+         allocate (fields(of_cell(1), of_cell(2), number), waves(of_cell(1)/2 + 1, of_cell(2), number))
+         call plane%start(of_cell, even=.false., whole=.true.)
+         call self%waves%find_spectra(of_cell, offset - self%first(:2)/step, depth, body%nu, waves)
       end associate
       do i = 1, number
          call plane%sample_waves(waves(:, :, i), fields(:, :, i))
@@ -325,9 +339,12 @@ contains
       end do
    end subroutine on_plane
 
-   !> The places of the largest von Mises stress and of the largest shear on planes from the surface down, each at about
-   !> `plane_ratio` times the depth of the one before. Deeper planes need fewer points. Where few windows have all large
-   !> pressures the planes close to the surface are those of the windows.
+   !> Proposes start places of the search: on each of a sequence of horizontal planes the points of the largest von
+   !> Mises stress and of the largest shear stress.
+   !>
+   !> The first plane is the surface, and each further one is `plane_ratio` times as deep as the plane before. Deeper
+   !> planes need fewer points. If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the
+   !> planes close to the surface are computed within these windows only, which takes less time at light loads.
    subroutine start_places(self, body, places)
       class(series_stress), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -335,10 +352,14 @@ contains
 
       integer, parameter :: window(2) = window_points
       real(dp), allocatable :: highest(:, :), pressure(:, :)
+      !> The largest von Mises stress so far [p*]; the part of the cell's sides to be searched, from X = Y = 0; the
+      !> depth of the first plane below the surface [rad].
       real(dp) :: largest, region, step
       type(fourier_series) :: series
       type(grid_transform) :: plane
       type(stress_waves) :: all_waves, waves
+      !> `last`: number of the deepest plane. `shallow`: the planes 0 to this one are those of windows; -1 without
+      !> windows.
       integer :: block(2), i, last, points(2), shallow
 
       step = least_width(self)
@@ -348,8 +369,9 @@ contains
       all_waves = self%waves
       if (allocated(self%whole)) all_waves = self%whole
       points = points_of(all_waves, 0.0_dp)
-      ! An even field is that of its quarter, and one with free edges has its load there.
-      region = merge(0.5_dp, 1.0_dp, self%waves%pressure%is_even() .or. allocated(self%whole))
+      ! A quarter of the cell is enough for an even field; with free edges the load is in that quarter.
+      region = 1.0_dp
+      if (self%waves%pressure%is_even() .or. allocated(self%whole)) region = 0.5_dp
       shallow = -1
       if (all(points >= 4*window)) then
          call sample_series(all_waves%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
@@ -363,11 +385,12 @@ contains
       call plane%start(window, even=.false., whole=.true.)
       do
          block = maxloc(highest)
-         ! Below a pressure of at most p the stress is hardly as large as p.
+         ! The von Mises stress below a window is assumed to be less than the window's largest pressure (README.md,
+         ! "Windows"). So the windows that are left have no larger stress than the one found.
          if (highest(block(1), block(2)) <= largest) exit
          highest(block(1), block(2)) = -1.0_dp
          associate (corner => (block - 1)*middle - middle/2, from => [(i, i=0, window_points - 1)], n => points)
-            ! What the mean of the window exceeds that of the cell by is a long wave.
+            ! The window's mean pressure less the cell's acts as one long wave, (S13).
             call plane%series(pressure(modulo(corner(1) + from, n(1)) + 1, modulo(corner(2) + from, n(2)) + 1) &
                               - self%pbar_over_pstar, series)
             call waves%start(series, self%side_ratio*n(1)/n(2), is_sampled=.true.)
@@ -377,13 +400,13 @@ contains
 
    contains
 
-      !> Points that resolve the waves that reach a depth.
+      !> The number of points of a plane along x and y that resolve the waves that reach a depth.
       pure function points_of(waves, depth) result(number)
          type(stress_waves), intent(in) :: waves
-         real(dp), intent(in) :: depth
+         real(dp), intent(in) :: depth      !! Z, in the angles of the cell or window of the waves [rad]
          integer :: number(2)
 
-         !> Lengths of which are fast to transform.
+         !> The numbers of points are multiples of this, as transforms of such lengths are fast.
          integer, parameter :: multiple = 8
          real(dp) :: most(2)
 
@@ -393,26 +416,28 @@ contains
          if (self%dimension == 1) number(2) = 1
       end function points_of
 
-      !> Scans some of the planes below the cell or a window.
-      subroutine scan(waves, first, last, corner, size, from, to)
-         type(stress_waves), intent(in) :: waves
-         integer, intent(in) :: first, last     !! planes, 0 on the surface
-         integer, intent(in) :: corner(2)       !! first point, from 0
-         integer, intent(in) :: size(2)         !! number of points
-         real(dp), intent(in) :: from, to       !! part of it to look at, over its sides
+      !> Appends to `places` the points of the largest stresses on some of the planes below the cell or below a window.
+      subroutine scan(waves, first, last, corner, extent, from, to)
+         type(stress_waves), intent(in) :: waves   !! of the cell's or the window's pressure
+         integer, intent(in) :: first, last        !! numbers of the planes; 0 is the surface
+         integer, intent(in) :: corner(2)          !! first point of the cell or window, from 0
+         integer, intent(in) :: extent(2)          !! its number of points along x and y
+         real(dp), intent(in) :: from, to          !! points from `from` to `to` of its sides are compared, 0 to 1
 
          real(dp) :: depth, stress(6, 2)
-         integer :: i, k, number(2), place(2, 2)
+         integer :: i, k, number(2), point(2, 2)
 
-         associate (part => size/real(points, dp))
+         ! Sides of the window over those of the cell. An angle of the cell over this is the window's angle.
+         associate (side => extent/real(points, dp))
             do i = first, last
-               depth = merge(step*plane_ratio**(i - 1), 0.0_dp, i > 0)
-               number = points_of(waves, depth/part(1))
-               ! A plane takes less memory than there was when the series was made.
+               depth = 0.0_dp
+               if (i > 0) depth = step*plane_ratio**(i - 1)
+               number = points_of(waves, depth/side(1))
+               ! The memory is not checked: it was for the series itself, and a plane takes less.
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
-                                     min(floor(to*number), number - 1), depth/part(1), body, place, stress)
+                                     min(floor(to*number), number - 1), depth/side(1), body, point, stress)
                do k = 1, 2
-                  places = [places, start_place([2*pi*(corner/real(points, dp) + part*place(:, k)/number), depth] &
+                  places = [places, start_place([2*pi*(corner/real(points, dp) + side*point(:, k)/number), depth] &
                                                 + self%first, max(depth, step), stress(:, k))]
                end do
                largest = max(largest, von_mises(stress(:, 1)))
@@ -420,7 +445,8 @@ contains
          end associate
       end subroutine scan
 
-      !> The largest pressures in the middle of windows.
+      !> Sets `highest`: the largest pressure in the middle part of each window, whose middle parts cover the region
+      !> without overlap.
       subroutine find_highest()
          integer :: j, seen(2)
 

@@ -1,7 +1,8 @@
-!> The stresses in a half-space under the pressure of one solution, at points and on planes.
+!> The stresses in a half-space below the pressure of one load's solution, at points, along lines and on planes.
 !>
-!> Positions are the angles X, Y of the surface's cell and the depth Z = 2 pi z/L_x, z into the body; stresses are in
-!> p*, tension positive. Those of the mean pressure are left out: `elastic_body` adds them.
+!> Positions are the angles X = 2 pi x/L_x, Y = 2 pi y/L_y of the surface's cell and the depth Z = 2 pi z/L_x, z into
+!> the body. Stresses are in p*, tension positive. The arguments `parts` are without the stress of the mean pressure,
+!> which depends on how the body is held: `elastic_body` adds it.
 module wavycon_stress_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_constants, only: pi
@@ -17,18 +18,21 @@ module wavycon_stress_fields
    !> A place from which the search for the largest stress starts.
    type :: start_place
       real(dp) :: place(3) = 0.0_dp     !! X, Y, Z [rad]
-      real(dp) :: width = 0.0_dp        !! distance over which the stress changes [rad]
-      real(dp) :: stress(6) = 0.0_dp    !! about that there, or its deviator [p*]
+      real(dp) :: width = 0.0_dp        !! distance over which the stress changes there, about the depth [rad]
+      real(dp) :: stress(6) = 0.0_dp    !! approximation of the stress there or of its deviator [p*]
    end type start_place
 
-   !> Extensions have the stresses of a solution, by `at` and `start_places`. This type is for a load without one.
+   !> The stresses of one load. Extensions override `at` and `start_places` by those of a solver's solution. This type
+   !> itself is that of a load without a solution: its stresses are NaN.
    type :: stress_fields
-      real(dp) :: pbar_over_pstar = 0.0_dp    !! P
-      logical :: exist = .true.               !! whether there is a solution; if not all stresses are NaN
-      integer :: dimension = 2                !! 1: nothing depends on Y
+      real(dp) :: pbar_over_pstar = 0.0_dp    !! mean pressure P [p*]
+      logical :: exist = .true.               !! whether the load has a solution; if not, all stresses are NaN
+      integer :: dimension = 2                !! 1 if the stresses do not depend on Y, otherwise 2
       real(dp) :: side_ratio = 1.0_dp         !! L_y/L_x
-      type(equivalent_points) :: symmetry = equivalent_points()   !! of the stresses, for on_plane
-      integer :: parts(2) = 1                 !! of the surface: how often the points of on_plane fit into the cell
+      type(equivalent_points) :: symmetry = equivalent_points()   !! symmetry of the stresses, which on_plane uses
+      !> How often the region of the points of `on_plane` fits into the cell along x and y: 2 for a mirrored height map,
+      !> otherwise 1 (surface%parts()).
+      integer :: parts(2) = 1
    contains
       procedure :: at
       procedure :: start_places
@@ -41,14 +45,14 @@ module wavycon_stress_fields
 
 contains
 
-   !> At one point.
+   !> The stress at one point, less that of the mean pressure.
    subroutine at(self, x, y, depth, parts, error)
       class(stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y            !! X, Y [rad]
       real(dp), intent(in) :: depth           !! Z >= 0 [rad]
-      !> xx, yy, zz, xy, xz, yz [p*] of the waves: the stress is parts(:, 1) + nu*parts(:, 2).
+      !> xx, yy, zz, xy, xz, yz [p*]: the stress for Poisson's ratio nu is parts(:, 1) + nu*parts(:, 2).
       real(dp), intent(out) :: parts(6, 2)
-      !> Estimate of the largest error of a component for 0 <= nu <= 1/2 [p*]; NaN if there is none.
+      !> Estimate of the largest error of the components for any 0 <= nu <= 1/2 [p*]; NaN if there is no estimate.
       real(dp), intent(out), optional :: error
 
       associate (unused => self, unused_too => [x, y, depth]); end associate
@@ -56,38 +60,40 @@ contains
       if (present(error)) error = ieee_value(error, ieee_quiet_nan)
    end subroutine at
 
-   !> Places from which the search for the largest stress starts, the best of them close to it.
+   !> Proposes the places from which the search for the largest stress starts. At least one of them should be close to
+   !> the largest stress of the body.
    subroutine start_places(self, body, places)
       class(stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_place), allocatable, intent(out) :: places(:)   !! with their stresses
 
       associate (unused => self, unused_too => body); end associate
       allocate (places(0))
    end subroutine start_places
 
-   !> Prepares `near` for places about a place. Here nothing needs it.
+   !> Prepares the evaluation of stresses by `near` around a place. Here there is nothing to prepare, as `near` is `at`.
    subroutine expand(self, place, width, reach, noise)
       class(stress_fields), intent(inout) :: self
       real(dp), intent(in) :: place(3)     !! X, Y, Z [rad]
       real(dp), intent(in) :: width        !! distance over which the stress changes [rad]
-      real(dp), intent(in) :: reach        !! of the places [rad]
-      real(dp), intent(out) :: noise       !! bound of the error of `near` there over the stress; 0: that of `at`
+      real(dp), intent(in) :: reach        !! largest distance, along each axis, at which `near` will be called [rad]
+      !> Bound of the error of `near` within that distance, over the stress; 0 if `near` is as accurate as `at`.
+      real(dp), intent(out) :: noise
 
       associate (unused => self, unused_too => [place, width, reach]); end associate
       noise = 0.0_dp
    end subroutine expand
 
-   !> As `at`, perhaps less accurate the farther a place is from that of `expand`.
+   !> The stress at a place near that of the last call of `expand`. The error may grow with the distance of the two.
    subroutine near(self, place, parts)
       class(stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: place(3)     !! X, Y, Z [rad]
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(in) :: place(3)       !! X, Y, Z [rad]
+      real(dp), intent(out) :: parts(6, 2)   !! as of `at`
 
       call self%at(place(1), place(2), place(3), parts)
    end subroutine near
 
-   !> Sets the stresses of a body at places, with those of the mean pressure.
+   !> Sets the component `stress` of start places: the stress of a body there, with that of the mean pressure.
    subroutine set_stresses(self, body, places)
       class(stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -104,14 +110,14 @@ contains
       end do
    end subroutine set_stresses
 
-   !> Along a line at one depth, at X = X_0 + d_x t, Y = Y_0 + d_y t.
+   !> The stresses along a line at one depth, at the points X = X_0 + d_x t, Y = Y_0 + d_y t.
    subroutine on_line(self, start, direction, t, depth, parts, error)
       class(stress_fields), intent(inout) :: self
       real(dp), intent(in) :: start(2)                    !! X_0, Y_0 [rad]
       integer, intent(in) :: direction(2)                 !! d_x, d_y
-      real(dp), intent(in) :: t(:)                        !! [rad]
+      real(dp), intent(in) :: t(:)                        !! the n values of t [rad]
       real(dp), intent(in) :: depth                       !! Z >= 0 [rad]
-      real(dp), intent(out) :: parts(:, :, :), error(:)   !! as of `at` for each t, shapes (6, 2, n), (n)
+      real(dp), intent(out) :: parts(:, :, :), error(:)   !! as of `at` at each point, shapes (6, 2, n), (n)
 
       integer :: i
 
@@ -120,17 +126,18 @@ contains
       end do
    end subroutine on_line
 
-   !> On a plane at X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and the same in Y; on a mirrored height map at the
-   !> points of the map, X = pi (k + offset_x)/N_x. Equivalent points are evaluated once.
+   !> The stresses on a plane at X = 2 pi (k + offset_x)/N_x, k = 0 .. N_x - 1, and at the Y that follow in the same
+   !> way. On a mirrored height map the points are those of the map, X = pi (k + offset_x)/N_x. Of points that are
+   !> equivalent by symmetry only the first one is evaluated.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(stress_fields), intent(inout) :: self
       integer, intent(in) :: points(2)        !! N_x, N_y >= 1; N_y = 1 in 1-D
-      real(dp), intent(in) :: offset(2)       !! of the first point, in steps; 0 along y in 1-D
+      real(dp), intent(in) :: offset(2)       !! of the first point from X = Y = 0, in steps; 0 along y in 1-D
       real(dp), intent(in) :: depth           !! Z >= 0 [rad]
       type(elastic_body), intent(in) :: body
       !> xx, yy, zz, xy, xz, yz with those of the mean pressure [p*], shape (N_x, N_y, 6).
       real(dp), allocatable, intent(out) :: stress(:, :, :)
-      real(dp), allocatable, intent(out) :: error(:, :)   !! as of `at`, shape (N_x, N_y) [p*]
+      real(dp), allocatable, intent(out) :: error(:, :)   !! as of `at` [p*], shape (N_x, N_y)
 
       type(point_image) :: first
       real(dp) :: here(6), parts(6, 2)

@@ -1,8 +1,8 @@
 !> Stresses in a half-space below point sources on its surface, as eight fields that do not depend on Poisson's ratio.
 !>
-!> The pressure p acts on z = 0, z into the solid. Let H be the harmonic function that is p on the surface and vanishes
-!> at depth, V and L its integrals, H = -dV/dz, V = -dL/dz, and D = d/dx + i d/dy. Then, by the numbers (F..) of
-!> src/core/fitted/README.md, (F51)
+!> The pressure p acts on z = 0, and z points into the solid. Let H be the harmonic function that is p on the surface
+!> and vanishes at depth, V and L its integrals, H = -dV/dz, V = -dL/dz, H_z = dH/dz, and D = d/dx + i d/dy. Then, by
+!> (F51) of src/core/fitted/README.md, which has all formulas (F..),
 !>
 !>     sigma_zz = -H + z H_z,        sigma_xx + sigma_yy = -(1 + 2 nu) H - z H_z,
 !>     sigma_xx - sigma_yy + 2 i sigma_xy = (1 - 2 nu) D^2 L - z D^2 V,        sigma_xz + i sigma_yz = z D H.
@@ -16,36 +16,40 @@ module wavycon_stress_kernel
 
    public :: add_sources, stress_parts
 
-   !> Number of fields, and their order: H, z H_z, then real and imaginary parts of D^2 L, z D^2 V and z D H.
+   !> The number of fields, and the position of each one: H, z H_z, then the real and the imaginary part of D^2 L, of
+   !> z D^2 V and of z D H.
    integer, parameter, public :: stress_fields = 8
    integer, parameter, public :: h_field = 1, hz_field = 2, l_field = 3, v_field = 5, dh_field = 7
 
-   !> What sources are: a pressure, or a gap, by itself or by its gradient.
+   !> The kinds of sources: a pressure; a gap; a gap that is given by its gradient.
    integer, parameter, public :: of_pressure = 1, of_gap = 2, of_gradient = 3
 
-   !> What they are summed for: all these fields or, on the surface, outside of the sources, the displacement by a
-   !> pressure [Delta] or the pressure by a gap.
+   !> The fields that are computed. `all_fields`: the eight fields. `surface_field`: one field, on the surface z = 0
+   !> away from the sources; of a pressure this is the displacement [Delta], of a gap the pressure.
    integer, parameter, public :: all_fields = 1, surface_field = 2
 
 contains
 
-   !> Adds the fields of n point forces or of the pressure |k| g_k by a gap g at n points.
+   !> Adds to `fields` those at one point of n point forces, or of the pressure that belongs to a gap at n points: a
+   !> wave g_k of the gap has the pressure |k| g_k.
    !>
-   !> N.B. On the surface, z = 0, no source may be at the place.
+   !> N.B. If the point is on the surface, z = 0, no source may be at the same position.
    pure subroutine add_sources(kernel, source, n, x, y, z, strength_x, strength_y, fields)
       integer, intent(in) :: kernel                           !! all_fields or surface_field
       integer, intent(in) :: source                           !! of_pressure, of_gap or, for all fields, of_gradient
       integer, intent(in) :: n
-      real(dp), intent(in) :: x(n), y(n)                      !! the place as seen from the sources [s]
-      real(dp), intent(in) :: z                               !! depth >= 0 [s]
-      real(dp), intent(in) :: strength_x(n), strength_y(n)    !! times area: pressure or gap, and 0; or the gradient
-      real(dp), intent(inout) :: fields(stress_fields)        !! of surface_field the first one
+      real(dp), intent(in) :: x(n), y(n)                      !! the point less the position of each source [s]
+      real(dp), intent(in) :: z                               !! depth of the point, >= 0 [s]
+      !> Strengths of the sources. A pressure or a gap: strength_x is its value times the source's area, and strength_y
+      !> is not used. A gradient: strength_x and strength_y are its components times the area.
+      real(dp), intent(in) :: strength_x(n), strength_y(n)
+      real(dp), intent(inout) :: fields(stress_fields)        !! for surface_field only the first one is changed
 
       real(dp), dimension(n) :: inverse, r
       real(dp) :: along, cross, difference, fifth, im, l, of_dh, re, seventh, third, total(stress_fields)
       integer :: i
 
-      ! Roots and quotients of arrays are of vectors.
+      ! Roots and quotients are taken of whole arrays, because compilers vectorise them so.
       total = 0.0_dp
       if (kernel == surface_field .and. source == of_pressure) then
          total(1) = sum(strength_x/sqrt(x**2 + y**2))
@@ -97,10 +101,10 @@ contains
       fields = fields + total
    end subroutine add_sources
 
-   !> The stresses from the fields, (F51): xx, yy, zz, xy, xz, yz as parts(:, 1) + nu parts(:, 2).
+   !> The stresses from the fields, (F51). For Poisson's ratio nu they are parts(:, 1) + nu*parts(:, 2).
    pure function stress_parts(fields) result(parts)
-      real(dp), intent(in) :: fields(stress_fields)
-      real(dp) :: parts(6, 2)
+      real(dp), intent(in) :: fields(stress_fields)   !! in the order of the names above
+      real(dp) :: parts(6, 2)                         !! xx, yy, zz, xy, xz, yz, in the unit of the fields
 
       associate (h => fields(1), zhz => fields(2), l => fields(3:4), v => fields(5:6), dh => fields(7:8))
          parts(1, :) = [0.5_dp*(-h - zhz + l(1) - v(1)), -h - l(1)]

@@ -1,4 +1,4 @@
-!> What a scene asks of the stresses: the bodies and when they yield.
+!> The bodies whose stresses are computed, and the criterion of their yield.
 module wavycon_stress_setting
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_elastic_body, only: elastic_body
@@ -11,10 +11,10 @@ module wavycon_stress_setting
    public :: stress_setting
 
    type :: stress_setting
-      !> The first body and, if its Poisson's ratio or yield stress differs, the second.
+      !> The first body, and the second body if its Poisson's ratio or its yield stress differs from the first one's.
       type(elastic_body), allocatable :: body(:)
       real(dp), allocatable :: yield_stress(:)   !! of each body, in uniaxial tension [p*]; not allocated if not given
-      logical :: by_shear = .false.              !! whether it yields by Tresca's criterion rather than von Mises'
+      logical :: by_shear = .false.              !! true: bodies yield by Tresca's criterion; false: by von Mises'
    contains
       procedure :: over_yield_stress
       procedure :: find_over_yield_stress
@@ -22,21 +22,24 @@ module wavycon_stress_setting
 
 contains
 
-   !> The equivalent stress of a body over its yield stress: a von Mises stress, or twice a shear stress.
+   !> The equivalent stress of a body over its yield stress. The equivalent stress is the von Mises stress or, by
+   !> Tresca's criterion, twice the largest shear stress.
    elemental real(dp) function over_yield_stress(self, body, von_mises, shear) result(ratio)
-      class(stress_setting), intent(in) :: self      !! with yield stresses
-      integer, intent(in) :: body                    !! its number
+      class(stress_setting), intent(in) :: self      !! yield_stress is allocated
+      integer, intent(in) :: body                    !! number of the body: 1 or 2
       real(dp), intent(in) :: von_mises, shear       !! stresses, or their errors [p*]
 
-      ratio = merge(2*shear, von_mises, self%by_shear)/self%yield_stress(body)
+      ratio = von_mises
+      if (self%by_shear) ratio = 2*shear
+      ratio = ratio/self%yield_stress(body)
    end function over_yield_stress
 
-   !> The largest equivalent stress over the yield stress, of both bodies.
+   !> Finds the largest ratio of equivalent stress to yield stress, over all places and both bodies.
    subroutine find_over_yield_stress(self, fields, ratio, error)
-      class(stress_setting), intent(in) :: self
-      class(stress_fields), intent(inout) :: fields
-      real(dp), intent(out) :: ratio
-      real(dp), intent(out) :: error   !! estimate of its error
+      class(stress_setting), intent(in) :: self          !! yield_stress is allocated
+      class(stress_fields), intent(inout) :: fields      !! the stresses of one load
+      real(dp), intent(out) :: ratio                     !! [-]; NaN if the load has no solution
+      real(dp), intent(out) :: error                     !! estimate of the error of the ratio; NaN if there is none
 
       type(largest_stress) :: largest
       real(dp) :: of_body
@@ -51,7 +54,7 @@ contains
             call find_largest_stresses(fields, self%body(i), yielding=largest)
          end if
          of_body = self%over_yield_stress(i, largest%value, largest%value)
-         ! A build that traps exceptions does not survive a comparison with NaN, which is the stress without a solution.
+         ! The ratio is NaN if the load has no solution. A comparison with NaN stops a build that traps exceptions.
          if (.not. ieee_is_nan(of_body)) then
             if (of_body < ratio) cycle
          end if

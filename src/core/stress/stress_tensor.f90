@@ -12,13 +12,13 @@ module wavycon_stress_tensor
 
    public :: largest_shear, principal_stresses, stress_pressure, von_mises
 
-   !> Places of the components.
+   !> Positions of the components in an array of six.
    integer, parameter, public :: xx = 1, yy = 2, zz = 3, xy = 4, xz = 5, yz = 6
 
 contains
 
    !> Von Mises stress [(d1^2 + d2^2 + d3^2)/2 + 3 (xy^2 + xz^2 + yz^2)]^(1/2) with the differences d1 = xx - yy,
-   !> d2 = yy - zz, d3 = zz - xx: the yield stress in uniaxial tension.
+   !> d2 = yy - zz, d3 = zz - xx. In uniaxial tension it is the tension.
    pure real(dp) function von_mises(s)
       real(dp), intent(in) :: s(6)  !! stress
 
@@ -26,9 +26,11 @@ contains
          + 3*(s(xy)**2 + s(xz)**2 + s(yz)**2))
    end function von_mises
 
-   !> Largest shear stress of all planes, (s1 - s3)/2; Tresca's criterion is that it reaches half of the yield stress.
+   !> Largest shear stress of all planes through the point, (s1 - s3)/2. By Tresca's criterion a body yields where this
+   !> stress reaches half of the yield stress.
    !>
-   !> From the deviator, which is formed of differences: a large pressure does not cost digits.
+   !> The principal stresses are computed from the deviator, whose normal components are formed from differences of the
+   !> stress's. So a large hydrostatic pressure does not cost digits.
    pure real(dp) function largest_shear(s)
       real(dp), intent(in) :: s(6)  !! stress
 
@@ -49,11 +51,11 @@ contains
       stress_pressure = -(s(xx) + s(yy) + s(zz))/3
    end function stress_pressure
 
-   !> Principal stresses s1 >= s2 >= s3, each to rounding of the largest, also where two are equal. NaN if a component
-   !> is not finite.
+   !> Principal stresses s1 >= s2 >= s3. The error of each is of the order of rounding of the largest one, also where
+   !> two are equal. All are NaN if a component of the stress is not finite.
    !>
-   !> N.B. The formula with arccos loses half of the digits where two eigenvalues are equal, as on every axis of
-   !> symmetry.
+   !> N.B. The closed formula with arccos is not used: it loses half of the digits where two principal stresses are
+   !> equal, as on every axis of symmetry.
    pure function principal_stresses(s) result(principal)
       real(dp), intent(in) :: s(6)  !! stress
       real(dp) :: principal(3)
@@ -62,9 +64,9 @@ contains
       integer :: info
 
       principal = ieee_value(principal, ieee_quiet_nan)
-      ! LAPACK compares numbers, which a build that traps exceptions does not survive with NaN.
+      ! LAPACK compares numbers. A comparison with NaN stops a build that traps exceptions.
       if (.not. all(ieee_is_finite(s))) return
-      ! The lower triangle.
+      ! DSYEV reads the lower triangle only.
       matrix = 0
       matrix(:, 1) = s([xx, xy, xz])
       matrix(2:, 2) = s([yy, yz])

@@ -1,5 +1,8 @@
-!> The waves of a pressure that is a Fourier series, at a depth, about a point and in the stresses on a plane: (S3), the
-!> waves of (S4), (S5) and (S9), and the search of a plane by (S10) of README.md in this directory.
+!> Sums over the waves of a pressure that is a Fourier series, (S3) of README.md in this directory: which waves reach a
+!> depth, their moments at a point, (S9), the spectra of the stresses on a plane, (S1) and (S5), and the largest
+!> stresses of a plane, (S10).
+!>
+!> As in (S3) a wave has the numbers k >= 0 and l, the wave vector (k, l'), l' = l L_x/L_y, and its length q.
 module wavycon_stress_waves
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt3
@@ -16,13 +19,13 @@ module wavycon_stress_waves
 
    public :: stress_waves
 
-   !> Waves whose factor exp(-q Z) is smaller than exp(-37) are rounding.
+   !> Waves whose factor of depth exp(-q Z) is smaller than exp(-37) = 9e-17 are less than rounding.
    real(dp), parameter, public :: deepest = 37.0_dp
 
    type :: stress_waves
       real(dp) :: side_ratio = 1.0_dp           !! L_y/L_x
-      type(fourier_series) :: pressure          !! less its mean: the waves W of (S3) [p*]
-      real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are those of a grid's last octave
+      type(fourier_series) :: pressure          !! the pressure less its mean: the waves W of (S3) [p*]
+      real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are the last octave of a grid, (S5)
       real(dp) :: faintest = deepest            !! waves with q Z above this are left out
    contains
       procedure :: start
@@ -35,11 +38,13 @@ module wavycon_stress_waves
 
 contains
 
+   !> Takes the waves of a pressure and, if the series is that of a grid, sets its last octave: half of the grid's
+   !> highest wave number and more, in the direction where this is less.
    subroutine start(self, pressure, side_ratio, is_sampled)
       class(stress_waves), intent(out) :: self
-      type(fourier_series), intent(in) :: pressure    !! less its mean [p*]
+      type(fourier_series), intent(in) :: pressure    !! pressure less its mean [p*]
       real(dp), intent(in) :: side_ratio              !! L_y/L_x, > 0
-      logical, intent(in) :: is_sampled               !! whether the series is that of values on a grid
+      logical, intent(in) :: is_sampled               !! whether the series is the one through values at a grid's points
 
       call assert(side_ratio > 0.0_dp, 'side_ratio > 0')
       self%side_ratio = side_ratio
@@ -49,7 +54,7 @@ contains
       if (pressure%last(2) > 0) self%sampled_from = min(self%sampled_from, 0.5_dp*pressure%last(2)/side_ratio)
    end subroutine start
 
-   !> The highest wave numbers along X and Y that reach a depth.
+   !> The highest wave numbers k and l of the waves that reach a depth, which have q Z <= `faintest`.
    pure function last_waves(self, depth) result(last)
       class(stress_waves), intent(in) :: self
       real(dp), intent(in) :: depth      !! Z >= 0 [rad]
@@ -59,7 +64,7 @@ contains
       if (depth > 0.0_dp) last = floor(min(self%faintest/depth*[1.0_dp, self%side_ratio], real(last, dp)))
    end function last_waves
 
-   !> Whether waves of the last octave reach a depth.
+   !> Whether any wave of the last octave may reach a depth.
    pure logical function octave_reaches(self, depth)
       class(stress_waves), intent(in) :: self
       real(dp), intent(in) :: depth   !! Z >= 0 [rad]
@@ -69,13 +74,14 @@ contains
 
    !> The moments (S9) of the waves at a point, M_abc = sum of k^a l'^b q^c W exp(i (k X + l Y) - q Z).
    !>
-   !> Those with c = -2 and c = -1 are added up, over k by a product of matrices. The others follow from them, as
-   !> q^2 = k^2 + l'^2.
+   !> The moments with c = -2 and c = -1 are sums over all waves. For each l the sum over k is a product of matrices.
+   !> The other moments follow from these two: as q^2 = k^2 + l'^2, M_ab(c+2) = M_(a+2)bc + M_a(b+2)c.
    subroutine find_moments(self, place, order, moment)
       class(stress_waves), intent(in) :: self
       real(dp), intent(in) :: place(3)                          !! X, Y, Z [rad]
-      integer, intent(in) :: order                              !! of the Taylor series, >= 0
-      complex(dp), allocatable, intent(out) :: moment(:, :, :)  !! shape (0:n, 0:n, -2:n - 2), n = order + 3
+      integer, intent(in) :: order                              !! order N of the Taylor series, >= 0
+      !> M_abc [p*], a and b from 0 to n, c from -2 to n - 2, n = order + 3; those with a + b + c + 2 > n are not used.
+      complex(dp), allocatable, intent(out) :: moment(:, :, :)
 
       complex(dp), allocatable :: waves(:)
       real(dp), allocatable :: factor(:), powers(:, :, :), q(:), weighted(:, :, :)
@@ -95,6 +101,7 @@ contains
          powers(2, :, k) = [(turn_x%im*real(k, dp)**a, a=0, n)]
       end do
       sums = 0.0_dp
+      ! The waves of an even pressure are real, and those of l and -l are equal.
       do l = merge(0, -last(2), is_even), last(2)
          q_y = l/self%side_ratio
          do k = 0, last(1)
@@ -133,14 +140,19 @@ contains
       end do
    end subroutine find_moments
 
-   !> The waves on a plane, as `sample_waves` takes them: of the six components of the stress, or of nine also those of
-   !> the last octave for the error (S5). Of five they are those of the deviator (S10), of two those of eta_2 there and
-   !> of the sum of the other four; waves that hardly reach the plane are left out of these.
+   !> The spectra of the stresses on a plane, in the form that `sample_waves` of wavycon_grid_transform takes.
+   !>
+   !> The number of spectra says which fields they belong to. 6: the components xx, yy, zz, xy, xz, yz, (S1). 9: also
+   !> the sums S, S_x and S_y of the error, (S5). 5: the numbers of the deviator, (S10): eta_1, eta_2, and sqrt(3) times
+   !> xy, xz and yz. 2: below an even pressure, the sum of these five without eta_2, and eta_2. With 5 and 2 waves with
+   !> q Z > `faintest_on_planes` are left out.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(stress_waves), intent(in) :: self
-      integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2), depth, nu
-      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! shape (0:N_x/2, 0:N_y - 1, 2, 5, 6 or 9)
+      integer, intent(in) :: points(2)                 !! N_x, N_y of the plane
+      real(dp), intent(in) :: offset(2)                !! of the first point from X = Y = 0, in steps
+      real(dp), intent(in) :: depth                    !! Z >= 0 [rad]
+      real(dp), intent(in) :: nu                       !! Poisson's ratio
+      complex(dp), intent(out) :: spectra(0:, 0:, :)   !! [p*], shape (0:N_x/2, 0:N_y - 1, number of fields)
 
       complex(dp), allocatable :: here(:, :), turn_x(:), wave(:)
       real(dp), allocatable :: k(:), q(:), q_z(:), shear(:)
@@ -158,8 +170,8 @@ contains
          q_y = l/self%side_ratio
          q = sqrt(max(k**2 + q_y**2, tiny(q)))
          q_z = q*depth
-         wave = merge(0.5_dp*exp(-q_z), 0.0_dp, q_z <= limit)*self%pressure%row(l, last(1))*turn_x &
-                *turn(2*pi*modulo(l*offset(2)/points(2), 1.0_dp))
+         wave = 0.5_dp*exp(-q_z)*self%pressure%row(l, last(1))*turn_x*turn(2*pi*modulo(l*offset(2)/points(2), 1.0_dp))
+         where (q_z > limit) wave = 0.0_dp
          shear = -(1.0_dp - 2*nu - q_z)/q**2
          select case (number)
          case (2)
@@ -178,7 +190,8 @@ contains
             here(:, xx) = (k**2*shear - 2*nu)*wave
             here(:, yy) = (q_y**2*shear - 2*nu)*wave
             here(:, zz) = -(1.0_dp + q_z)*wave
-            here(:, 7) = merge(1.0_dp + q_z, 0.0_dp, q > self%sampled_from)*wave
+            here(:, 7) = (1.0_dp + q_z)*wave
+            where (q <= self%sampled_from) here(:, 7) = 0.0_dp
             here(:, 8) = cmplx(0.0_dp, k/q, dp)*here(:, 7)
             here(:, 9) = cmplx(0.0_dp, q_y/q, dp)*here(:, 7)
          end select
@@ -188,16 +201,18 @@ contains
       end do
    end subroutine find_spectra
 
-   !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10).
+   !> Finds the points of a plane with the largest von Mises stress and with the largest shear stress, by (S10). The
+   !> stresses are evaluated column by column, and no field of the whole plane is kept. Below an even pressure four of
+   !> the five numbers of the deviator share one transform.
    subroutine scan_plane(self, pbar_over_pstar, points, first, last, depth, body, place, stress)
       class(stress_waves), intent(in) :: self
-      real(dp), intent(in) :: pbar_over_pstar   !! P
-      integer, intent(in) :: points(2)   !! of the plane along X and Y
-      integer, intent(in) :: first(2), last(2)   !! of these the points to look at, from 0
-      real(dp), intent(in) :: depth      !! Z [rad]
+      real(dp), intent(in) :: pbar_over_pstar    !! mean pressure P [p*]
+      integer, intent(in) :: points(2)           !! N_x, N_y of the plane
+      integer, intent(in) :: first(2), last(2)   !! the first and the last point along X and Y to be compared, from 0
+      real(dp), intent(in) :: depth              !! Z >= 0 [rad]
       type(elastic_body), intent(in) :: body
-      integer, intent(out) :: place(2, 2)   !! of both points, from 0
-      real(dp), intent(out) :: stress(6, 2) !! the deviators there
+      integer, intent(out) :: place(2, 2)        !! numbers of the two points along X and Y, from 0, shape (2, points)
+      real(dp), intent(out) :: stress(6, 2)      !! the deviators of the stress at the two points [p*]
 
       complex(dp), allocatable :: spectra(:, :, :)
       real(dp) :: here(6), largest(2), mean(6), shear
@@ -221,6 +236,7 @@ contains
             call plane%sample_column(spectra(:, j, i), values(:, i))
          end do
          if (self%pressure%is_even()) then
+            ! The four fields of the sum differ in their symmetry: each follows from the sum at +-X and +-Y.
             above = values(:, 1)
             call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
             do i = first(1), last(1)
@@ -235,7 +251,8 @@ contains
             squares = squares + values(first(1):last(1), i)**2
          end do
          do i = first(1), last(1)
-            ! A shear stress is at most 1/sqrt3 of the von Mises stress.
+            ! The largest shear stress is at most 1/sqrt(3) of the von Mises stress. So the eigenvalues are computed
+            ! only where the point may have the largest one.
             if (squares(i) <= min(largest(1), 3*largest(2)**2)) cycle
             here(xx) = values(i, 2)/3 + values(i, 1)/sqrt3
             here(yy) = values(i, 2)/3 - values(i, 1)/sqrt3
@@ -249,11 +266,12 @@ contains
 
    contains
 
-      subroutine take(k, size)
-         integer, intent(in) :: k
-         real(dp), intent(in) :: size
+      !> Keeps the current point and its deviator as those of the largest stress found so far.
+      subroutine take(k, value)
+         integer, intent(in) :: k         !! 1: von Mises stress, 2: shear stress
+         real(dp), intent(in) :: value    !! the square of the von Mises stress [p*^2], or the shear stress [p*]
 
-         largest(k) = size
+         largest(k) = value
          place(:, k) = [i, j]
          stress(:, k) = here
       end subroutine take

@@ -1,6 +1,6 @@
 !> Stresses below the one-dimensional wave in plane strain, in closed form.
 !>
-!> The stress function of Westergaard's pressure, equation (4) of Johnson, Greenwood & Higginson (1985). With
+!> The pressure is Westergaard's, equation (4) of Johnson, Greenwood & Higginson (1985). Its stress function, with
 !> w = (X + i Z)/2, X = 2 pi x/lambda from a crest, Z = 2 pi z/lambda into the solid, and P = pbar/p*,
 !>
 !>     F(w) = 2 P cos w/(R - i sin w),   R = (P - sin^2 w)^(1/2),   Re R >= 0,
@@ -21,24 +21,23 @@ module wavycon_westergaard_stress
 
 contains
 
-   !> Stresses of the pressure less its mean: those of F - P. Without load they are zero.
+   !> Stresses of the pressure less its mean: those of F - P. Without load they are zero. The stress of the mean
+   !> pressure is not included: s_zz = -P, and the lateral stress that the boundaries of the solid impose.
    !>
-   !> To them belongs, for the mean, s_zz = -P and the lateral stress that the boundaries of the solid impose.
-   !>
-   !> Errors are of the order of rounding of X, Z and the load, at all loads and depths: F - P and its derivative are
-   !> written so that only terms of one sign are added, each in its real and its imaginary part,
+   !> Errors are of the order of rounding of X, Z and the load, at all loads and depths. For this F - P and its
+   !> derivative are written so that the terms of a sum have the same sign, both in the real and in the imaginary part,
    !>
    !>     F - P = P [exp(i w) + (1 - P)/(cos w + R)]/(R - i sin w),
    !>     dF/d(X + i Z) = i P [R - i (1 - P) sin w]/[R (R - i sin w)^2],
    !>
-   !> with R^2 = P - sin^2(X/2) + cos X sinh^2(Z/2) - (i/2) sin X sinh Z. Each of the functions of w is multiplied by
-   !> exp(-Z/2), so none overflows.
+   !> with R^2 = P - sin^2(X/2) + cos X sinh^2(Z/2) - (i/2) sin X sinh Z. Each function of w is computed with the factor
+   !> exp(-Z/2), so that none overflows at large depths.
    pure subroutine westergaard_stress(x, z, pbar_over_pstar, parts)
       real(dp), intent(in) :: x                !! 2 pi x/lambda, from a crest [rad]
       real(dp), intent(in) :: z                !! 2 pi z/lambda, depth, >= 0 [rad]
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
       real(dp), intent(out) :: parts(6, 2)
-         !! stresses xx, yy, zz, xy, xz, yz for nu = 0, and their derivatives with respect to nu [p*]
+         !! parts(:, 1): stresses xx, yy, zz, xy, xz, yz for nu = 0; parts(:, 2): their derivatives by nu [p*]
 
       complex(dp) :: change  !! F - P
       complex(dp) :: slope   !! Z times the derivative of F with respect to X + i Z
@@ -60,10 +59,12 @@ contains
       parts(yy, 2) = -2*change%re
    end subroutine westergaard_stress
 
-   !> F - P and Z dF/d(X + i Z) of partial contact, 0 < P < 1.
+   !> F - P and Z dF/d(X + i Z) in partial contact, 0 < P < 1.
    pure subroutine partial_contact(x, z, load, change, slope)
-      real(dp), intent(in) :: x, z, load
-      complex(dp), intent(out) :: change, slope
+      real(dp), intent(in) :: x, z            !! X, Z [rad]
+      real(dp), intent(in) :: load            !! P
+      complex(dp), intent(out) :: change      !! F - P
+      complex(dp), intent(out) :: slope       !! Z dF/d(X + i Z)
 
       real(dp) :: c, s         !! cos and sin of X/2 for the nearest crest
       real(dp) :: decay        !! exp(-Z)
@@ -74,21 +75,22 @@ contains
       s = sign(1.0_dp, c)*sin(x/2)
       c = abs(c)
       decay = exp(-z)
-      ! exp(-Z/2) times sinh and cosh of Z/2.
+      ! sinh(Z/2) and cosh(Z/2), each times exp(-Z/2).
       sinh_z = tanh(z/2)/(1 + tanh(z/2))
       cosh_z = (1 + decay)/2
       cos_w = cmplx(c*cosh_z, -s*sinh_z, dp)
       minus_i_sin_w = cmplx(c*sinh_z, -s*cosh_z, dp)
 
-      ! P - sin^2(X/2), from the smaller numbers.
+      ! P - sin^2(X/2), computed from the smaller of two numbers, so that fewer digits cancel.
       inside = c**2 - (1 - load)
       if (load < 0.5_dp) inside = load - s**2
-      ! On the surface the imaginary part is a zero with the sign of -s, by which sqrt takes the right side of its cut.
+      ! On the surface the imaginary part is zero. Its sign is that of -s, and by this sign sqrt chooses the right side
+      ! of its branch cut on the negative real axis.
       root = sqrt(cmplx(decay*inside + (c - s)*(c + s)*sinh_z**2, -2*s*c*cosh_z*sinh_z, dp))
       total = root + minus_i_sin_w
 
       change = load*decay*(cmplx(c, s, dp) + (1 - load)/(cos_w + root))/total
-      ! At the edge of contact the root is 0; the product tends to 0 there.
+      ! At the edge of contact the root is 0, and the quotient cannot be computed. Its product with Z tends to 0 there.
       slope = 0
       if (abs(root) > 0) slope = (0.0_dp, 1.0_dp)*load*decay*z*((root + (1 - load)*minus_i_sin_w)/root)/total**2
    end subroutine partial_contact

@@ -1,5 +1,5 @@
-!> Surfaces with free edges, which nothing repeats: their units, and the ball below a map. The ball is a paraboloid, as
-!> a sphere is near its lowest point.
+!> Surfaces with free edges, which are not continued beyond their borders: their units, and the ball below a map. The
+!> ball is a paraboloid, the shape of a sphere near its lowest point.
 module wavycon_free_edges
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -12,10 +12,10 @@ module wavycon_free_edges
 
 contains
 
-   !> A paraboloid with free edges, about the middle of a rectangle: a ball near its lowest point.
+   !> Makes the surface of a smooth ball: a paraboloid with free edges, whose lowest point is the middle of a rectangle.
    type(surface_type) function surface_of_ball(sides, radii) result(surface)
-      real(dp), intent(in) :: sides(2)       !! of the rectangle along x and y [length], > 0
-      real(dp), intent(in) :: radii(2)       !! along x and y [length], > 0
+      real(dp), intent(in) :: sides(2)       !! sides of the rectangle along x and y [length], > 0
+      real(dp), intent(in) :: radii(2)       !! radii of curvature along x and y [length], > 0
 
       surface%mirrored = .true.
       surface%has_free_edges = .true.
@@ -33,20 +33,20 @@ contains
       type(surface_type), intent(in) :: surface
 
       is_ball = surface%has_free_edges .and. surface%dimension == 2 .and. all(surface%form%c > 0.0_dp)
-      ! Only an even series has the array.
+      ! The surface is even, as it has free edges. Only an even series has the array c.
       if (is_ball) is_ball = all(abs(surface%shape%c) <= 0.0_dp)
    end function is_ball
 
-   !> The paraboloid [length]: half its curvatures over the square of an angle.
+   !> The paraboloid of given radii, in angles of the cell: x^2/(2 R) = c X^2 with c = (L/(2 pi))^2/(2 R) [length].
    pure type(paraboloid) function form_of_radii(surface, radii) result(form)
-      type(surface_type), intent(in) :: surface   !! with its sides
-      real(dp), intent(in) :: radii(2)            !! along x and y [length], > 0, huge where there is none
+      type(surface_type), intent(in) :: surface   !! its dimension and sides are set
+      real(dp), intent(in) :: radii(2)            !! radii along x and y [length], > 0; huge: no curvature
 
       where (radii < huge(radii)) form%c = 0.5_dp*(surface%length/(2*pi))**2/radii
       if (surface%dimension == 1) form%c(2) = 0.0_dp
    end function form_of_radii
 
-   !> The radii of the paraboloid along x and y [length]; infinite where there is none.
+   !> The radii of the surface's paraboloid along x and y [length]; huge where it has no curvature.
    pure function ball_radii(surface) result(radii)
       type(surface_type), intent(in) :: surface
       real(dp) :: radii(2)
@@ -55,7 +55,8 @@ contains
       where (surface%form%c > 0.0_dp) radii = 0.5_dp*(surface%length/(2*pi))**2/(surface%amplitude*surface%form%c)
    end function ball_radii
 
-   !> Sets what of a surface with free edges does not follow from its shape alone, and adds the curvature of the form.
+   !> Sets the components of a surface with free edges that belong to full contact, which it does not have: the unit of
+   !> pressure by `stiffness`, and an infinite peak. Adds the curvature of the paraboloid to that of the crest.
    pure subroutine set_units_without_closure(surface)
       type(surface_type), intent(inout) :: surface
 

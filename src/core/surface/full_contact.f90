@@ -1,5 +1,5 @@
-!> The pressure of a displacement on a half-space and back, in the units of a surface, and full contact, where the
-!> displacement is the shape.
+!> The pressure that belongs to a displacement of the bodies' surface, and the inverse, in the units of a surface; and
+!> full contact, where the displacement is the shape.
 module wavycon_full_contact
    use wavycon_fourier_series, only: divide_series, fourier_series, weighted
    use wavycon_kinds, only: dp
@@ -12,7 +12,8 @@ module wavycon_full_contact
 
 contains
 
-   !> The pressure (p - pbar)/p* of a displacement (u - ubar)/Delta: Johnson, Greenwood & Higginson (1985), App. 1.
+   !> The pressure (p - pbar)/p* that belongs to a displacement (u - ubar)/Delta: Johnson, Greenwood & Higginson (1985),
+   !> App. 1.
    type(fourier_series) function pressure_of(surface, displacement) result(pressure)
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: displacement
@@ -21,7 +22,7 @@ contains
       call divide_series(pressure, 1.0_dp/surface%stiffness)
    end function pressure_of
 
-   !> The displacement (u - ubar)/Delta of a pressure (p - pbar)/p*: the inverse of `pressure_of`.
+   !> The displacement (u - ubar)/Delta that a pressure (p - pbar)/p* causes: the inverse of `pressure_of`.
    type(fourier_series) function displacement_of(surface, pressure) result(displacement)
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure
@@ -30,7 +31,7 @@ contains
       call divide_series(displacement, surface%stiffness)
    end function displacement_of
 
-   !> p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.
+   !> The pressure p/p* in full contact, where the displacement is the shape; eq. (22) for the paper's wave.
    type(fourier_series) function full_contact_series(surface, pbar_over_pstar) result(pressure)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: pbar_over_pstar   !! P >= 1
@@ -39,7 +40,8 @@ contains
       call pressure%set_mean(pbar_over_pstar)
    end function full_contact_series
 
-   !> The elastic energy per nominal area in full contact, half the mean of p times the shape [p* Delta], by Parseval.
+   !> The elastic energy per nominal area in full contact [p* Delta]: half the mean of p times the shape, as a sum over
+   !> waves by Parseval's theorem, (M25a) of src/core/map/README.md.
    real(dp) function full_contact_energy(surface)
       type(surface_type), intent(in) :: surface
 

@@ -1,4 +1,4 @@
-!> The surface of a height map.
+!> Makes the surface of a measured height map: prepares the map, computes its statistics, and interpolates its heights.
 module wavycon_height_map
    use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
@@ -19,19 +19,21 @@ module wavycon_height_map
 
 contains
 
-   !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing
-   !> ones that are not to be filled, and for too few to determine a trend; exit_file_trouble without memory.
+   !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing heights that
+   !> are not to be filled, and for too few heights to determine the trend; exit_file_trouble if there is not enough
+   !> memory.
    subroutine surface_of_map(source, preparation, scale, sides, map, surface, statistics, error, radii)
-      character(*), intent(in) :: source            !! of the heights, for messages
+      character(*), intent(in) :: source            !! name of the map, for messages
       type(map_preparation), intent(in) :: preparation
       real(dp), intent(in) :: scale                 !! length of one unit of the heights, > 0
-      real(dp), intent(in) :: sides(2)              !! of the map along x and y [length], > 0
-      !> Heights upwards to the other body; then those of the surface over their mean [length], without holes.
+      real(dp), intent(in) :: sides(2)              !! sides of the map along x and y [length], > 0
+      !> On entry heights that rise towards the other body. On exit the heights of the surface less their mean [length],
+      !> without holes.
       type(measured_map), intent(inout) :: map
       type(surface_type), intent(inout) :: surface
-      type(map_statistics), allocatable, intent(out) :: statistics   !! without the path
+      type(map_statistics), allocatable, intent(out) :: statistics   !! all components but the path are set
       type(error_type), allocatable, intent(out) :: error
-      real(dp), intent(in), optional :: radii(2)    !! of the ball that the map lies on, as of surface_of_points
+      real(dp), intent(in), optional :: radii(2)    !! radii of the ball that the map lies on, as of surface_of_points
 
       type(grid_slab) :: slab
       type(map_changes) :: changes
@@ -49,16 +51,17 @@ contains
       if (allocated(error)) return
       call map%keep_own_columns()
       slab = map%columns()
-      ! Steps stay if the map is cropped.
+      ! Cropping changes the number of points, and the sides with it, but not the steps, which `length` has here.
       length = length*slab%points
-      ! The points of a map with free edges are those of a mirrored one: its opposite borders are no neighbours.
+      ! A map with free edges is stored as a mirrored one. Opposite borders are neighbours of each other in neither.
       repeats = all(preparation%edges /= ['mirror', 'free  '])
       if (preparation%short_wavelength > 0.0_dp) &
          call leave_out_short_waves(slab%points, length, .not. repeats, preparation%short_wavelength, map%height, &
                                     changes%rms_of_short)
       extremes = slab%extremes(map%height)
       if (sum(extremes) <= 0.0_dp) then
-         ! Equal heights less their rounded mean would not be zero.
+         ! All heights are equal. They are set to zero, because heights less their rounded mean would not be zero
+         ! exactly.
          map%height = 0.0_dp
          largest = 0.0_dp
       else

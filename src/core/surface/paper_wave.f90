@@ -1,5 +1,5 @@
-!> Which wave of Johnson, Greenwood & Higginson (1985) a surface is, its wavelength and its angles in their equations;
-!> and the smaller cell that such a wave has, as other surfaces of its symmetry.
+!> Recognises the waves of Johnson, Greenwood & Higginson (1985) among surfaces, with the wavelength and the angles of
+!> their equations. Also finds the smaller periodic cell that the 2-D wave and other surfaces of its symmetry have.
 module wavycon_paper_wave
    use wavycon_constants, only: sqrt2
    use wavycon_kinds, only: dp
@@ -10,16 +10,17 @@ module wavycon_paper_wave
 
    public :: has_smaller_cell, is_paper_wave, paper_angles, paper_wave, paper_wavelength, smaller_cell
 
-   !> Straight: eq. (3) or (21) with phi = X, theta = Y. Rotated: eq. (21) with phi = (X + Y)/2, theta = (X - Y)/2.
+   !> `straight_paper_wave`: eq. (3) or (21) with phi = X, theta = Y. `rotated_paper_wave`: eq. (21) with
+   !> phi = (X + Y)/2, theta = (X - Y)/2.
    integer, parameter, public :: no_paper_wave = 0, straight_paper_wave = 1, rotated_paper_wave = 2
 
-   !> Coefficients of a shape that differ by less than this are equal, and sides that differ by this fraction.
+   !> Coefficients of a shape are equal if they differ by at most this, and sides if they differ by this part of them.
    real(dp), parameter :: rounding = 1e-13_dp
 
 contains
 
-   !> Which wave of the paper the surface is. A distributed surface counts as none, and a flat one that is no height map
-   !> as a straight wave of amplitude 0, in 1-D and on a square cell.
+   !> Which wave of the paper the surface is. A distributed surface counts as none. A flat surface that is not a height
+   !> map counts as a straight wave of amplitude 0 in 1-D and on a square cell.
    pure integer function paper_wave(surface)
       type(surface_type), intent(in) :: surface
 
@@ -42,7 +43,7 @@ contains
       end select
    end function paper_wave
 
-   !> Whether the surface is a wave of the paper, which the series and the closed forms can solve.
+   !> Whether the surface is a wave of the paper, for which there are the paper's series and closed forms.
    pure logical function is_paper_wave(surface)
       type(surface_type), intent(in) :: surface
 
@@ -71,8 +72,8 @@ contains
       end if
    end subroutine paper_angles
 
-   !> Whether the surface is periodic on a square of half the area, rotated by 45 degrees, and there even and symmetric
-   !> under exchange of the directions. A height map is taken as it is.
+   !> Whether the surface is also periodic on a square of half the area, rotated by 45 degrees, and even and symmetric
+   !> under exchange of the directions there. For height maps the result is .false.: they are solved on their own cell.
    pure logical function has_smaller_cell(surface)
       type(surface_type), intent(in) :: surface
 
@@ -81,15 +82,15 @@ contains
       if (.not. (surface%shape%is_even() .and. is_square(surface))) return
       associate (c => surface%shape%c)
          if (ubound(c, 1) /= ubound(c, 2)) return
-         ! The wave numbers of each wave have an even sum.
+         ! The sum of the two wave numbers of each wave must be even.
          has_smaller_cell = all(abs(c - transpose(c)) <= rounding) .and. all(abs(c(0::2, 1::2)) <= rounding) &
                             .and. all(abs(c(1::2, 0::2)) <= rounding)
       end associate
    end function has_smaller_cell
 
-   !> The same surface on its smaller cell, see has_smaller_cell: the angles of that cell are X + Y and X - Y.
+   !> The same surface on its smaller cell, see has_smaller_cell. The angles of the smaller cell are X + Y and X - Y.
    type(surface_type) function smaller_cell(whole) result(surface)
-      type(surface_type), intent(in) :: whole   !! has_smaller_cell
+      type(surface_type), intent(in) :: whole   !! a surface for which has_smaller_cell is true
 
       surface = whole
       surface%shape = to_sum_angles(whole%shape)

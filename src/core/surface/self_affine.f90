@@ -1,4 +1,4 @@
-!> Random self-affine surfaces, made from their spectra. Equations (G1) to (G5) are in README.md of this directory.
+!> Makes random self-affine surfaces from their spectra. Equations (G1) to (G5) are in README.md of this directory.
 module wavycon_self_affine
    use, intrinsic :: iso_c_binding, only: c_long, c_ptr
    use wavycon_constants, only: largest_number, pi, smallest_number
@@ -20,35 +20,37 @@ module wavycon_self_affine
 
    !> The waves of a periodic cell and their amplitudes.
    type :: self_affine_spectrum
-      integer :: dimension = 2                !! 1: a profile along x
-      real(dp) :: length(2) = 1.0_dp          !! L_x, L_y, sides of the cell [length], > 0; L_y is ignored in 1-D
+      integer :: dimension = 2                !! 1: a profile along x; 2: a surface
+      real(dp) :: length(2) = 1.0_dp          !! L_x, L_y, sides of the cell [length], > 0; L_y is not used in 1-D
       real(dp) :: hurst = 0.8_dp              !! Hurst exponent H, 0 to 1
-      real(dp) :: longest = 1.0_dp            !! longest wave [length]
-      real(dp) :: rolloff = 1.0_dp            !! longer waves have the amplitude of this one [length], <= longest
-      real(dp) :: shortest = 1.0_dp           !! shortest wave [length], > 0, <= rolloff
-      real(dp) :: rms = 1.0_dp                !! root mean square of the height [length] or of the slope, > 0
-      logical :: by_slope = .false.           !! whether it is that of the slope
-      !> C of waves longer than the roll-off, (M26) or (M28) of src/core/map/README.md [length^4, length^3]; 0: by rms.
+      real(dp) :: longest = 1.0_dp            !! longest wavelength [length]
+      real(dp) :: rolloff = 1.0_dp            !! wavelength of the roll-off: longer waves have its amplitude [length]
+      real(dp) :: shortest = 1.0_dp           !! shortest wavelength [length], 0 < shortest <= rolloff <= longest
+      real(dp) :: rms = 1.0_dp                !! root mean square of the height [length] or of the slope [-], > 0
+      logical :: by_slope = .false.           !! true: `rms` is that of the slope; false: that of the height
+      !> Spectral density of waves longer than the roll-off, (M26) or (M28) of src/core/map/README.md [length^4 or
+      !> length^3]; 0 if `rms` gives the amplitudes.
       real(dp) :: density = 0.0_dp
-      logical :: random_amplitudes = .false.  !! whether amplitudes are those of a Gaussian process, or of the spectrum
-      integer :: seed = 1                     !! >= 1
+      logical :: random_amplitudes = .false.  !! true: amplitudes of a Gaussian process; false: those of the spectrum
+      integer :: seed = 1                     !! seed of the random numbers, >= 1
    end type self_affine_spectrum
 
-   !> A wave whose length differs from a cut-off by rounding is within it.
+   !> A wave whose length is outside of a cut-off by this part, which is rounding, counts as inside.
    real(dp), parameter :: rounding = 1e-12_dp
 
 contains
 
-   !> Makes the surface. Errors: exit_file_trouble without enough memory, exit_bad_input for heights out of range.
+   !> Makes the surface of a spectrum. Errors: exit_file_trouble if there is not enough memory, exit_bad_input for
+   !> heights out of range.
    subroutine self_affine_surface(source, spectrum, points, surface, map, error, has_free_edges, radii)
-      character(*), intent(in) :: source                   !! of the spectrum, for messages
-      type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
-      integer, intent(in) :: points(2)                     !! of the cell along x and y, not below least_points_of
+      character(*), intent(in) :: source                      !! name of the spectrum, for messages
+      type(self_affine_spectrum), intent(in) :: spectrum      !! has_waves is true
+      integer, intent(in) :: points(2)                        !! points of the cell's grid, at least least_points_of
       type(surface_type), intent(out) :: surface
-      type(map_statistics), allocatable, intent(out) :: map
+      type(map_statistics), allocatable, intent(out) :: map   !! statistics of the heights at the points
       type(error_type), allocatable, intent(out) :: error
-      logical, intent(in), optional :: has_free_edges      !! these as of surface_of_points
-      real(dp), intent(in), optional :: radii(2)
+      logical, intent(in), optional :: has_free_edges         !! as of surface_of_points
+      real(dp), intent(in), optional :: radii(2)              !! as of surface_of_points
 
       type(grid_slab) :: slab
       real(dp), allocatable :: height(:, :)
@@ -71,7 +73,8 @@ contains
       surface = surface_of_points(spectrum%length, height, points=points, has_free_edges=has_free_edges, radii=radii)
    end subroutine self_affine_surface
 
-   !> The least numbers of points along x and y on which all waves differ: more than two to a period of each.
+   !> The least numbers of points along x and y on which all waves differ: more than two points in a period of each
+   !> wave.
    pure function least_points_of(spectrum) result(points)
       type(self_affine_spectrum), intent(in) :: spectrum
       integer :: points(2)
@@ -84,14 +87,14 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum
       integer :: highest(2)
 
-      !> Grids have far fewer points; the limit keeps the number an integer.
+      !> Upper bound of the wave numbers, so that they are default integers. Grids have far fewer points.
       real(dp), parameter :: most = 1e8_dp
 
       highest = int(min(most, spectrum%length/spectrum%shortest*(1 + rounding)))
       if (spectrum%dimension == 1) highest(2) = 0
    end function highest_waves
 
-   !> Whether a wave of the cell is within the cut-offs.
+   !> Whether any wave of the cell is within the cut-offs.
    pure logical function has_waves(spectrum)
       type(self_affine_spectrum), intent(in) :: spectrum
 
@@ -107,7 +110,7 @@ contains
       has_waves = .false.
    end function has_waves
 
-   !> The frequency of a wave (G2) [1/length].
+   !> The frequency of a wave, (G2) [1/length].
    pure real(dp) function frequency(spectrum, m, n)
       type(self_affine_spectrum), intent(in) :: spectrum
       integer, intent(in) :: m, n   !! wave numbers
@@ -115,7 +118,7 @@ contains
       frequency = hypot(m/spectrum%length(1), n/spectrum%length(2))
    end function frequency
 
-   !> The mean square of a wave (G3), in units of that at the roll-off; 0 beyond the cut-offs.
+   !> The mean square of a wave, s of (G3), over that of a wave at the roll-off; 0 outside of the cut-offs.
    pure real(dp) function mean_square(spectrum, frequency)
       type(self_affine_spectrum), intent(in) :: spectrum
       real(dp), intent(in) :: frequency   !! [1/length]
@@ -125,22 +128,23 @@ contains
          mean_square = max(1.0_dp, frequency*spectrum%rolloff)**(-spectrum%dimension - 2*spectrum%hurst)
    end function mean_square
 
-   !> Makes the heights at the own columns of a grid of the cell (G1), from the waves of own wave numbers along x. They
-   !> do not depend on how the grid is distributed.
+   !> Makes the heights (G1) at the own columns of a grid of the cell. Each process adds up the waves of its own wave
+   !> numbers along x. The heights do not depend on how the grid is distributed.
    !>
-   !> N.B. The random numbers are drawn in the order of (G5), for waves beyond the cut-offs too: the phase of a wave
-   !> depends on the seed and its wave numbers only, and the surface does not depend on the grid.
+   !> N.B. The random numbers are drawn in the order of (G5), also for waves outside of the cut-offs. So the phase of a
+   !> wave depends on the seed and its wave numbers only, and the surface does not depend on the grid.
    subroutine make_heights(spectrum, height, points)
-      type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves
-      !> [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
+      type(self_affine_spectrum), intent(in) :: spectrum   !! has_waves is true
+      !> Heights [length], shape (M, N), N = 1 in 1-D, or (M, columns of the grid's slab).
       real(dp), intent(inout), contiguous :: height(:, :)
-      integer, intent(in) :: points(2)   !! M, N, not below least_points_of, of a grid that may be distributed
+      integer, intent(in) :: points(2)   !! M, N of a grid that may be distributed, at least least_points_of
 
       type(c_ptr) :: generator
       type(fourier_series) :: waves
       type(grid_transform) :: transform
-      real(dp) :: moment(1)
-      real(dp), allocatable :: moments(:, :)   ! of the waves of each of them
+      !> The sum (G4) that `rms` is the root of, with c = 1; for each wave number along x its part.
+      real(dp) :: moment(1), rms
+      real(dp), allocatable :: moments(:, :)
       integer :: first, highest(2), k, last, m, n
 
       call transform%start(points, even=.false.)
@@ -150,7 +154,7 @@ contains
       call transform%new_series(waves)
       first = waves%first()
       last = waves%last(1)
-      ! Each wave number has its own sum, so that rounding grows with the square root of the number of waves.
+      ! Each wave number m has its own sum. So rounding grows with the square root of the number of waves.
       allocate (moments(1, first:last), source=0.0_dp)
       do k = 1, maxval(highest)
          if (spectrum%dimension == 1) then
@@ -168,20 +172,22 @@ contains
       call gsl_rng_free(generator)
       moment = waves%rows%column_totals(moments)
       call transform%sample(waves, height)
-      ! Of the mean square of a wave each of its two wave vectors has half.
+      ! The density counts the two wave vectors of a wave, each with half of its mean square.
+      rms = 1.0_dp
       if (spectrum%density > 0.0_dp) moment = product(spectrum%length(:spectrum%dimension))/(2*spectrum%density)
-      height = merge(spectrum%rms, 1.0_dp, spectrum%density <= 0.0_dp)/sqrt(moment(1))*height
+      if (spectrum%density <= 0.0_dp) rms = spectrum%rms
+      height = rms/sqrt(moment(1))*height
 
    contains
 
-      !> Draws a wave and, if it is within the cut-offs and an own one, adds it to the series and its
-      !> part to the moments.
+      !> Draws the random numbers of a wave. If the wave is within the cut-offs and m is an own wave number of the
+      !> process, adds the wave to the series and its mean square to the moments.
       subroutine add_wave(m, n)
          integer, intent(in) :: m, n   !! wave numbers, m >= 0
 
-         !> Half of the generator's step: no number is 0, and its logarithm exists.
+         !> Half of the step of the generator's numbers. Plus this no number is 0, and its logarithm exists.
          real(dp), parameter :: half_step = 2.0_dp**(-33)
-         real(dp) :: f, phase, square, uniform
+         real(dp) :: f, phase, square, uniform, weight
 
          phase = 2*pi*gsl_rng_uniform(generator)
          uniform = gsl_rng_uniform(generator) + half_step
@@ -190,7 +196,9 @@ contains
          square = mean_square(spectrum, f)
          if (square <= 0.0_dp) return
          if (spectrum%random_amplitudes) square = -log(uniform)*square
-         moments(1, m) = moments(1, m) + square*merge((2*pi*f)**2, 1.0_dp, spectrum%by_slope)
+         weight = 1.0_dp
+         if (spectrum%by_slope) weight = (2*pi*f)**2
+         moments(1, m) = moments(1, m) + square*weight
          call waves%add_wave(m, n, sqrt(2*square)*turn(phase))
       end subroutine add_wave
 

@@ -1,5 +1,5 @@
-!> A surface: the gap h before deformation, its values at points, the sides of its cell, its roughness, and of a
-!> periodic one the pressure that closes it.
+!> A surface: the gap h before deformation, its values at points, the sides of its cell, its roughness and, if the
+!> surface is periodic, the pressure p* that closes the gap.
 module wavycon_surface
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
@@ -17,33 +17,34 @@ module wavycon_surface
 
    public :: surface_type
 
-   !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has mean 0 and peak 1: the surfaces first
-   !> touch at its peaks. Delta is the mean gap before load, which is the amplitude of the paper's waves.
+   !> h/Delta = 1 - shape(X, Y),  X = 2 pi x/L_x,  Y = 2 pi y/L_y. The shape has the mean 0 and the peak 1: the surfaces
+   !> first touch at its peaks. Delta is the mean gap before load, which is the amplitude of the paper's waves.
    type :: surface_type
-      integer :: dimension = 2
+      integer :: dimension = 2                  !! 1: a profile, constant along y; 2: a surface
       real(dp) :: length(2) = 1.0_dp            !! L_x, L_y, sides of the periodic cell [length]
       real(dp) :: amplitude = 1.0_dp            !! Delta [length], >= 0
-      !> If the points of a height map are distributed it has the own waves, see is_distributed.
+      !> Fourier series of the shape. If the points of a height map are distributed over processes, each process has the
+      !> coefficients of some wave numbers in X: see is_distributed.
       type(fourier_series) :: shape
-      integer :: points(2) = 0                  !! of the grid of a height map on the cell; zeros for a sum of waves
+      integer :: points(2) = 0                  !! points of a height map's grid on the whole cell; 0 for a sum of waves
       !> Whether the cell consists of a height map and its mirror images. The map is then the quarter 0 <= X, Y <= pi.
       logical :: mirrored = .false.
-      !> Whether the map alone exists: nothing repeats it, and h has no images. Its points are those of a mirrored map,
-      !> which also interpolates its heights. p* is only a unit then, that of `stiffness` = the square root of its area,
-      !> in 1-D its length: there is no full contact.
+      !> Whether the map ends at its borders: nothing repeats the map, and h has no images. The points and the
+      !> interpolation between them are those of a mirrored map. There is no full contact, and p* is only a unit, with
+      !> `stiffness` = the square root of the map's area, in 1-D its length.
       logical :: has_free_edges = .false.
-      !> With free edges, whether the map has two heights at most, as that of a punch: it then consists of blocks, the
-      !> cells of its points. The series of such heights would swing beside their steps.
+      !> With free edges, whether the map has at most two different heights, as that of a punch. The height is then
+      !> constant in the cell of each point. A Fourier series of such heights would oscillate beside the steps.
       logical :: has_steps = .false.
-      type(paraboloid) :: form                  !! with free edges: the paraboloid in h/Delta
+      type(paraboloid) :: form                  !! with free edges: the paraboloid that is part of h/Delta
       real(dp) :: crest(2) = 0.0_dp             !! X, Y of a peak of the shape [rad]
-      type(wave_stiffness) :: kernel            !! of the bodies under it
-      !> Pressure [p*] over displacement [Delta] of a wave of the half-space, times wavelength [length].
+      type(wave_stiffness) :: kernel            !! stiffness of the bodies for each wave
+      !> Ratio of the pressure [p*] to the displacement [Delta] in a wave on a half-space, times wavelength [length].
       real(dp) :: stiffness = 1.0_dp
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
-      !> The largest sum of the two curvatures over 4 pi^2 Delta [1/length^2]; of a map its largest at the points.
+      !> The largest sum of the two principal curvatures over 4 pi^2 Delta [1/length^2]; of a map at its points.
       real(dp) :: crest_curvature = 0.0_dp
-      real(dp) :: hardness = huge(1.0_dp)       !! H, the largest pressure that it bears [p*]; huge: it stays elastic
+      real(dp) :: hardness = huge(1.0_dp)       !! H, upper bound of the pressure [p*]; huge if the bodies stay elastic
    contains
       procedure :: parts
       procedure :: sides
@@ -60,17 +61,18 @@ module wavycon_surface
 
 contains
 
-   !> How often the cell contains, along x and y, the part that decks and tables refer to: 2 for a mirrored map,
+   !> How often the cell contains, along x and along y, the region that decks and tables refer to: 2 for a mirrored map,
    !> otherwise 1.
    pure function parts(self)
       class(surface_type), intent(in) :: self
       integer :: parts(2)
 
-      parts = merge(2, 1, self%mirrored)
+      parts = 1
+      if (self%mirrored) parts = 2
       if (self%dimension == 1) parts(2) = 1
    end function parts
 
-   !> The sides of that part along x and y [length].
+   !> The sides along x and y of the region that decks and tables refer to [length].
    pure function sides(self)
       class(surface_type), intent(in) :: self
       real(dp) :: sides(2)
@@ -78,7 +80,8 @@ contains
       sides = self%length/self%parts()
    end function sides
 
-   !> The area that decks and tables call nominal, that of a profile per depth [area].
+   !> The nominal area of decks and tables [length^2]; of a profile the area over the width along y, its length
+   !> [length].
    pure real(dp) function nominal_area(self)
       class(surface_type), intent(in) :: self
 
@@ -88,31 +91,32 @@ contains
       nominal_area = product(side(:self%dimension))
    end function nominal_area
 
-   !> Whether the surface was given on a grid.
+   !> Whether the surface was given by heights on a grid.
    pure logical function is_height_map(self)
       class(surface_type), intent(in) :: self
 
       is_height_map = all(self%points > 0)
    end function is_height_map
 
-   !> Whether the shape has the coefficients of own wave numbers in X only, see wavycon_grid_transform. Then only
-   !> `sample_gap` can evaluate it; `gather` gathers the shape. All other components are those of the
-   !> whole surface.
+   !> Whether this process has only some coefficients of the shape, those of its own wave numbers in X: see
+   !> wavycon_grid_transform. Then only `sample_gap` can evaluate the shape. `gather` of fourier_series makes the shape
+   !> whole. All other components are those of the whole surface.
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
 
       is_distributed = self%shape%is_distributed()
    end function is_distributed
 
-   !> Whether the pressure has an upper bound.
+   !> Whether a hardness bounds the pressure.
    elemental logical function has_hardness(self)
       class(surface_type), intent(in) :: self
 
       has_hardness = self%hardness < huge(self%hardness)
    end function has_hardness
 
-   !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave (eq. 7),
-   !> sqrt2 times that for the 2-D wave (eq. 22); for any surface the largest tension, pbar - p, in full contact.
+   !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave, eq.
+   !> (7), and sqrt2 times this for the 2-D wave, eq. (22). For any surface p* is the largest value of pbar - p in full
+   !> contact.
    elemental real(dp) function full_contact_pressure(self, e_star)
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: e_star   !! plane-strain modulus E* [pressure]
@@ -120,7 +124,7 @@ contains
       full_contact_pressure = pi*e_star*self%amplitude/self%stiffness
    end function full_contact_pressure
 
-   !> 1 - h/Delta, of mean zero.
+   !> The shape at a point: 1 - h/Delta, whose mean is zero.
    elemental real(dp) function shape_at(self, x, y)
       class(surface_type), intent(in) :: self
       real(dp), intent(in) :: x, y   !! X, Y [rad]
@@ -133,11 +137,11 @@ contains
       shape_at = self%shape%at(point(1), point(2)) - self%form%gap(x, y)
    end function shape_at
 
-   !> 1 - h/Delta at points of the part that tables refer to, as of `sample_series`.
+   !> The shape 1 - h/Delta at points of the region that tables refer to, at those of `sample_series`.
    subroutine sample_shape(self, points, offset, values)
       class(surface_type), intent(in) :: self
       integer, intent(in) :: points(2)                     !! N_x, N_y >= 1; N_y = 1 in 1-D
-      real(dp), intent(in) :: offset(2)                    !! of the first point, in steps
+      real(dp), intent(in) :: offset(2)                    !! of the first point from X = Y = 0, in steps
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
 
       call sample_series(self%shape, points, offset, values, self%parts())
@@ -146,10 +150,10 @@ contains
    end subroutine sample_shape
 
    !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. The
-   !> digits do not depend on how the grid and the surface are distributed.
+   !> digits do not depend on how the grid and the surface are distributed over processes.
    subroutine sample_gap(self, slab, h)
       class(surface_type), intent(in) :: self
-      type(grid_slab), intent(in) :: slab                !! of the grid, of a quarter of the cell if the surface is even
+      type(grid_slab), intent(in) :: slab                !! the grid's own columns; of a quarter if the surface is even
       real(dp), intent(out), contiguous :: h(:, :)       !! shape (M, slab%columns())
 
       type(grid_transform) :: transform
@@ -162,11 +166,12 @@ contains
       h = 1.0_dp - h
    end subroutine sample_gap
 
-   !> The shape of a map of two heights without the paraboloid: at each point that of the map's nearest one.
+   !> The shape of a map of two heights, without the paraboloid: at each point that of the cell of the map's grid in
+   !> which the point lies.
    subroutine sample_blocks(surface, offset, values)
-      type(surface_type), intent(in) :: surface   !! with steps
-      real(dp), intent(in) :: offset(2)           !! of the first point, in steps
-      real(dp), intent(out) :: values(:, :)       !! at equal steps over the map
+      type(surface_type), intent(in) :: surface   !! has_steps
+      real(dp), intent(in) :: offset(2)           !! of the first point from the map's corner, in steps of the points
+      real(dp), intent(out) :: values(:, :)       !! at points with equal steps over the map
 
       real(dp), allocatable :: blocks(:, :)
       integer :: i, grid(2)
@@ -182,7 +187,7 @@ contains
       end associate
    end subroutine sample_blocks
 
-   !> Root mean squares of height, slope and curvature.
+   !> Root mean squares of height, slope and curvature of the surface.
    type(roughness_type) function roughness(self)
       class(surface_type), intent(in) :: self
 

@@ -1,4 +1,4 @@
-!> Surfaces through given heights at the points of a grid.
+!> Makes surfaces through given heights at the points of a grid.
 module wavycon_surface_of_points
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi
@@ -15,22 +15,24 @@ module wavycon_surface_of_points
 
 contains
 
-   !> The surface through given heights on a grid. Between the points it is their Fourier series. Crest, full-contact
-   !> pressure and curvature are the extremes over the points. If the grid is distributed so is the surface; its numbers
-   !> are those of the whole grid.
+   !> Makes the surface through given heights on a grid. Between the points the heights are interpolated by their
+   !> Fourier series. Crest, full-contact pressure and curvature are extremes over the points. If the grid is
+   !> distributed over processes, the shape of the surface is distributed too; its other components are those of the
+   !> whole grid.
    !>
-   !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter, which mirror images
-   !> continue: equation (M6) of src/core/map/README.md.
+   !> The grid is that of the whole cell, with the first point at X = Y = 0, or that of a quarter of the cell, which is
+   !> continued by mirror images: equation (M6) of src/core/map/README.md.
    !>
-   !> With free edges the map may lie on a ball: a paraboloid of the given radii about its centre is subtracted.
+   !> With free edges the map may lie on a ball. Then a paraboloid of the given radii about the centre of the map is
+   !> subtracted from the heights.
    type(surface_type) function surface_of_points(sides, height, mirrored, points, has_free_edges, radii) result(surface)
-      real(dp), intent(in) :: sides(2)                 !! of the map along x and y [length], > 0
-      !> [length], shape (M, N), N = 1 for a profile, or (M, columns of the grid's slab).
+      real(dp), intent(in) :: sides(2)                 !! sides of the map along x and y [length], > 0
+      !> Heights [length], shape (M, N), N = 1 for a profile, or (M, columns of the grid's slab).
       real(dp), intent(in), contiguous :: height(:, :)
-      logical, intent(in), optional :: mirrored        !! whether mirror images continue it; .false. if absent
+      logical, intent(in), optional :: mirrored        !! whether mirror images continue the map; .false. if absent
       integer, intent(in), optional :: points(2)       !! M, N if the grid may be distributed; shape of height if absent
-      logical, intent(in), optional :: has_free_edges  !! .false. if absent; then mirrored too
-      real(dp), intent(in), optional :: radii(2)       !! of the ball [length], > 0, huge for a plane
+      logical, intent(in), optional :: has_free_edges  !! .false. if absent; .true. implies mirrored
+      real(dp), intent(in), optional :: radii(2)       !! radii of the ball [length], > 0, huge for a plane
 
       type(grid_transform) :: transform
       real(dp), allocatable :: values(:, :)
@@ -39,7 +41,7 @@ contains
 
       grid = shape(height)
       if (present(points)) grid = points
-      surface%dimension = merge(1, 2, grid(2) == 1)
+      if (grid(2) == 1) surface%dimension = 1
       if (present(mirrored)) surface%mirrored = mirrored
       if (present(has_free_edges)) surface%has_free_edges = has_free_edges
       surface%mirrored = surface%mirrored .or. surface%has_free_edges
@@ -51,7 +53,8 @@ contains
       call surface%shape%set_mean(0.0_dp)
       if (present(radii)) surface%form = form_of_radii(surface, radii)
       if (surface%has_free_edges) then
-         ! A flat map on a ball is the ball.
+         ! The map has steps if it has no height between the largest and the least. A flat map on a ball has none: the
+         ! surface is the smooth ball.
          extremes = transform%slab%extremes(height)
          surface%has_steps = .not. transform%slab%any(any(height < extremes(1) .and. height > -extremes(2))) .and. &
                              (sum(extremes) > 0.0_dp .or. surface%form%is_flat())
@@ -65,7 +68,7 @@ contains
       end if
       surface%amplitude = surface%amplitude - transform%slab%sum_of(height)/product(real(grid, dp))
       if (surface%has_steps .and. surface%amplitude <= 0.0_dp) then
-         ! A flat map is a punch, h = 0. It has no depth: a length of the map is the unit.
+         ! A flat map is a punch with h = 0. As it has no height of its own, a length of the map is taken as the unit.
          surface%amplitude = surface%nominal_area()**(1.0_dp/surface%dimension)
          call surface%shape%set_mean(surface%amplitude)
       end if

@@ -1,4 +1,4 @@
-!> The factors that convert the core's pressures, lengths and angles to the user's units.
+!> The factors between the units of the core and those of the user.
 module wavycon_unit_scale
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
@@ -8,14 +8,15 @@ module wavycon_unit_scale
 
    public :: unit_scale, scale_of
 
-   !> Pressures of the core are in p_star, gaps and displacements in amplitude, places in angles of the cell.
+   !> In the core pressures are in units of p*, gaps and displacements in units of Delta, and positions are angles of
+   !> the cell.
    type :: unit_scale
       real(dp) :: e_star = 1.0_dp              !! plane-strain modulus E* [pressure]
-      real(dp) :: p_star = 0.0_dp              !! p*, mean pressure that just closes the gap [pressure]; 0: flat
+      real(dp) :: p_star = 0.0_dp              !! p*, mean pressure that just closes the gap [pressure]; 0 if it is flat
       real(dp) :: amplitude = 0.0_dp           !! Delta, mean gap before load [length]
-      real(dp) :: sides(2) = 1.0_dp            !! of the surface, or of a mirrored map, along x and y [length]
-      real(dp) :: nominal_area = 1.0_dp        !! of the sides [length^2]; of a profile [length]
-      real(dp) :: period(2) = 1.0_dp           !! L_x, L_y after which the surface repeats itself [length]
+      real(dp) :: sides(2) = 1.0_dp            !! sides of the cell, or of a mirrored map, along x and y [length]
+      real(dp) :: nominal_area = 1.0_dp        !! product of these sides [length^2]; of a profile its length [length]
+      real(dp) :: period(2) = 1.0_dp           !! periods L_x, L_y of the surface [length]
    contains
       procedure :: angles
       procedure :: depth_angle
@@ -23,7 +24,7 @@ module wavycon_unit_scale
 
 contains
 
-   !> The scale of a surface under a plane-strain modulus.
+   !> The factors for a surface on bodies with a given plane-strain modulus.
    pure type(unit_scale) function scale_of(surface, e_star) result(scale)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: e_star   !! > 0 [pressure]
@@ -32,19 +33,19 @@ contains
                          surface%nominal_area(), surface%length)
    end function scale_of
 
-   !> X, Y of a place, in the cell [rad].
-   pure function angles(self, place)
+   !> The angles X, Y of a position, reduced to one cell [rad].
+   pure function angles(self, position)
       class(unit_scale), intent(in) :: self
-      real(dp), intent(in) :: place(2)   !! x, y [length]
+      real(dp), intent(in) :: position(2)   !! x, y [length]
       real(dp) :: angles(2)
 
-      angles = 2*pi*modulo(place/self%period, 1.0_dp)
+      angles = 2*pi*modulo(position/self%period, 1.0_dp)
    end function angles
 
-   !> Z of a depth [rad].
+   !> Depth as an angle, Z = 2 pi z/L_x [rad].
    pure real(dp) function depth_angle(self, depth)
       class(unit_scale), intent(in) :: self
-      real(dp), intent(in) :: depth   !! [length]
+      real(dp), intent(in) :: depth   !! depth z below the surface [length]
 
       depth_angle = 2*pi*depth/self%period(1)
    end function depth_angle

@@ -5,31 +5,27 @@
     results.contact_area_fraction, results[1].pressure
 
 A function for each kind of surface, such as wave_2d, hexagonal, wave_sum, self_affine and file, and heights for arrays,
-read for files of instruments; solve, run and sweep; certify for the answers of any code; load for saved results; keys
-for all that decks can say; Note, the warnings.
-Lengths are in any one unit, pressures in any one unit.
+read for files of instruments; solve, run and sweep; problem for many loads one after the other; certify for the answers
+of any code; load for saved results; Settings and Load, all keys of decks, and keys, the same as dictionaries; Note, the
+warnings. Lengths are in any one unit, pressures in any one unit.
 """
 from . import library as _library
-from .deck import KINDS_BY_NAME as _KINDS_BY_NAME
-from .deck import Surface, heights, maker_of_kind
+from . import names as _names
+from .deck import heights
 from .files import read
 from .library import Note, keys
+from .names import *  # noqa: F403
 from .programs import sweep
-from .results import Bounds, Result, Results, certify, load, run, solve
+from .results import Result, Results, Roughness, load
+from .solving import Bounds, Problem, certify, problem, run, solve
+from .surfaces import Surface
 
+__all__ = ["Bounds", "Note", "Problem", "Result", "Results", "Roughness", "Surface", "certify", "heights", "keys",
+           "load", "problem", "read", "run", "set_threads", "solve", "sweep"]
+__all__ += _names.__all__
 __version__ = _library.text(None, "version")
-__all__ = ["Bounds", "Note", "Result", "Results", "Surface", "certify", "heights", "keys", "load", "read", "run",
-           "set_threads", "solve", "sweep"]
 
 
 def set_threads(number: int) -> None:
     """Sets the number of threads that work on large grids, 1 unless set."""
     _library.call("set_threads", number)
-
-
-def __getattr__(name):
-    return maker_of_kind(name)
-
-
-def __dir__():
-    return [*__all__, "__version__", *_KINDS_BY_NAME, *keys()["surface"]["kind"]["choices"]]

@@ -1,34 +1,19 @@
-"""Surfaces, and decks in memory. Groups, keys and kinds are those of the library."""
-import dataclasses
-import difflib
-import inspect
-import re
+"""Decks in memory. Groups and keys are those of the library."""
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping
 from numbers import Integral, Real
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from . import names
 from .library import keys, reals
-
-# Names of functions for kinds whose own name says too little in Python.
-KINDS_BY_NAME = {"wave_sum": "sum"}
+from .surfaces import Surface, unknown
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Surface:
-    """A surface: keys of &surface, heights in memory, and the unit of length of its file, if it names one."""
-
-    keys: dict
-    heights: np.ndarray | None = None
-    length_unit: str | None = None
-    folder: object = None   # of a file that was made, which lives as long as the surface
-
-    def __repr__(self):
-        shape = "" if self.heights is None else f"array of shape {self.heights.shape}, "
-        return f"Surface({shape}{', '.join(f'{key}={value!r}' for key, value in self.keys.items())})"
-
-
-def heights(h, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
+def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
     """A surface of heights in memory.
 
     h: heights [length] upwards to the other body, shape (y, x) or, of a profile, (x,). NaN and masked values are
@@ -38,46 +23,12 @@ def heights(h, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
     h = reals(h)
     if h.ndim not in (1, 2) or h.size == 0:
         raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
-    return Surface({"kind": "file", "file": "heights", **keys_of_maps}, np.atleast_2d(h), length_unit)
+    return Surface(names.file(file="heights", **keys_of_maps).keys, np.atleast_2d(h), length_unit)
 
 
-def maker_of_kind(name):
-    """The function that makes surfaces of a kind, described by the library; AttributeError if there is no such kind."""
-    kind = KINDS_BY_NAME.get(name, name)
-    of_surface = keys()["surface"]
-    if kind not in of_surface["kind"]["choices"]:
-        raise AttributeError(f"module 'wavycon' has no attribute '{name}'")
-    own = [key for key in of_surface.values() if kind in key.get("read_by", ())]
-
-    def make(**given) -> Surface:
-        return Surface({"kind": kind, **given})
-
-    meaning = re.search(rf"'{kind}': (.*?)\.(?= '|$)", of_surface["kind"]["meaning"])
-    make.__doc__ = (meaning[1] if meaning else kind) + ".\n\n" + "\n".join(describe(key) for key in own)
-    make.__name__ = make.__qualname__ = name
-    make.__signature__ = inspect.Signature(
-        [inspect.Parameter(key["name"], inspect.Parameter.KEYWORD_ONLY, default=Default(key["default"]))
-         for key in own], return_annotation=Surface)
-    return make
-
-
-class Default(str):
-    """A default as a deck would give it, for signatures."""
-
-    __repr__ = str.__str__
-
-
-def describe(key):
-    """A key in a line, for docstrings."""
-    unit = f" [{key['unit']}]" if key["unit"] else ""
-    choices = f" One of {', '.join(map(repr, key['choices']))}." if "choices" in key else ""
-    default = f" Default: {key['default']}." if key["default"] else ""
-    return f"{key['name']}{unit}: {key['meaning']}{choices}{default}"
-
-
-def sort_keys(given: Mapping) -> dict:
+def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Keys by groups: a mapping under the name of a group has keys of it; others belong to the group that has them."""
-    groups: dict = {}
+    groups: dict[str, dict[str, Any]] = {}
     others = {group: known for group, known in keys().items() if group != "surface"}
     for name, value in given.items():
         if isinstance(value, Mapping) and name in others:
@@ -92,12 +43,19 @@ def sort_keys(given: Mapping) -> dict:
     return groups
 
 
-def unknown(what, name, names):
-    near = difflib.get_close_matches(name, names, 1)
-    return f"there is no {what} '{name}'" + (f"; did you mean '{near[0]}'?" if near else "")
+def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The groups of a deck of a surface and of options as of solve."""
+    if not isinstance(surface, Surface):
+        raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}")
+    groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
+    unit = groups["scene"].setdefault("length_unit", surface.length_unit)
+    if surface.length_unit not in (None, unit):
+        raise ValueError(f"the lengths of this surface are in {surface.length_unit}, and length_unit={unit!r} would "
+                         "only rename them: leave it out, or give it to the function that made the surface")
+    return groups
 
 
-def deck_text(groups: Mapping) -> str:
+def deck_text(groups: Mapping[str, Mapping[str, Any]]) -> str:
     """The text of a deck. Keys that are None are left out, and groups of nothing else."""
     lines = []
     for group, given in groups.items():
@@ -107,7 +65,7 @@ def deck_text(groups: Mapping) -> str:
     return "\n".join(lines) + "\n"
 
 
-def value_text(value, in_list=False) -> str:
+def value_text(value: object, in_list: bool = False) -> str:
     """A value as a deck has it."""
     if isinstance(value, (np.ndarray, np.generic)):
         value = value.tolist()

@@ -1,21 +1,28 @@
 """Files of instruments, read by SurfaceTopography; files that are written."""
+from __future__ import annotations
+
 import argparse
 import contextlib
 import os
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
+from typing import IO, Any, cast
 
 import numpy as np
 
-from .deck import Surface, deck_text, heights
-from .library import reals, tell
+from . import names
+from .deck import deck_text, heights
+from .library import Array, need, reals, tell
+from .surfaces import Surface
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
 
 
-def read(file, channel: str | int | None = None, *, length_unit: str | None = None, **keys_of_maps) -> Surface:
+def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
+         **keys_of_maps: names.Unpack[names.Map]) -> Surface:
     """A surface from a file of any format that SurfaceTopography opens, with the sides and the unit of the file.
 
     channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
@@ -27,46 +34,42 @@ def read(file, channel: str | int | None = None, *, length_unit: str | None = No
     if os.path.isfile(file) and first_bytes(file).startswith(b"Gwyddion Simple Field 1."):
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: a file .gsf has one, which has no name")
-        return Surface({"kind": "file", "file": os.path.abspath(file), **keys_of_maps}, None, length_unit)
+        return Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
     x, z, sides, unit = open_file(file, channel, length_unit)
     for key, side in sides.items():
         if side is not None and keys_of_maps.get(key) is not None:
             raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
     if x is None:
-        given = {key: side for key, side in sides.items() if side is not None}
-        return heights(z, length_unit=unit, **given, **keys_of_maps)
+        given = {**keys_of_maps, **{key: side for key, side in sides.items() if side is not None}}
+        return heights(z, length_unit=unit, **cast(names.Map, given))
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
     folder = tempfile.TemporaryDirectory(prefix="wavycon-")
     profile = Path(folder.name, "profile.txt")
     write_profile(profile, x, z)
-    return Surface({"kind": "file", "file": str(profile), **keys_of_maps}, None, unit, folder)
+    return Surface(names.file(file=str(profile), **keys_of_maps).keys, None, unit, folder)
 
 
-def open_file(file, channel, unit=None):
+def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,
+              ) -> tuple[Array | None, Array, dict[str, float | None], str | None]:
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
     heights (y, x) or (x,), NaN where they are missing, the sides as keys, None where the file lacks them, and the unit
     (None: unknown). Errors: ValueError for what SurfaceTopography cannot read."""
     if os.path.isfile(file) and first_bytes(file).startswith(b"\x93NUMPY"):
         # SurfaceTopography takes the first index of an array for x, the program for y.
         return None, reals(np.load(file)), dict.fromkeys(("length_x", "length_y")), unit
-    try:
-        from SurfaceTopography import open_topography
-    except ImportError as error:
-        is_absent = isinstance(error, ModuleNotFoundError) and error.name == "SurfaceTopography"
-        raise ImportError("files of instruments need SurfaceTopography: pip install 'wavycon[files]'" if is_absent else
-                          f"SurfaceTopography is installed, but cannot be imported: {error}") from error
+    opened = need("SurfaceTopography", "files").open_topography
     if not os.path.isfile(file):
         raise FileNotFoundError(f"{file}: there is no such file")
     try:
-        with open_topography(os.fspath(file)) as reader:
+        with opened(os.fspath(file)) as reader:
             info = choose([one for one in reader.channels if one.unit is None or isinstance(one.unit, str)], channel)
             known = info.physical_sizes is not None
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
             if unit and topography.unit:
                 topography = topography.to_unit(unit)
-            z = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
+            z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             x = None if topography.is_uniform else np.asarray(topography.positions())
-            sides = map(float, topography.physical_sizes) if known else (None,)*info.dim
+            sides = list(map(float, topography.physical_sizes)) if known else [None]*info.dim
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {type(error).__name__}: "
@@ -74,32 +77,33 @@ def open_file(file, channel, unit=None):
     return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
 
 
-def first_bytes(file, number=32):
+def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
     with open(file, "rb") as opened:
         return opened.read(number)
 
 
-def formats(error):
+def formats(error: Exception) -> str:
     """The formats that can be read, in words behind the error that a file has none of them."""
     if type(error).__name__ != "CannotDetectFileFormat":
         return ""
-    from SurfaceTopography.IO import readers
+    readers = need("SurfaceTopography.IO", "files").readers
     return f"; the formats that can be read are gsf, {', '.join(sorted(one.format() for one in readers))}"
 
 
-def choose(channels, channel):
-    names = [one.name for one in channels]
+def choose(channels: list[Any], channel: str | int | None) -> Any:
+    titles = [one.name for one in channels]
     if channel is None:
         channel = 0
-    if isinstance(channel, str) and channel in names:
-        return channels[names.index(channel)]
+    if isinstance(channel, str) and channel in titles:
+        return channels[titles.index(channel)]
     if isinstance(channel, int) and 0 <= channel < len(channels):
         return channels[channel]
-    raise ValueError(f"there is no channel {channel!r}; there are {', '.join(map(repr, names))}")
+    there_are = ", ".join(f"{place} {name!r}" for place, name in enumerate(titles))
+    raise ValueError(f"there is no channel {channel!r}; there are {there_are or 'none of heights'}")
 
 
 @contextlib.contextmanager
-def written(path, begin=b"", *inputs):
+def written(path: str, begin: bytes = b"", *inputs: str) -> Iterator[IO[bytes]]:
     """A binary file that takes the place of `path` when it is complete. It replaces no input, no directory and no file
     that begins in another way; a pipe or a device is written into. Errors: OSError."""
     if os.path.exists(path) and not os.path.isfile(path):
@@ -121,22 +125,22 @@ def written(path, begin=b"", *inputs):
         raise
 
 
-def write_profile(path, x, z):
+def write_profile(path: str | Path | IO[bytes], x: Any, z: Array) -> None:
     np.savetxt(path, np.column_stack([x, z]), fmt="%.17g")
 
 
-def write_gsf(file, z, sides, unit):
+def write_gsf(file: IO[bytes], z: Array, sides: dict[str, float | None], unit: str | None) -> None:
     """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32. The
     heights are written over their mean, which may be so large that float32 does not tell them apart."""
     head = "Gwyddion Simple Field 1.0\n"
     lines = {"XRes": z.shape[1], "YRes": z.shape[0], "XReal": sides.get("length_x"), "YReal": sides.get("length_y"),
              "XYUnits": unit, "ZUnits": unit}
     head += "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
-    head = head.encode()
-    file.write(head + bytes(4 - len(head) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
+    start = head.encode()
+    file.write(start + bytes(4 - len(start) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
 
 
-def convert(arguments=None) -> None:
+def convert(arguments: list[str] | None = None) -> None:
     """The command wavycon-convert."""
     parser = argparse.ArgumentParser(prog="wavycon-convert", description="Converts a file of an instrument to one that "
                                      "decks of wavycon read.")
@@ -158,7 +162,7 @@ def convert(arguments=None) -> None:
             raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
         with written(given.map, BEGINNINGS[kind], given.file) as file:
             if kind == ".txt":
-                write_profile(file, np.arange(z.size)*((sides["length_x"] or 1)/z.size) if x is None else x, z)
+                write_profile(file, np.arange(z.size)*((sides["length_x"] or 1.0)/z.size) if x is None else x, z)
             elif kind == ".npy":
                 np.save(file, z)
             else:

@@ -3,23 +3,30 @@
 Errors are exceptions: ValueError for what is wrong in a call, OSError for files and memory, with the library's message.
 """
 import functools
+import importlib
 import json
 import sys
 import threading
 import warnings
 from ctypes import CDLL, CFUNCTYPE, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
+
+Array: TypeAlias = npt.NDArray[np.float64]
+Rows: TypeAlias = npt.NDArray[Any]   # of tables: structured arrays
 
 TEXT, POINTER = c_char_p, c_void_p
 PROGRESS = CFUNCTYPE(c_int, POINTER, c_int, c_double)
 # Result and arguments of each function behind the error object. Functions that return pointers make objects.
-FUNCTIONS = {
+FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "new_scene": (POINTER, [TEXT, TEXT, c_int, c_int, c_int, POINTER]),
     "read_scene": (POINTER, [TEXT, TEXT, c_int]),
     "set_progress": (c_int, [POINTER, PROGRESS, POINTER]),
     "set_threads": (c_int, [c_int]),
+    "solve": (POINTER, [POINTER, TEXT, c_double]),
     "solve_load": (POINTER, [POINTER, c_int]),
     "get": (c_int, [POINTER, TEXT, POINTER]),
     "get_text": (c_size_t, [POINTER, TEXT, POINTER, c_size_t]),
@@ -50,25 +57,20 @@ class Note(UserWarning):
 class Handle:
     """An object of the library, which ends with this one."""
 
-    def __init__(self, pointer):
+    def __init__(self, pointer: int | None) -> None:
         self._as_parameter_ = POINTER(pointer)
 
-    def __del__(self, delete=lib.wavycon_delete):
+    def __del__(self, delete: Any = lib.wavycon_delete) -> None:
         delete(byref(self._as_parameter_))
 
 
-class _ThreadErrors(threading.local):
-    """Each thread has an error object of its own."""
-
-    def __init__(self):
-        self.error = Handle(lib.wavycon_new_error())
+_own = threading.local()   # each thread has an error object of its own
 
 
-_own = _ThreadErrors()
-
-
-def call(name, *arguments):
+def call(name: str, *arguments: Any) -> Any:
     """Calls a function by its name without 'wavycon_', without its first argument."""
+    if not hasattr(_own, "error"):
+        _own.error = Handle(lib.wavycon_new_error())
     answer = functions[name](_own.error, *arguments)
     code = lib.wavycon_get_code(_own.error)
     if code:
@@ -78,21 +80,22 @@ def call(name, *arguments):
     return Handle(answer) if FUNCTIONS[name][0] is POINTER else answer
 
 
-def number(thing, name):
+def number(thing: Handle, name: str) -> float:
     value = c_double()
     call("get", thing, name.encode(), byref(value))
     return value.value
 
 
-def text(thing, name):
+def text(thing: Handle | None, name: str) -> str:
     buffer = create_string_buffer(call("get_text", thing, name.encode(), None, 0))
     call("get_text", thing, name.encode(), buffer, len(buffer))
     return buffer.value.decode()
 
 
-def tell(notes):
+def tell(notes: list[str]) -> list[str]:
     """Warns of notes, at the line that called this package; returns them."""
-    frame, level = sys._getframe(), 1
+    frame: Any = sys._getframe()
+    level = 1
     while frame.f_globals.get("__package__") == __package__ and frame.f_back:
         frame, level = frame.f_back, level + 1
     for note in notes:
@@ -100,35 +103,53 @@ def tell(notes):
     return notes
 
 
-def table(solution, name, load):
+def table(solution: Handle, name: str, load: int) -> tuple[Rows, dict[str, str]]:
     """A table of a solution, the load of this number, as a structured array, and the units of its columns."""
     handle = call("new_table", solution, name.encode())
     words = np.array(text(handle, "words").splitlines() or [""])
     units = dict(column.rstrip("]").split("[") for column in text(handle, "columns").splitlines())
-    kinds = [words.dtype if unit == "word" else int if column == "load" else float for column, unit in units.items()]
+    kinds: list[Any] = [words.dtype if unit == "word" else int if column == "load" else float
+                        for column, unit in units.items()]
     rows = np.empty(int(number(handle, "rows")), list(zip(units, kinds)))
     values = np.empty(len(rows))
     for column, unit in units.items():
         call("get_column", handle, column.encode(), len(rows), address(values))
         rows[column] = words[values.astype(int) - 1] if unit == "word" else load if column == "load" else values
-    return rows, units
+    return locked(rows), units
 
 
-def reals(array, *, shape=None):
+def reals(array: npt.ArrayLike, *, shape: tuple[int, ...] | None = None) -> Array:
     """An array of real numbers, contiguous doubles, masked ones NaN. Errors: ValueError for anything else."""
-    array = np.ma.asanyarray(array)
-    if array.dtype.kind not in "biuf":
-        raise ValueError(f"an array of real numbers is needed, got numbers of the type {array.dtype}")
-    array = np.ma.filled(array.astype(float), np.nan)   # a copy
-    return np.asarray(array if shape is None else np.broadcast_to(array, shape), order="C")
+    given: Any = np.ma.asanyarray(array)
+    if given.dtype.kind not in "biuf":
+        raise ValueError(f"an array of real numbers is needed, got numbers of the type {given.dtype}")
+    filled: Array = np.ma.filled(given.astype(float), np.nan)   # a copy
+    return np.asarray(filled if shape is None else np.broadcast_to(filled, shape), order="C")
 
 
-def address(array):
+def locked(array: Rows) -> Rows:
+    """The array, which can be read alone: what a result has is not changed by chance."""
+    array.flags.writeable = False
+    return array
+
+
+def need(name: str, extra: str) -> Any:
+    """Another package. Errors: ImportError that says what to install."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        package = name.split(".")[0]
+        is_absent = isinstance(error, ModuleNotFoundError) and error.name in (package, name)
+        raise ImportError(f"this needs {package}: pip install 'wavycon[{extra}]'" if is_absent else
+                          f"{package} is installed, but cannot be imported: {error}") from error
+
+
+def address(array: Array) -> int:
     """Where the numbers of an array are; the array must outlive it."""
     return array.ctypes.data
 
 
 @functools.cache
-def keys() -> dict:
+def keys() -> dict[str, dict[str, dict[str, Any]]]:
     """All keys of decks: keys()[group][key] has type, unit, default, bounds, choices and meaning."""
     return {group["name"]: {key["name"]: key for key in group["keys"]} for group in json.loads(text(None, "keys"))}

@@ -1,64 +1,106 @@
-"""Pictures by matplotlib, on Axes that are given or made: methods of Result and Results."""
+"""Pictures by matplotlib, on Axes that are given or made: methods of Result and Results. Pressures without a unit are
+drawn over p*, gaps over Delta, the mean gap before load."""
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
+from .library import need
+from .surfaces import unknown
 
-def axes(ax):
-    if ax is None:
-        import matplotlib.pyplot
-        ax = matplotlib.pyplot.subplots(layout="constrained")[1]
-    return ax
+if TYPE_CHECKING:
+    from .results import Facts, Result, Results
 
-
-def label(facts, column):
-    unit = facts["units"].get(column, "-")
-    return column.replace("_", " ") + ("" if unit in ("-", "word") else f" [{unit}]")
+UNRESOLVED = 4   # the status code; from 10 on loads were not solved as requested
+PLACES = ("x", "y", "depth", "distance")
 
 
-def plot(results, y="contact_area_fraction", x="mean_pressure", ax=None, **style):
+def axes(ax: Any) -> Any:
+    return need("matplotlib.pyplot", "plot").subplots(layout="constrained")[1] if ax is None else ax
+
+
+def scaled(facts: Facts, column: str) -> tuple[float, str]:
+    """The factor by which a column is drawn, and its label."""
+    unit, factor, words = facts.unit(column), 1.0, column.replace("_", " ")
+    if unit == "pressure" and facts.p_star > 0:
+        unit, factor = "p*", 1/facts.p_star
+    elif unit == "length" and column not in PLACES and facts.amplitude > 0:
+        unit, factor = "\u0394", 1/facts.amplitude
+    unit = re.sub(r"\bum\b", "\u00b5m", unit).replace("^2", "\u00b2").replace("*", "" if unit == "p*" else " ")
+    return factor, f"{words} [{'p*' if unit == 'p' else unit}]" if unit else words
+
+
+def title(result: Result) -> str:
+    """The load, and what is wrong with it."""
+    factor, words = scaled(result._facts, "mean_pressure")
+    name, _, unit = words.partition(" [")
+    status = "" if result.status_code < UNRESOLVED else f", {result.status.replace('_', ' ')}"
+    return f"{name} {factor*result.mean_pressure:.4g} {unit.rstrip(']')}{status}"
+
+
+def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pressure", ax: Any = None,
+         **style: Any) -> Any:
     """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not given,
-    and returns these. Loads that were not solved as requested are open symbols. style: as of errorbar."""
-    ax, summary, facts = axes(ax), results.table("summary"), results._facts
-    error = summary[f"{y}_error"] if f"{y}_error" in summary.dtype.names else None
-    order = np.argsort(summary[x])
-    line = ax.errorbar(summary[x][order], summary[y][order], None if error is None else np.nan_to_num(error[order]),
-                       **{"marker": "o", "capsize": 2, **style})[0]
-    bad = summary[summary["status_code"] >= 10]
-    ax.plot(bad[x], bad[y], "o", color=line.get_color(), markerfacecolor="white", zorder=3)
-    ax.set(xlabel=label(facts, x), ylabel=label(facts, y))
+    and returns these. Loads that are not resolved or not solved as requested are open symbols, those whose error is
+    not known too. style: as of errorbar."""
+    names = results.table().dtype.names or ()
+    for column in x, y:
+        if column not in names:
+            raise ValueError(unknown("column", column, names))
+    ax = axes(ax)
+    (factor_x, label_x), (factor_y, label_y) = scaled(results._facts, x), scaled(results._facts, y)
+    values = factor_y*results[y]
+    error = factor_y*results[f"{y}_error"] if f"{y}_error" in names else np.zeros(len(values))
+    order = np.argsort(results[x])
+    across, values, error = factor_x*results[x][order], values[order], error[order]
+    line = ax.errorbar(across, values, np.nan_to_num(error), **{"marker": "o", "capsize": 2, **style})[0]
+    is_open = (results.status_code[order] >= UNRESOLVED) | np.isnan(error)
+    if is_open.any():
+        ax.plot(across[is_open], values[is_open], "o", color=line.get_color(), markerfacecolor="white", zorder=3,
+                label="not resolved")
+        ax.legend()
+    ax.set(xlabel=label_x, ylabel=label_y)
     return ax
 
 
-def plot_map(result, field="pressure", ax=None, **style):
+def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: Any) -> Any:
     """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these.
     style: options of pcolormesh, for a profile of plot."""
-    ax, x, values = axes(ax), result.x, result._fields[field]
-    result.table("summary")
-    unit = result._facts["pressure_unit" if field == "pressure" else "length_unit"]
-    length = f"[{result._facts['length_unit']}]"
+    if field not in (fields := [name for name in result._fields if name not in PLACES]):
+        raise ValueError(unknown("field", field, fields))
+    ax, facts = axes(ax), result._facts
+    factor, words = scaled(facts, field)
+    values, (x, y) = factor*result._fields[field], (scaled(facts, axis)[1] for axis in "xy")
+    ax.set_title(title(result))
     if len(values) == 1:
-        ax.plot(x, values[0], **style)
-        ax.set(xlabel=f"x {length}", ylabel=f"{field} [{unit}]")
+        ax.plot(result.x, values[0], **style)
+        ax.set(xlabel=x, ylabel=words)
         return ax
-    if field == "pressure":
-        values = np.ma.masked_equal(values, 0)   # no contact is no colour
-    return mesh(ax, x, result.y, values, f"{field} [{unit}]", xlabel=f"x {length}", ylabel=f"y {length}",
-                aspect="equal", style=style)
+    if field != "displacement":
+        values = np.ma.masked_equal(values, 0)   # where the bodies are apart, or touch, there is no colour
+    return mesh(ax, result.x, result.y, values, words, xlabel=x, ylabel=y, aspect="equal", style=style)
 
 
-def plot_stress_section(result, column="von_mises", ax=None, **style):
+def plot_stress_section(result: Result, column: str = "von_mises", ax: Any = None, **style: Any) -> Any:
     """Draws a column of the table 'stress_section', which needs stress={...} in the solve, on a vertical section
     through the crest, on matplotlib's Axes, and returns these. style: options of pcolormesh."""
     rows, facts = result.table("stress_section"), result._facts
+    if column not in (rows.dtype.names or ()):
+        raise ValueError(unknown("column", column, rows.dtype.names or ()))
     rows = rows[rows["body"] == 1]
     depth, distance = np.unique(rows["depth"]), np.unique(rows["distance"])
-    values = rows[column].reshape(len(depth), len(distance))
-    ax = mesh(axes(ax), distance, depth, values, label(facts, column), xlabel=label(facts, "distance"),
-              ylabel=label(facts, "depth"), style=style)
+    factor, words = scaled(facts, column)
+    values = factor*rows[column].reshape(len(depth), len(distance))
+    ax = mesh(axes(ax), distance, depth, values, words, xlabel=scaled(facts, "distance")[1],
+              ylabel=scaled(facts, "depth")[1], style={"shading": "gouraud", **style})
+    ax.set_title(title(result))
     ax.yaxis.set_inverted(True)
     return ax
 
 
-def mesh(ax, x, y, values, words, *, style, **axis):
+def mesh(ax: Any, x: Any, y: Any, values: Any, words: str, *, style: dict[str, Any], **axis: Any) -> Any:
     picture = ax.pcolormesh(x, y, values, **{"shading": "nearest", "rasterized": True, **style})
     ax.figure.colorbar(picture, ax=ax, label=words)
     ax.set(**axis)

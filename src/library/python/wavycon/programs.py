@@ -1,4 +1,6 @@
 """Runs of the program, many at a time."""
+from __future__ import annotations
+
 import contextlib
 import csv
 import importlib.metadata
@@ -8,11 +10,19 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
-from .deck import value_text
+import numpy as np
+
+from .deck import deck_text, groups_of, value_text
+from .library import keys, need
+from .names import Options, Unpack
+from .progress import new_bar
+from .surfaces import Surface, unknown
 
 
 def program() -> str:
@@ -27,29 +37,41 @@ def program() -> str:
     return path
 
 
-def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directory=None):
-    """Runs a deck once for each combination of values of its keys, several runs at a time, each a process.
+def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[Any, Surface],
+          values: Mapping[str, Iterable[object]] = MappingProxyType({}), jobs: int | None = None,
+          directory: str | os.PathLike[str] | None = None, **options: Unpack[Options]) -> Any:
+    """Solves a deck, or surfaces, once for each combination of values of keys, several at a time, each in a process.
 
-    values: such as {"surface.seed": range(50), "load.mean_pressure": [1e6, 1e7]}; each value, a number, a text or a
-    list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless given.
-    directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
+    what: the file of a deck; or a surface, a list of surfaces, or a dictionary of them by names, with options as of
+    solve. values: such as {"surface.seed": range(50), "load.mean_pressure": [1e6, 1e7]}; each value, a number, a text
+    or a list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless
+    given. directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
 
-    Returns a frame of pandas: a row for each run and load, with the values, the columns of the summary, and message, what
-    the program notes of the run. A run that failed is a row with the status 'failed' and the message of the program.
+    Returns a frame of pandas: a row for each run and load, with the name or number of the surface if there are several,
+    the values, the columns of the summary, whose units are in frame.attrs["units"], and message, what the program
+    notes of the run. A run that failed is a row with the status 'failed' and the message of the program. An unknown
+    key is a ValueError before anything starts.
     """
-    import pandas
-    combinations = [dict(zip(values, one)) for one in itertools.product(*values.values())]
-    command = [program(), os.fspath(deck)]
-    started: list = []
+    pandas = need("pandas", "frames")
+    known = [f"{group}.{key}" for group, own in keys().items() for key in own]
+    for key in values:
+        if str(key).lower() not in known:
+            raise ValueError(unknown("key", key, known))
+    points = [dict(zip(values, one)) for one in itertools.product(*values.values())]
+    units: dict[str, str] = {}
+    started: list[subprocess.Popen[str]] = []
     with tempfile.TemporaryDirectory() as own:
         # From version 3 on pandas reads numbers exactly by itself, and warns of the argument.
         exact = {"float_precision": "round_trip"} if int(pandas.__version__.split(".")[0]) < 3 else {}
+        decks = list(decks_of(what, own, options))
+        combinations = [(deck, title, point) for deck, title in decks for point in points]
 
-        def run(number):
-            settings, table = combinations[number], Path(own, f"{number}.dat")
+        def run(number: int) -> Any:
+            deck, title, settings = combinations[number]
+            table = Path(own, f"{number}.dat")
             sets = [f"--set={key}={value_text(value)}" for key, value in settings.items()]
             output = Path(directory or own, "" if directory else str(number))
-            with subprocess.Popen([*command, *sets, f"--output={output}", f"--table={table}"], text=True,
+            with subprocess.Popen([program(), deck, *sets, f"--output={output}", f"--table={table}"], text=True,
                                   errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE) as process:
                 started.append(process)
@@ -57,17 +79,21 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             if table.exists():
                 # The head of a deck that did not fail: version, units.
-                rows = pandas.read_csv(table, sep=r"\s+", skiprows=2, quoting=csv.QUOTE_NONE, **exact).loc[:, "load":]
+                rows = pandas.read_csv(table, sep=r"\s+", skiprows=2, quoting=csv.QUOTE_NONE, **exact)
+                labels = table.read_text(encoding="utf-8").splitlines()[1].strip("# ").split()
+                units.update({column: label.strip("[]") for column, label in zip(rows, labels)})
+                rows = rows.loc[:, "load":]
             else:
                 rows = pandas.DataFrame({"status": ["failed"]})
                 message = message or f"the program ended with the status {process.returncode}"
-            for place, (key, value) in enumerate(settings.items()):
+            for place, (key, value) in enumerate({**title, **settings}.items()):
                 rows.insert(place, key, [value]*len(rows))
             return rows.assign(message=message)
 
         with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
             try:
-                frames = list(progress(pool.map(run, range(len(combinations))), len(combinations)))
+                runs = pool.map(run, range(len(combinations)))
+                frames = list(new_bar(len(combinations), "run", runs) or runs)
             finally:
                 # After an interruption: those that have ended are left alone.
                 pool.shutdown(wait=False, cancel_futures=True)
@@ -75,12 +101,25 @@ def sweep(deck, values: Mapping[str, Iterable], jobs: int | None = None, directo
                     process.terminate()
     if not frames:
         raise ValueError("there are no values, so there is no run")
-    return pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
+    frame = pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
+    frame.attrs["units"] = {column: units[column] for column in frame if column in units}
+    return frame
 
 
-def progress(steps, number):
-    """The steps, with a bar where tqdm is installed."""
-    with contextlib.suppress(ImportError):
-        from tqdm.auto import tqdm
-        return tqdm(steps, total=number, unit="run")
-    return steps
+def decks_of(what: Any, folder: str, options: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, object]]]:
+    """The files of decks of a sweep, each with its part of a row. Those of surfaces are written to the folder."""
+    if isinstance(what, (str, os.PathLike)):
+        if options:
+            raise ValueError(f"the deck has its own keys: give values for {', '.join(options)}")
+        yield os.fspath(what), {}
+        return
+    surfaces = what if isinstance(what, Mapping) else {0: what} if isinstance(what, Surface) else dict(enumerate(what))
+    for number, (name, surface) in enumerate(surfaces.items()):
+        groups = groups_of(surface, options)
+        if surface.heights is not None:
+            place = os.path.join(folder, f"heights{number}.npy")
+            np.save(place, surface.heights)
+            groups["surface"] = {**groups["surface"], "file": place}
+        deck = Path(folder, f"surface{number}.nml")
+        deck.write_text(deck_text(groups), encoding="utf-8")
+        yield str(deck), {"surface": name} if len(surfaces) > 1 else {}

@@ -1,0 +1,157 @@
+"""Solving: loads of surfaces, of decks, one after the other; bounds."""
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import library
+from .deck import deck_text, groups_of, value_text
+from .library import Handle, address, call, keys, reals
+from .names import Load, Options, Settings, Unpack
+from .progress import Watch
+from .results import Facts, Result, Results, note_news
+from .surfaces import Surface
+
+
+def solve(surface: Surface, *, keep_fields: bool = True, progress: bool = True, **options: Unpack[Options]) -> Results:
+    """Solves loads of a surface.
+
+    options: keys of decks without their groups, such as e_star, e1, nu1 [pressure], accuracy, length_unit; the loads, a
+    number or a list, are one of pbar_over_pstar, mean_pressure [pressure], mean_gap [length], contact_area_fraction and
+    so on; groups as dictionaries, such as stress={"nu": 0.3}. help(wavycon.Settings) and help(wavycon.Load) have all.
+    The solver is 'auto' unless one is given. keep_fields: False for results without fields, contours and stresses,
+    which are smaller. progress: whether what takes longer than a second shows a bar where tqdm is installed.
+
+    A load that cannot be solved as requested has a status. What is wrong in the options is a ValueError. What a user
+    should know of the surface and the results is a warning, Note, and in the results' notes. Ctrl-C ends a solve in the
+    main thread.
+    """
+    return solve_deck(scene_of(surface, options, keep_fields, needs_load=True), progress)
+
+
+class Bounds(NamedTuple):
+    """Guaranteed bounds of the contact of a surface, each (lower, upper); NaN where there is no bound."""
+
+    energy: tuple[float, float]     # complementary energy [pressure*length^3, of a profile pressure*length^2]
+    approach: tuple[float, float]   # [length]
+    mean_gap: tuple[float, float]   # [length]
+
+
+def certify(surface: Surface, pressure: npt.ArrayLike, gap: npt.ArrayLike, *, mean_pressure: float,
+            **options: Unpack[Settings]) -> Bounds:
+    """Guaranteed bounds of the contact of a surface under a mean pressure, from any pressure and gap, also those of
+    another code. They hold for the surface itself, not for its points, and whatever is given: the right answer makes
+    them close, a wrong one makes them wide.
+
+    pressure [pressure], gap [length]: of the shape (y, x) or, of a profile, (x,), at equal steps over the whole
+    surface, of a height map at its own points or at more. The first point is at x = y = 0, that of a map with
+    edges="mirror" half a step further. Negative pressures count as 0, and so do negative gaps unless there is a
+    hardness; the pressure is scaled to the mean. options: as of solve, such as e_star.
+
+        one = wc.solve(surface, e_star=2e11, mean_pressure=1e7)[0]
+        wc.certify(surface, one.pressure, one.gap, e_star=2e11, mean_pressure=1e7).mean_gap
+    """
+    p, g = np.atleast_2d(reals(pressure), reals(gap))
+    if p.ndim != 2 or p.shape != g.shape:
+        raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {p.shape} and {g.shape}")
+    scene = scene_of(surface, {"mean_pressure": mean_pressure, **options}, keep_fields=False)
+    library.tell(library.text(scene, "notes").splitlines())
+    bounds = np.empty((3, 2))
+    call("get_bounds", scene, mean_pressure, *p.shape[::-1], *map(address, (p, g, bounds)))
+    return Bounds(*((float(lower), float(upper)) for lower, upper in bounds))
+
+
+class Problem:
+    """A surface that is solved for many loads, one after the other: heights, grids and plans stay.
+
+        with wc.problem(wc.wave_2d(), e_star=2e11) as p:
+            areas = p.solve(mean_pressure=[1e7, 1e8]).contact_area_fraction
+            needed = p.find(contact_area_fraction=0.3).mean_pressure
+
+    settings: as of solve, without loads. The end of `with` lets go of the solver; results stay.
+    """
+
+    def __init__(self, surface: Surface, *, keep_fields: bool = True, **settings: Unpack[Settings]) -> None:
+        if "load" in groups_of(surface, settings):
+            raise ValueError("loads belong to the solve of a problem")
+        self._scene: Handle | None = scene_of(surface, settings, keep_fields)
+        self._facts = Facts.of_scene(self._scene)
+
+    def __enter__(self) -> Problem:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._scene = None
+
+    def solve(self, *, progress: bool = True, **load: Unpack[Load]) -> Results:
+        """Solves loads, a number or a list of one key of &load, such as mean_pressure=[1e6, 1e7]. A solver may start
+        from the load before, so that last digits depend on it."""
+        if self._scene is None:
+            raise ValueError("this problem has ended with its `with`")
+        if len(load) != 1:
+            raise ValueError(f"give the loads by one of {', '.join(keys()['load'])}")
+        given: Any
+        (name, given), = load.items()
+        values = np.atleast_1d(reals(given))
+        if values.ndim != 1 or not values.size:
+            raise ValueError(f"{name} must be a number or a list of numbers")
+        # From high to low loads, as the program solves them.
+        order = np.argsort(values if name.startswith("mean_gap") else -values, kind="stable") + 1
+        return solve_all(self._scene, self._facts, order.tolist(), progress,
+                         lambda scene, load: call("solve", scene, name.encode(), values[load - 1]))
+
+    def find(self, **load: Unpack[Load]) -> Result:
+        """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3."""
+        return self.solve(**load)[0]
+
+
+problem = Problem
+
+
+def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool, needs_load: bool = False) -> Handle:
+    """The scene of a surface and of options as of solve."""
+    groups = groups_of(surface, options)
+    if needs_load and not groups.get("load"):
+        raise ValueError(f"there is no load: give one of {', '.join(keys()['load'])}")
+    rows, columns = (0, 0) if surface.heights is None else surface.heights.shape
+    heights = None if surface.heights is None else address(surface.heights)
+    deck = deck_text(groups).encode()
+    scene: Handle = call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows, heights)
+    return scene
+
+
+def run(deck: str | os.PathLike[str], set: Mapping[str, object] = MappingProxyType({}), *, keep_fields: bool = True,
+        progress: bool = True) -> Results:
+    """Solves the loads of a deck file, without writing files.
+
+    set: keys in place of those of the deck, such as {"surface.amplitude": 2e-6, "load.mean_pressure": [1e6, 1e7]}.
+    """
+    settings = "\n".join(f"{key}={value_text(value)}" for key, value in set.items())
+    return solve_deck(call("read_scene", os.fsencode(deck), settings.encode(), keep_fields), progress)
+
+
+def solve_deck(scene: Handle, progress: bool) -> Results:
+    """Solves the loads of a deck in the order of the program, whose digits they have."""
+    order = [int(number) for number in library.text(scene, "order").split()]
+    return solve_all(scene, Facts.of_scene(scene), order, progress,
+                     lambda scene, load: call("solve_load", scene, load - 1))
+
+
+def solve_all(scene: Handle, facts: Facts, order: Sequence[int], progress: bool,
+              solve_one: Callable[[Handle, int], Handle]) -> Results:
+    """Solves loads, numbered from 1, in this order."""
+    loads = {}
+    with Watch(scene, len(order) if progress else 0) as watch:
+        for number in order:
+            if not watch.is_stopped:
+                loads[number] = Result(number, facts, {}, solve_one(scene, number), scene)
+                watch.solved += 1
+    for one in loads.values():
+        one.table("summary")   # which tells the units
+    note_news(scene, facts)
+    return Results([loads[number] for number in sorted(loads)], facts)

@@ -1,0 +1,390 @@
+#!/usr/bin/env python3
+"""The Python package as a part of programs: names that editors know, types, results as values, problems, progress.
+
+usage: test_values.py --program WAVYCON --package FOLDER --needs PACKAGES --environment FOLDER, as test_package.py
+
+The tests of types need mypy, those of some files h5py and xarray: they are skipped where these are not installed.
+"""
+import copy
+import importlib.util
+import inspect
+import os
+import pathlib
+import pickle
+import re
+import subprocess
+import sys
+import unittest
+import unittest.mock
+import warnings
+
+from program import ProgramTest, main, skip, take_options
+from virtual_environment import go_on_with
+
+# Half a unit of the last of the 16 digits that tables have.
+DIGITS = 1e-15
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = ROOT/"src"/"library"/"python"
+PROGRAM = """
+import wavycon as wc
+results = wc.solve(wc.wave_2d(amplitude=1e-6), e_star=2e11, mean_pressure=[1e7, 1e8], stress={"nu": 0.3})
+reveal_type(results[0])
+reveal_type(results[:1])
+reveal_type(results.mean_gap)
+reveal_type(results[0].mean_gap)
+reveal_type(results[0].status)
+reveal_type(wc.self_affine)
+"""
+REVEALED = ("Result", "Results", "float64", "float", "str", "hurst: ")
+MISTAKES = {"wc.wave_2d(amplitud=1)": "amplitud", "wc.wave_2d(amplitude='1')": "str",
+            "wc.solve(wc.wave_2d(), mean_presure=1)": "mean_presure", "wc.solve(wc.wave_2d(), solver='gird')": "gird",
+            "wc.solve(wc.wave_2d(), mean_gap=1)[0].mean_gab": "mean_gab"}
+
+
+class ValuesTest(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.addClassCleanup(os.chdir, os.getcwd())
+        os.chdir(cls.folder)
+        os.environ["PATH"] = os.path.dirname(cls.program) + os.pathsep + os.environ["PATH"]
+        warnings.simplefilter("ignore", wc.Note)
+        cls.rough = wc.self_affine(rms_slope=0.1, points=64, short_wavelength=0.125, seed=3)
+
+    def solve_rough(self, **options):
+        return wc.solve(self.rough, pbar_over_pstar=[0.05, 0.3, 0.1], **options)
+
+    def refuse(self, words, function, *arguments, error=ValueError, **options):
+        with self.subTest(words=words), self.assertRaisesRegex(error, words):
+            function(*arguments, **options)
+
+
+class Names(ValuesTest):
+    def test_functions_are_the_kinds_and_keys_of_the_library(self):
+        keys = wc.keys()["surface"]
+        for kind in keys["kind"]["choices"]:
+            function = getattr(wc, {"sum": "wave_sum"}.get(kind, kind))
+            self.assertEqual(kind, function().keys["kind"])
+            own = [key for key in keys.values() if kind in key.get("read_by", ())]
+            self.assertEqual([key["name"] for key in own], list(inspect.signature(function).parameters))
+            for key in own:
+                unit = rf" \[{re.escape(key['unit'])}\]" if key["unit"] else ""
+                self.assertRegex(function.__doc__, rf"(?m)^    {key['name']}{unit}: ")
+                if key["default"]:
+                    self.assertIn(f"Default: {key['default']}.", " ".join(function.__doc__.split()))
+
+    def test_only_keys_that_are_given_are_in_the_deck(self):
+        self.assertEqual({"kind": "hexagonal", "amplitude": 2}, wc.hexagonal(amplitude=2).keys)
+
+    def test_columns_are_those_of_the_summary(self):
+        results = self.solve_rough()
+        names = results.table().dtype.names
+        for thing in results, results[0]:
+            self.assertEqual(set(names), {name for name, _ in inspect.getmembers(type(thing), lambda one: isinstance(
+                one, property)) if name in names})
+        for name in names:
+            self.assertTrue(getattr(type(results), name).__doc__, name)
+            numpy.testing.assert_array_equal(results[name], getattr(results, name))
+            numpy.testing.assert_array_equal(results[1][name], getattr(results[1], name))
+        self.assertIn("[length] Mean gap", type(results).mean_gap.__doc__)
+
+    def test_options_are_the_keys_of_the_library(self):
+        for group, own in wc.keys().items():
+            for key in own if group not in ("surface", "scene", "output") else ():
+                owners = [one for one, known in wc.keys().items() if key in known and one != "surface"]
+                self.assertEqual(len(owners) == 1, key in wc.Options.__annotations__, key)
+        self.assertIn("e_star [pressure]: ", wc.Settings.__doc__)
+
+    def test_all_names_are_imported_by_a_star(self):
+        names = {}
+        exec("from wavycon import *", names)
+        for name in "wave_2d", "wave_sum", "solve", "problem", "Options":
+            self.assertIn(name, names)
+        self.assertLessEqual(set(wc.__all__), set(dir(wc)))
+
+    def test_a_wrong_name_is_an_error_at_once(self):
+        self.refuse("wave_2d: there is no key 'amplitud'; did you mean 'amplitude'", wc.wave_2d, amplitud=1)
+        self.refuse("'hight_scale'; did you mean 'height_scale'", wc.heights, numpy.eye(8), hight_scale=1)
+        self.refuse("positional", wc.wave_2d, 1, error=TypeError)
+        results = self.solve_rough()
+        self.refuse("'mean_gab'; did you mean 'mean_gap'", lambda: results["mean_gab"], error=KeyError)
+        self.refuse("'presure'; did you mean 'pressure'", results[0].plot_map, "presure")
+        self.refuse("'mises'|did you mean", wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, stress={"nu": 0.3})[0]
+                    .plot_stress_section, "von_mise")
+        self.refuse("'mean_pres'; did you mean 'mean_pressure'", results.plot, x="mean_pres")
+
+    def test_a_package_that_is_not_there(self):
+        with unittest.mock.patch.dict(sys.modules, {"pandas": None, "matplotlib.pyplot": None, "xarray": None,
+                                                    "h5py": None}):
+            results = self.solve_rough(keep_fields=False)
+            for name, function in {"pandas": results.to_dataframe, "matplotlib": results.plot,
+                                   "xarray": results.to_xarray, "h5py": lambda: results.save("a.h5", fields=False)}.items():
+                self.refuse(rf"this needs {name}: pip install 'wavycon\[\w+\]'", function, error=ImportError)
+        self.assertEqual([], list(self.folder.glob("*.h5")))
+
+
+@unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed: types are not checked")
+class Types(ValuesTest):
+    def mypy(self, *words, status):
+        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--config-file", ROOT/"pyproject.toml", *words],
+                              env=dict(os.environ, MYPYPATH=os.path.dirname(wc.__path__[0])), cwd=self.folder,
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(status, done.returncode, done.stdout + done.stderr)
+        return done.stdout
+
+    def test_the_package(self):
+        self.mypy("-p", "wavycon", status=0)
+
+    def test_the_pages(self):
+        for page in "README.md", "example.md", "certify.md":
+            text = "\n".join(re.findall(r"```python\n(.*?)```", (PAGES/page).read_text(encoding="utf-8"), re.DOTALL))
+            (self.folder/"page.py").write_text(text, encoding="utf-8")
+            with self.subTest(page=page):
+                self.mypy("page.py", status=0)
+
+    def test_what_a_checker_knows(self):
+        (self.folder/"known.py").write_text(PROGRAM)
+        revealed = re.findall("Revealed type is (.*)", self.mypy("known.py", status=0))
+        self.assertEqual(len(REVEALED), len(revealed))
+        for words, line in zip(REVEALED, revealed):
+            self.assertIn(words, line)
+            self.assertNotRegex(line, "^['\"]Any")
+
+    def test_what_a_checker_finds(self):
+        (self.folder/"wrong.py").write_text("import wavycon as wc\n" + "\n".join(MISTAKES))
+        found = self.mypy("wrong.py", status=1)
+        for number, words in enumerate(MISTAKES.values(), 2):
+            self.assertRegex(found, rf"wrong.py:{number}: error: .*{words}")
+
+
+class Values(ValuesTest):
+    def assert_same(self, results, again):
+        self.assertEqual(repr(results), repr(again))
+        for one, other in zip(results, again):
+            for name in "x", "y", "pressure", "gap", "displacement":
+                numpy.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+        self.assertEqual((results.deck, results.notes, results.units), (again.deck, again.notes, again.units))
+
+    def test_copies(self):
+        results = self.solve_rough()
+        results.table("spots")
+        for again in pickle.loads(pickle.dumps(results)), copy.deepcopy(results):
+            self.assert_same(results, again)
+            numpy.testing.assert_array_equal(results.table("spots"), again.table("spots"))
+            self.refuse("was not saved", again.table, "contours")
+        self.assertEqual(results[1].mean_gap, pickle.loads(pickle.dumps(results[1])).mean_gap)
+        without = self.solve_rough(keep_fields=False)
+        self.assertEqual(repr(without), repr(copy.deepcopy(without)))
+        self.refuse("was not saved", lambda: copy.deepcopy(without)[0].pressure)
+
+    def test_slices_are_results(self):
+        results = self.solve_rough()
+        self.assertIsInstance(results[1:], wc.Results)
+        self.assertEqual(results.mean_gap[::-1].tolist(), results[::-1].mean_gap.tolist())
+        self.assertEqual(results.p_star, results[:1].p_star)
+        self.assertEqual([1, 2, 3], [one.load for one in results])
+        results[1:].save("part.npz")
+        self.assertEqual([2, 3], wc.load("part.npz").load.tolist())
+
+    def test_what_a_result_has_cannot_be_changed(self):
+        results = self.solve_rough()
+        for values in results.mean_gap, results["mean_gap"], results[0].pressure, results[0].table("spots")["perimeter"]:
+            self.refuse("read-only", values.__setitem__, 0, 1)
+        for thing in results, results[0]:
+            with self.assertRaises(AttributeError):
+                thing.mean_gap = 1
+
+    def test_the_surface(self):
+        """The statistics are those of the head of the program's tables."""
+        rng = numpy.random.default_rng(1)
+        h = numpy.cos(2*numpy.pi*numpy.arange(24)/24) + 0.1*rng.normal(size=(16, 24))
+        for options in {}, {"edges": "mirror"}:
+            numpy.save("h.npy", h)
+            words = "".join(f", {key} = '{value}'" for key, value in options.items())
+            self.run_deck("h", f"&surface kind = 'file', file = 'h.npy'{words} / &load pbar_over_pstar = 0.1 /")
+            head = (self.folder/"h.summary.dat").read_text()
+            surface = wc.solve(wc.heights(h, **options), pbar_over_pstar=0.1).surface
+            for name in "rms_height", "rms_slope", "rms_curvature":
+                told = float(re.search(rf"{name}\[[^]]*\] = ([^,\s]*)", head)[1])
+                self.assertAlmostEqual(1, getattr(surface, name)/told, delta=1e-12)
+        profile = wc.solve(wc.wave_1d(amplitude=2, wavelength=3), pbar_over_pstar=0.1).surface
+        self.assertAlmostEqual(4*numpy.pi/3/2**0.5, profile.rms_slope, delta=1e-12)
+        self.assertIn("spectrum_1d", profile.spectrum.dtype.names)
+
+    def test_a_table_for_notebooks(self):
+        text = self.solve_rough(pressure_unit="<MPa>")._repr_html_()
+        self.assertEqual(4, text.count("<tr"))
+        self.assertIn("mean pressure [&lt;MPa&gt;]", text)
+        self.assertIn("converged", text)
+        self.assertNotIn("red", text)
+        failed = wc.solve(wc.wave_2d(), mean_pressure=[2, 0.5], hardness=1)._repr_html_()
+        self.assertEqual(1, failed.count("color:red"))
+
+    @unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not installed")
+    def test_files_of_hdf5(self):
+        results = self.solve_rough(length_unit="µm")
+        results.table("spots")
+        results.save("run.h5")
+        again = wc.load("run.h5")
+        self.assert_same(results, again)
+        numpy.testing.assert_array_equal(results.table("spots"), again.table("spots"))
+        (self.folder/"other.h5").write_text("a text")
+        self.refuse("is not replaced", results.save, "other.h5", error=OSError)
+
+    @unittest.skipUnless(importlib.util.find_spec("xarray"), "xarray is not installed")
+    def test_xarray(self):
+        results = self.solve_rough(pressure_unit="MPa")
+        data = results.to_xarray()
+        self.assertEqual(("load", "y", "x"), data.pressure.dims)
+        numpy.testing.assert_array_equal(results[1].gap, data.gap.sel(load=2))
+        numpy.testing.assert_array_equal(results.contact_area, data.contact_area)
+        self.assertEqual("MPa", data.mean_pressure.attrs["units"])
+        self.assertEqual("MPa", data.pressure.attrs["units"])
+        self.assertNotIn("pressure", self.solve_rough(keep_fields=False).to_xarray())
+
+
+class Pictures(ValuesTest):
+    def setUp(self):
+        self.addCleanup(matplotlib.pyplot.close, "all")
+
+    def test_loads_that_are_not_resolved_are_open(self):
+        loads = wc.solve(self.rough, pbar_over_pstar=[1e-4, 0.1, 0.3])
+        self.assertEqual(["unresolved", "converged", "converged"], loads.status.tolist())
+        ax = loads.plot()
+        # Behind the line and its error bars.
+        points = ax.lines[-1]
+        self.assertEqual(("white", [loads.contact_area_fraction[0]]), (points.get_markerfacecolor(),
+                                                                      points.get_ydata().tolist()))
+        self.assertEqual(["not resolved"], [text.get_text() for text in ax.get_legend().get_texts()])
+        self.assertIsNone(loads[1:].plot().get_legend())
+        self.assertIn("unresolved", loads[0].plot_map().get_title())
+
+    def test_units(self):
+        one = wc.solve(self.rough, e_star=2, mean_pressure=0.01, pressure_unit="MPa", length_unit="um")
+        self.assertEqual(("contact area [µm²]", "mean gap [µm]"), [(ax.get_xlabel(), ax.get_ylabel()) for ax in
+                                                                  [one.plot("mean_gap", "contact_area")]][0])
+        ax = one[0].plot_map()
+        self.assertEqual(("mean pressure 0.01 MPa", "x [µm]"), (ax.get_title(), ax.get_xlabel()))
+        # Without labels over p* and Delta.
+        plain = wc.solve(self.rough, e_star=2, mean_pressure=0.01)
+        ax = plain[0].plot_map("gap")
+        self.assertEqual(f"mean pressure {plain[0].pbar_over_pstar:.4g} p*", ax.get_title())
+        shown = ax.collections[0].get_array()
+        self.assertAlmostEqual(plain[0].gap.max()/plain.amplitude, shown.max(), delta=1e-12)
+        numpy.testing.assert_array_equal(plain[0].gap == 0, shown.mask.reshape(plain[0].gap.shape))
+
+
+class Problems(ValuesTest):
+    def test_loads_have_the_digits_of_solve(self):
+        loads = [0.02, 0.2, 0.1]
+        for surface in self.rough, wc.wave_2d(), wc.wave_1d():
+            with wc.problem(surface, e_star=3) as p:
+                found = p.solve(mean_pressure=loads)
+            again = wc.solve(surface, e_star=3, mean_pressure=loads)
+            for name in "mean_gap", "contact_area_fraction", "status":
+                numpy.testing.assert_array_equal(again[name], found[name])
+            numpy.testing.assert_array_equal(again[2].pressure, found[2].pressure)
+
+    def test_a_search(self):
+        with wc.problem(wc.wave_2d(), accuracy=1e-6) as p:
+            one = p.find(contact_area_fraction=0.3)
+            self.assertAlmostEqual(0.3, one.contact_area_fraction, delta=1e-6)
+            self.assertEqual(one.mean_pressure, p.find(mean_pressure=one.mean_pressure).mean_pressure)
+        # Results stay when the problem has ended.
+        self.assertEqual(0, one.gap.min())
+
+    def test_misuse(self):
+        self.refuse("loads belong to the solve", wc.problem, self.rough, mean_pressure=1)
+        self.refuse("did you mean 'e_star'", wc.problem, self.rough, e_sta=1)
+        with wc.problem(self.rough) as p:
+            self.refuse("did you mean 'mean_pressure'", p.solve, mean_presure=1)
+            self.refuse("by one of", p.solve)
+            self.refuse("by one of", p.solve, mean_pressure=1, mean_gap=1)
+            self.refuse("number", p.solve, mean_pressure=[[1]])
+            self.refuse("", p.solve, mean_pressure=-1)
+            self.refuse("", p.find, mean_pressure=float("nan"))
+        self.refuse("has ended", p.solve, mean_pressure=1)
+
+
+class Sweeps(ValuesTest):
+    def test_surfaces_and_loads_in_memory(self):
+        """The digits are those of solves one after the other."""
+        h = numpy.random.default_rng(1).normal(size=(16, 24))
+        h[2, 3] = numpy.nan
+        surfaces = {"rough": self.rough, "map": wc.heights(h, fill_missing="harmonic", length_x=2, edges="mirror")}
+        loads = [0.2, 0.05]
+        frame = wc.sweep(surfaces, {"load.pbar_over_pstar": [loads, 0.1]}, 2, e_star=3, pressure_unit="MPa")
+        self.assertEqual(6, len(frame))
+        for name, surface in surfaces.items():
+            results = wc.solve(surface, e_star=3, pbar_over_pstar=loads)
+            rows = frame[(frame.surface == name)].iloc[:2]
+            for column in results.table().dtype.names:
+                if results[column].dtype.kind == "f":
+                    numpy.testing.assert_allclose(rows[column], results[column], rtol=DIGITS)
+                else:
+                    numpy.testing.assert_array_equal(results[column], rows[column])
+        self.assertEqual(("MPa", "length"), tuple(map(frame.attrs["units"].get, ("mean_pressure", "mean_gap"))))
+
+    def test_one_surface_and_a_list(self):
+        seeds = wc.sweep(self.rough, {"surface.seed": [3, 4]}, pbar_over_pstar=0.1)
+        self.assertEqual(["surface.seed", "load"], list(seeds)[:2])
+        listed = wc.sweep([self.rough, wc.wave_2d()], pbar_over_pstar=0.1)
+        self.assertEqual([0, 1], listed.surface.tolist())
+        self.assertEqual(seeds.contact_area[0], listed.contact_area[0])
+
+    def test_a_wrong_key_is_an_error_before_anything_starts(self):
+        with unittest.mock.patch("subprocess.Popen", side_effect=AssertionError):
+            self.refuse("'surface.sed'; did you mean 'surface.seed'", wc.sweep, self.rough, {"surface.sed": [1]})
+            self.refuse("did you mean 'e_star'", wc.sweep, self.rough, e_sta=1)
+            self.refuse("must be a surface", wc.sweep, [1], pbar_over_pstar=1)
+            self.refuse("has its own keys", wc.sweep, "deck.nml", e_star=1)
+
+    def test_the_module_is_the_program(self):
+        (self.folder/"deck.nml").write_text("&surface kind = 'wave_1d' / &load pbar_over_pstar = 0.5 /")
+        for words, status in (["deck.nml", "--quiet"], 0), (["none.nml"], 3):
+            done = subprocess.run([sys.executable, "-m", "wavycon", *words], check=False, capture_output=True, text=True,
+                                  env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
+            self.assertEqual(status, done.returncode, done.stderr)
+
+
+class Progress(ValuesTest):
+    def test_a_bar_appears_if_it_takes_long(self):
+        class Bar:
+            def __init__(self, total, unit, begun):
+                self.total, self.n, self.texts, self.is_closed = total, 0, [], False
+                bars.append(self)
+
+            def set_postfix_str(self, text, refresh):
+                self.texts.append(text)
+
+            def update(self, steps):
+                self.n += steps
+
+            def close(self):
+                self.is_closed = True
+
+        bars = []
+        with unittest.mock.patch.multiple("wavycon.progress", new_bar=Bar, PATIENCE=-1.0):
+            self.solve_rough()
+            self.assertEqual([(3, 3, True)], [(bar.total, bar.n, bar.is_closed) for bar in bars])
+            self.assertRegex(bars[0].texts[-1], r"^\d+ iterations, residual \de-\d\d$")
+            self.solve_rough(progress=False)
+            self.assertEqual(1, len(bars))
+        with unittest.mock.patch.multiple("wavycon.progress", new_bar=Bar):
+            self.solve_rough()
+            self.assertEqual(1, len(bars))
+
+
+if __name__ == "__main__":
+    if sys.version_info < (3, 10):
+        skip("the package needs Python 3.10")
+    # Kept on the command line: another Python may be started with it.
+    go_on_with(*sys.argv[sys.argv.index("--needs") + 1].split(","))
+    given = take_options("package", "needs")
+    sys.path.insert(0, os.path.abspath(given.package))
+    import matplotlib
+    matplotlib.use("agg")
+    import matplotlib.pyplot
+    import numpy
+    import wavycon as wc
+    main()
