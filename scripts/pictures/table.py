@@ -65,8 +65,8 @@ class Table:
     """A table: kind, names of columns, `blocks`, and what the head says.
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
-    `title` is the deck's, '' if it has none; `method` is the first word of its line; `mirrored` says whether the cell is
-    a map that its mirror images continue. The rest of a line that begins a block is not needed.
+    `title` is the deck's, '' if it has none; `method` is the first word of its line; `mirrored` says whether the cell
+    is a map that its mirror images continue. The rest of a line that begins a block is not needed.
     """
 
     def __init__(self, path):

@@ -46,7 +46,7 @@ program bench_iterations
    implicit none (type, external)
 
    integer, parameter :: cutoffs(2) = [4, 16], seeds = 3
-   !> By Persson's estimate, which gives the mean pressure: area = erf(2^(1/2) p/(E* h')), h' the root mean square slope.
+   !> By Persson's estimate, which gives the mean pressure: area = erf(2^(1/2) p/(E* h')), with the rms slope h'.
    real(dp), parameter :: areas(*) = [0.001_dp, 0.01_dp, 0.05_dp, 0.2_dp, 0.5_dp, 0.9_dp, 0.99_dp, 0.999_dp]
    real(dp), parameter :: slope = 1.0_dp
 
