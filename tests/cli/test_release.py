@@ -14,7 +14,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILES = ("CMakeLists.txt", "pyproject.toml", "CITATION.cff", "CHANGELOG.md", "packaging/conda/recipe.yaml",
-         "packaging/spack/package.py", "outputs/reference", "scripts/release", "scripts/common.sh")
+         "packaging/spack/package.py", "outputs/reference", "scripts/release", "scripts/common.sh", ".gitattributes",
+         "src/base/version.cmake")
 STEPS = "lint", "test", "stress", "docs", "wheel"
 STAND_IN = """#!/bin/sh
 mkdir -p build/wheel
@@ -102,6 +103,8 @@ class Release(unittest.TestCase):
             archives.append((root/"build"/"release"/made[-1]).read_bytes())
             with tarfile.open(root/"build"/"release"/made[-1]) as archive:
                 names = [name for name in archive.getnames() if "." in name]
+                commit = archive.extractfile(f"wavycon-{VERSION}/src/base/version.cmake").read().decode()
+            self.assertRegex(commit, r'set\(archived "[0-9a-f]{40}"\)')
             self.assertIn(f"wavycon-{VERSION}/scripts/common.sh", names)
             self.assertEqual(sorted(names), names)
         self.assertEqual(*archives)

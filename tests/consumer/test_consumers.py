@@ -272,7 +272,7 @@ class Consumers(unittest.TestCase):
     def test_subproject(self):
         options = self.options
         run(options.cmake, "-S", HERE / "subproject", "-B", self.folder / "subproject", "-G", options.generator,
-            "-D", f"WAVYCON_SOURCES={options.sources}", *self.compilers())
+            "-D", f"FETCHCONTENT_SOURCE_DIR_WAVYCON={options.sources}", *self.compilers())
         listed = run(pathlib.Path(options.cmake).with_name("ctest"), "-N", "--test-dir", self.folder / "subproject")
         self.assertIn("Total Tests: 0", listed)
 
