@@ -26,11 +26,15 @@ class Description(unittest.TestCase):
     def test_tables(self):
         self.assertEqual({path.name for path in REFERENCE.glob("*.dat")},
                          {resource["path"] for resource in PACKAGE["resources"]})
+        self.assertIn(PACKAGE["version"], {resource["version"] for resource in PACKAGE["resources"]})
         for resource in PACKAGE["resources"]:
             table, fields = Table(REFERENCE / resource["path"]), resource["schema"]["fields"]
             self.assertEqual(table.columns, [field["name"] for field in fields])
             self.assertEqual(table.units, [field.get("unit", "-") for field in fields])
-            self.assertIn(f"wavycon {resource['version']} ", table.path.read_text(encoding="utf-8"))
+            text = table.path.read_text(encoding="utf-8")
+            self.assertIn(f"wavycon {resource['version']} ", text)
+            names, = resource["dialect"]["headerRows"]
+            self.assertEqual(table.columns, text.splitlines()[names - 1].split())
             by_name = {field["name"]: field for field in fields}
             # Each error is that of one column, which stands before it, in the same unit.
             errors = {field["error"]: field for field in fields if "error" in field}
