@@ -79,13 +79,13 @@ class Verify(unittest.TestCase):
             if count % 2:
                 text = "\n".join(",".join(row) for row in (table.columns, *table.rows()))
             found = self.verify(text, resource["name"], "--tolerance", "0")
-            self.assertIn(f"in both, {len(table.rows())} rows", found)
+            self.assertIn(f"rows in both ({len(table.rows())})", found)
             self.assertNotIn("not in the", found)
 
     def test_a_good_table(self):
         found = self.verify(self.areas(digits=7), "wave_2d")
         self.assertIn("\nrows by: pbar_over_pstar\ncompared: contact_area_fraction\n", found)
-        self.assertIn("in both, 4 rows: 0.1, 0.2286, 0.3, 0.9\n", found)
+        self.assertIn("rows in both (4): 0.1, 0.2286, 0.3, 0.9\n", found)
         self.assertRegex(found, r"\ncontact_area_fraction     4  +\d\.\de-0[789]  +\d\.\de-0[789]  +4  ")
         self.assertIn("\nagrees within 1e-06", found)
 
@@ -101,8 +101,8 @@ class Verify(unittest.TestCase):
         area = self.rows[0]["contact_area_fraction"]
         found = self.verify(f"# P in p*\n# pbar_over_pstar[-] contact_area_fraction[-] note\n0.10000000005 {area} a\n"
                             f"0.1000000002 {area} b\n0.123D0 {area} c\n", "wave_2d")
-        self.assertIn("in both, 1 rows: 0.10000000005\n", found)
-        self.assertIn("not in the reference, 2 rows: 0.1000000002 (line 4), 0.123D0 (line 5)\n", found)
+        self.assertIn("rows in both (1): 0.10000000005\n", found)
+        self.assertIn("rows not in the reference (2): 0.1000000002 (line 4), 0.123D0 (line 5)\n", found)
         self.assertIn("not compared: note\n", found)
 
     def test_a_column_for_all_rows(self):
