@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILES = ("CMakeLists.txt", "pyproject.toml", "CITATION.cff", "CHANGELOG.md", "packaging/conda/recipe.yaml",
          "packaging/spack/package.py", "outputs/reference", "scripts/release", "scripts/common.sh", ".gitattributes",
          "src/base/version.cmake")
-STEPS = "lint", "test", "stress", "docs", "wheel"
+STEPS = "test", "lint", "stress", "docs", "wheel"
 STAND_IN = """#!/bin/sh
 mkdir -p build/wheel
 echo "$0 $SOURCE_DATE_EPOCH" >>build/steps
