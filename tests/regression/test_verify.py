@@ -2,13 +2,14 @@
 """The reference values as data to cite: their description and checksums, and scripts/verify, which compares other tables."""
 import hashlib
 import json
+import os
 import pathlib
 import shutil
 import subprocess
 import sys
 import unittest
 
-from program import new_folder
+from program import ProgramTest, main
 from tables import Table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -51,20 +52,20 @@ class Description(unittest.TestCase):
                 self.assertEqual(len(keys), len(set(keys)))
 
 
-class Verify(unittest.TestCase):
-    program = ROOT / "scripts" / "verify"
+class Verify(ProgramTest):
+    script = ROOT / "scripts" / "verify"
 
     @classmethod
     def setUpClass(cls):
-        cls.folder = new_folder(cls.addClassCleanup)
+        super().setUpClass()
         cls.rows = [record for record in Table(REFERENCE / "wave_2d.dat").records()
                     if any(float(record["pbar_over_pstar"]) == float(load) for load in LOADS)]
 
     def verify(self, text, *words, status=0):
         """Compares a file with this text. Returns the output, or the message if the status is not 0 and there is one."""
         (self.folder / "mine.csv").write_text(text, encoding="utf-8")
-        done = subprocess.run([sys.executable, self.program, "mine.csv", *words], cwd=self.folder, text=True,
-                              capture_output=True, check=False)
+        done = subprocess.run([sys.executable, self.script, "mine.csv", *words], cwd=self.folder, text=True,
+                              env=dict(os.environ, WAVYCON=self.program), capture_output=True, check=False)
         self.assertEqual(status, done.returncode, done.stdout + done.stderr)
         return done.stderr or done.stdout
 
@@ -108,6 +109,21 @@ class Verify(unittest.TestCase):
         self.assertIn("rows not in the reference (2): 0.1000000002 (line 4), 0.123D0 (line 5)\n", found)
         self.assertIn("not compared: note\n", found)
 
+    def test_loads_that_are_solved(self):
+        for row, factor in ((self.rows[2], 1.0), (self.rows[2], 1 + 3e-6)):
+            # The area at a load beside that of the row, by its slope, whose change is below the tolerance.
+            slope = next(float(record["contact_area_slope"]) for record in Table(REFERENCE / "interface.dat").records()
+                         if (record["surface"], record["pbar_over_pstar"]) == ("wave_2d", row["pbar_over_pstar"]))
+            load, area = (float(row[name]) for name in ("pbar_over_pstar", "contact_area_fraction"))
+            found = self.verify(f"pbar_over_pstar,contact_area_fraction\n{load + 1e-6},{factor*(area + 1e-6*slope)}\n",
+                                "wave_2d", "--solve", status=int(factor > 1))
+            self.assertIn(f"\nsolved now (1): {load + 1e-6}\n", found)
+            self.assertIn(f"\nrows in both (1): {load + 1e-6}\n", found)
+        self.assertIn("verify: the loads that the reference lacks are not solved:\ndeck.nml:2:",
+                      self.verify("pbar_over_pstar,perimeter\n-1,1\n", "wave_2d", "--solve", status=1))
+        self.assertIn("--solve needs the program wavycon, and the table wave_2d or hexagonal", self.verify(
+            "surface,pbar_over_pstar,compliance\nwave_2d,0.123,1\n", "interface", "--solve", status=1))
+
     def test_a_column_for_all_rows(self):
         record, = (record for record in Table(REFERENCE / "yield.dat").records()
                    if tuple(record.values())[:4] == ("hexagonal", "constrained", "0.5", "0.3"))
@@ -138,13 +154,13 @@ class Verify(unittest.TestCase):
                 self.assertTrue(found.startswith("verify: "), found)
                 self.assertIn(message, found)
         self.assertIn("nothing.csv: No such file", subprocess.run(
-            [self.program, "nothing.csv", "wave_2d"], capture_output=True, text=True, check=False).stderr)
+            [self.script, "nothing.csv", "wave_2d"], capture_output=True, text=True, check=False).stderr)
 
     def test_installed(self):
         """As `cmake --install` and the wheel have it; and a table that was changed."""
         program, data = self.folder/"bin"/"wavycon-verify", self.folder/"share"/"wavycon"/"reference"
         program.parent.mkdir()
-        shutil.copy(self.program, program)
+        shutil.copy(self.script, program)
         shutil.copytree(REFERENCE, data)
         command = [sys.executable, program, REFERENCE / "merging.dat", "merging"]
         self.assertIn("\nagrees", subprocess.run(command, capture_output=True, text=True, check=True).stdout)
@@ -163,10 +179,10 @@ class Verify(unittest.TestCase):
         self.assertEqual(expected, self.verify(file, *words.split(), status=1))
 
     def test_list(self):
-        found = subprocess.run([self.program, "--list"], capture_output=True, text=True, check=True).stdout
+        found = subprocess.run([self.script, "--list"], capture_output=True, text=True, check=True).stdout
         for resource in PACKAGE["resources"]:
             self.assertIn(f"{resource['name']}: {resource['title']}\n", found)
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()
