@@ -17,7 +17,7 @@ module wavycon_spot_tables
    use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_spots, only: contact_region, contact_spots
+   use wavycon_contact_spots, only: connected_region, contact_spots
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_histogram, only: histogram, make_histogram
    use wavycon_kinds, only: dp
@@ -126,8 +126,8 @@ contains
 
       !> Writes a row for each region of one kind.
       subroutine put_regions(regions, kind)
-         type(contact_region), intent(in) :: regions(:)   !! the largest first
-         character(*), intent(in) :: kind                 !! 'spot' or 'pool'
+         type(connected_region), intent(in) :: regions(:)   !! the largest first
+         character(*), intent(in) :: kind                   !! 'spot' or 'pool'
 
          real(dp) :: area, mean_pressure, radius
          integer :: i
