@@ -6,7 +6,7 @@ module wavycon_disc_sources
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
-   use wavycon_stress_kernel, only: add_sources, of_gap, of_gradient, of_pressure, stress_fields
+   use wavycon_stress_kernel, only: add_sources, of_gap, of_gradient, of_pressure, stress_field_count
    implicit none (type, external)
    private
 
@@ -88,7 +88,7 @@ contains
       integer, intent(in) :: kernel                     !! as of add_sources
       complex(dp), intent(in) :: place                  !! x + i y of the point from the centre [s]
       real(dp), intent(in) :: depth                     !! >= 0 [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_field_count)
 
       call add_sources(kernel, self%source, size(self%x), place%re - self%x, place%im - self%y, depth, &
                        self%strength(:, 1), self%strength(:, 2), fields)

@@ -12,7 +12,7 @@ module wavycon_expansion_stress
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: all_fields, stress_fields, stress_parts
+   use wavycon_stress_kernel, only: all_fields, stress_field_count, stress_parts
    use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -71,7 +71,7 @@ contains
       real(dp), intent(out) :: parts(6, 2)                !! as of stress_parts [pi E* Delta/s]
 
       complex(dp) :: z
-      real(dp) :: fields(stress_fields)
+      real(dp) :: fields(stress_field_count)
       integer :: i
 
       fields = 0.0_dp
@@ -154,7 +154,7 @@ contains
       type(stress_series) :: series
       complex(dp) :: at
       real(dp), allocatable :: values(:, :, :, :)
-      real(dp) :: fields(stress_fields)
+      real(dp) :: fields(stress_field_count)
       integer :: i, j, k, m
 
       call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
@@ -163,7 +163,7 @@ contains
       call start_far_stress(self%far, self%lattice%rows%half_sides(), self%spot%solution%pool, &
                             self%spot%digits - 1.0_dp)
       associate (x => self%far%node_x, y => self%far%node_y, z => self%far%node_z)
-         allocate (values(size(x), size(y), size(z), stress_fields))
+         allocate (values(size(x), size(y), size(z), stress_field_count))
          do k = 1, size(z)
             do j = 1, size(y)
                do i = 1, size(x)

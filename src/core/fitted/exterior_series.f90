@@ -11,7 +11,7 @@ module wavycon_exterior_series
    use wavycon_constants, only: pi
    use wavycon_expansion, only: expansion
    use wavycon_kinds, only: dp
-   use wavycon_stress_kernel, only: stress_fields, surface_field
+   use wavycon_stress_kernel, only: stress_field_count, surface_field
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)
    private
@@ -73,7 +73,7 @@ contains
       !> Determines the terms from as many values. Points with the same arg v share the rays from the edge.
       subroutine fit_terms()
          complex(dp) :: edge, v(terms(2))
-         real(dp) :: fields(stress_fields, terms(2)), values(terms(1), terms(2), 1)
+         real(dp) :: fields(stress_field_count, terms(2)), values(terms(1), terms(2), 1)
          integer :: i, j
 
          do i = 1, terms(1)

@@ -16,7 +16,7 @@ module wavycon_fitted_fields
    use wavycon_quantities, only: contact_area, mean_gap, peak_pressure
    use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: stress_fields, surface_field
+   use wavycon_stress_kernel, only: stress_field_count, surface_field
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -159,7 +159,7 @@ contains
       complex(dp), intent(in) :: z      !! position from the centre, reduced to the rectangle [s]
       integer, intent(in) :: centre     !! number of the centre, for which find_preimages was called with z
 
-      real(dp) :: exact(stress_fields), half(2)
+      real(dp) :: exact(stress_field_count), half(2)
       logical :: far(size(self%image))
       integer :: k
 
@@ -190,7 +190,7 @@ contains
       complex(dp), intent(in) :: z                           !! position from the centre, reduced to the rectangle [s]
       complex(dp), intent(in) :: near(:)                     !! centres of the images that are left out [s]
 
-      real(dp) :: of_centre(stress_fields), removed(stress_fields), value(size(self%sources%x))
+      real(dp) :: of_centre(stress_field_count), removed(stress_field_count), value(size(self%sources%x))
       integer :: k
 
       associate (x => z%re - self%sources%x, y => z%im - self%sources%y)

@@ -9,7 +9,7 @@ module wavycon_spot_integral
       rule_radii_per_degree
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: find_edge_in_direction, find_preimage
-   use wavycon_stress_kernel, only: all_fields, stress_fields
+   use wavycon_stress_kernel, only: all_fields, stress_field_count
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)
    private
@@ -71,9 +71,9 @@ contains
    !> Adds the fields of the spot or pool at a point.
    subroutine add_at(self, z, depth, fields)
       class(spot_integral), intent(inout) :: self
-      complex(dp), intent(in) :: z                        !! x + i y of the point from the centre [s]
-      real(dp), intent(in) :: depth                       !! depth >= 0; 0 for the surface field [s]
-      real(dp), intent(inout) :: fields(stress_fields)    !! for the surface field only the first one is changed
+      complex(dp), intent(in) :: z                             !! x + i y of the point from the centre [s]
+      real(dp), intent(in) :: depth                            !! depth >= 0; 0 for the surface field [s]
+      real(dp), intent(inout) :: fields(stress_field_count)    !! for the surface field only the first one is changed
 
       complex(dp) :: offset, origin
       integer :: level

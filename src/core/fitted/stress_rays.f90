@@ -13,7 +13,7 @@ module wavycon_stress_rays
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
    use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, of_gap, of_gradient, of_pressure, &
-      stress_fields
+      stress_field_count
    implicit none (type, external)
    private
 
@@ -64,7 +64,7 @@ contains
       complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
       complex(dp), intent(in) :: offset(:)                !! x + i y of the points less z(w_0), shape (n) [s]
       real(dp), intent(in) :: depth(:)                    !! depths >= 0, shape (n) [s]
-      real(dp), intent(inout) :: fields(stress_fields, size(offset))
+      real(dp), intent(inout) :: fields(stress_field_count, size(offset))
 
       complex(dp) :: conjugate_slope(1), density_at_origin(1), normal, slope(1)
       real(dp) :: cosine, distance, edge, kappa, last, scale, sine, width, x

@@ -8,7 +8,7 @@ module wavycon_stress_series
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_row_lattice, only: row_lattice
-   use wavycon_stress_kernel, only: stress_fields
+   use wavycon_stress_kernel, only: stress_field_count
    implicit none (type, external)
    private
 
@@ -70,10 +70,10 @@ contains
       class(stress_series), intent(in) :: self
       complex(dp), intent(in) :: place             !! from a crest [s]
       real(dp), intent(in) :: depth                !! >= that of the start [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_field_count)
 
       complex(dp) :: x(0:ubound(self%pressure, 1)), y(0:ubound(self%pressure, 2))
-      real(dp) :: kx, ky, length, p, total(stress_fields)
+      real(dp) :: kx, ky, length, p, total(stress_field_count)
       integer :: i, j, last
 
       do i = 0, ubound(x, 1)
@@ -108,7 +108,7 @@ contains
       real(dp), intent(in) :: pressure             !! amplitude p
       complex(dp), intent(in) :: place             !! x + i y of the point [s]
       real(dp), intent(in) :: depth                !! depth z >= 0 [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_field_count)
 
       complex(dp) :: direction
       real(dp) :: length, turn

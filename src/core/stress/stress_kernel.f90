@@ -18,7 +18,7 @@ module wavycon_stress_kernel
 
    !> The number of fields, and the position of each one: H, z H_z, then the real and the imaginary part of D^2 L, of
    !> z D^2 V and of z D H.
-   integer, parameter, public :: stress_fields = 8
+   integer, parameter, public :: stress_field_count = 8
    integer, parameter, public :: h_field = 1, hz_field = 2, l_field = 3, v_field = 5, dh_field = 7
 
    !> The kinds of sources: a pressure; a gap; a gap that is given by its gradient.
@@ -43,10 +43,10 @@ contains
       !> Strengths of the sources. A pressure or a gap: strength_x is its value times the source's area, and strength_y
       !> is not used. A gradient: strength_x and strength_y are its components times the area.
       real(dp), intent(in) :: strength_x(n), strength_y(n)
-      real(dp), intent(inout) :: fields(stress_fields)        !! for surface_field only the first one is changed
+      real(dp), intent(inout) :: fields(stress_field_count)   !! for surface_field only the first one is changed
 
       real(dp), dimension(n) :: inverse, r
-      real(dp) :: along, cross, difference, fifth, im, l, of_dh, re, seventh, third, total(stress_fields)
+      real(dp) :: along, cross, difference, fifth, im, l, of_dh, re, seventh, third, total(stress_field_count)
       integer :: i
 
       ! Roots and quotients are taken of whole arrays, because compilers vectorise them so.
@@ -103,8 +103,8 @@ contains
 
    !> The stresses from the fields, (F51). For Poisson's ratio nu they are parts(:, 1) + nu*parts(:, 2).
    pure function stress_parts(fields) result(parts)
-      real(dp), intent(in) :: fields(stress_fields)   !! in the order of the names above
-      real(dp) :: parts(6, 2)                         !! xx, yy, zz, xy, xz, yz, in the unit of the fields
+      real(dp), intent(in) :: fields(stress_field_count)   !! in the order of the names above
+      real(dp) :: parts(6, 2)                              !! xx, yy, zz, xy, xz, yz, in the unit of the fields
 
       associate (h => fields(1), zhz => fields(2), l => fields(3:4), v => fields(5:6), dh => fields(7:8))
          parts(1, :) = [0.5_dp*(-h - zhz + l(1) - v(1)), -h - l(1)]
