@@ -50,14 +50,14 @@ module wavycon_ball_source
 
    !> Stresses below a ball, computed on a smaller rectangle with the crest at the same angles. Angles X, Y, Z [rad] are
    !> 2 pi times a length over a side of the cell.
-   type, extends(stress_fields) :: ball_stress
+   type, extends(stress_fields) :: ball_stress_fields
       class(stress_fields), allocatable :: own   !! the stresses on the smaller rectangle, in its units
       real(dp) :: angle_ratio(3) = 1.0_dp        !! angles X, Y, Z on the smaller rectangle over those on the surface
       real(dp) :: unit = 1.0_dp                  !! p* of the smaller rectangle over that of the surface
    contains
       procedure :: at => stress_at
       procedure :: start_places
-   end type ball_stress
+   end type ball_stress_fields
 
 contains
 
@@ -199,7 +199,7 @@ contains
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
-      type(ball_stress), allocatable :: stress
+      type(ball_stress_fields), allocatable :: stress
       type(contact_solution) :: solution
       type(grid_contact) :: solver
       type(surface_type) :: own
@@ -220,7 +220,7 @@ contains
 
    !> The stresses at a point, from those at the corresponding point below the smaller rectangle.
    subroutine stress_at(self, x, y, depth, parts, error)
-      class(ball_stress), intent(inout) :: self
+      class(ball_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
       real(dp), intent(out) :: parts(6, 2)
@@ -236,7 +236,7 @@ contains
 
    !> Start points of the search for the largest stress, converted from those on the smaller rectangle.
    subroutine start_places(self, body, places)
-      class(ball_stress), intent(inout) :: self
+      class(ball_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
       type(start_place), allocatable, intent(out) :: places(:)
 

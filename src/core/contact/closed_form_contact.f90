@@ -25,7 +25,7 @@ module wavycon_closed_form_contact
    implicit none (type, external)
    private
 
-   public :: closed_form_contact, closed_form_exists, closed_form_source, closed_form_stress
+   public :: closed_form_contact, closed_form_exists, closed_form_source, closed_form_stress_fields
 
    type, extends(contact_solver) :: closed_form_contact
       real(dp) :: accuracy = default_accuracy   !! accuracy of the grids that give the stresses below a ball
@@ -53,11 +53,11 @@ module wavycon_closed_form_contact
       procedure :: at
    end type closed_form_fields
 
-   type, extends(stress_fields) :: closed_form_stress
+   type, extends(stress_fields) :: closed_form_stress_fields
    contains
       procedure :: at => stress_at
       procedure :: start_places
-   end type closed_form_stress
+   end type closed_form_stress_fields
 
 contains
 
@@ -169,12 +169,12 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       associate (unused => surface); end associate
-      allocate (answer, source=closed_form_stress(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1))
+      allocate (answer, source=closed_form_stress_fields(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1))
    end subroutine stresses
 
    !> The stresses below Westergaard's pressure.
    subroutine stress_at(self, x, y, depth, parts, error)
-      class(closed_form_stress), intent(inout) :: self
+      class(closed_form_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
       real(dp), intent(out) :: parts(6, 2)
@@ -191,7 +191,7 @@ contains
    !> Places at which searches for the largest stress start: some across half of the contact and a little beyond it, at
    !> depths from the surface down to 1.2 half widths.
    subroutine start_places(self, body, places)
-      class(closed_form_stress), intent(inout) :: self
+      class(closed_form_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
       type(start_place), allocatable, intent(out) :: places(:)
 

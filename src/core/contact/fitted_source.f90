@@ -8,7 +8,7 @@ module wavycon_fitted_source
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_fields, only: find_fitted_details, fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
-   use wavycon_fitted_stress, only: start_fitted_stress
+   use wavycon_fitted_answer_stress, only: start_fitted_answer_stress
    use wavycon_fitted_stress_fields, only: fitted_stress_fields
    use wavycon_kinds, only: dp
    use wavycon_load_slopes, only: find_load_slopes
@@ -78,7 +78,7 @@ contains
       own%side_ratio = surface%length(2)/surface%length(1)
       own%symmetry = self%frame%symmetry()
       own%frame = self%frame
-      call start_fitted_stress(own%fitted, self%frame%lattice, self%answer, self%accuracy)
+      call start_fitted_answer_stress(own%fitted, self%frame%lattice, self%answer, self%accuracy)
       call move_alloc(own, answer)
    end subroutine stresses
 

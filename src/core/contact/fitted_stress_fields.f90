@@ -2,8 +2,8 @@
 module wavycon_fitted_stress_fields
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body
+   use wavycon_fitted_answer_stress, only: fitted_answer_stress
    use wavycon_fitted_frame, only: fitted_frame
-   use wavycon_fitted_stress, only: fitted_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_fields, only: start_place, stress_fields
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
@@ -14,8 +14,8 @@ module wavycon_fitted_stress_fields
    public :: fitted_stress_fields
 
    type, extends(stress_fields) :: fitted_stress_fields
-      type(fitted_frame) :: frame     !! frame of the surface
-      type(fitted_stress) :: fitted   !! stresses in the axes and units of the lattice, already started
+      type(fitted_frame) :: frame            !! frame of the surface
+      type(fitted_answer_stress) :: fitted   !! stresses in the axes and units of the lattice, already started
    contains
       procedure :: at
       procedure :: start_places

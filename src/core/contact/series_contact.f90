@@ -28,7 +28,7 @@ module wavycon_series_contact
    use wavycon_quantities, only: approach, elastic_energy, gap_slope, mean_gap, peak_pressure, quantities
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_series_fields, only: series_fields
-   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
    use wavycon_solution_record, only: by_beale, by_dual
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
@@ -263,12 +263,12 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fourier_series) :: series
-      type(series_stress), allocatable :: own
+      type(series_stress_fields), allocatable :: own
 
       call self%coefficients(series)
       allocate (own)
-      call start_series_stress(own, surface, series, self%record%pbar_over_pstar, &
-                               pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+      call start_series_stress_fields(own, surface, series, self%record%pbar_over_pstar, &
+                                      pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
       call move_alloc(own, answer)
    end subroutine stresses
 

@@ -3,7 +3,7 @@
 !> All lattices are symmetric to the x axis and the y axis through a crest, so that the series has terms
 !> cos(k_x x) cos(k_y y) only. A lattice of shifted rows has the terms of a rectangle of two rows in which the sum of
 !> the two wave numbers is even.
-module wavycon_stress_series
+module wavycon_lattice_stress_series
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
@@ -12,21 +12,21 @@ module wavycon_stress_series
    implicit none (type, external)
    private
 
-   public :: stress_series, start_stress_series, add_wave
+   public :: lattice_stress_series, start_lattice_stress_series, add_wave
 
-   type :: stress_series
+   type :: lattice_stress_series
       real(dp) :: digits = 0.0_dp                      !! waves with |k| z above this are left out: ln(1/accuracy)
       real(dp) :: base_x = 0.0_dp, base_y = 0.0_dp     !! least k_x and k_y [rad/s]
       real(dp), allocatable, private :: pressure(:, :) !! amplitude of each wave, shape (0:n_x, 0:n_y); 0 for the mean
    contains
       procedure :: add_at
-   end type stress_series
+   end type lattice_stress_series
 
 contains
 
    !> Computes the amplitudes of the waves that reach a depth, from the point sources of one cell.
-   subroutine start_stress_series(series, rows, x, y, strength, gap, depth, digits)
-      type(stress_series), intent(out) :: series
+   subroutine start_lattice_stress_series(series, rows, x, y, strength, gap, depth, digits)
+      type(lattice_stress_series), intent(out) :: series
       type(row_lattice), intent(in) :: rows
       real(dp), intent(in) :: x(:), y(:)         !! positions of the n sources from a crest, shape (n) [s]
       real(dp), intent(in) :: strength(:)        !! pressure or gap times area, shape (n)
@@ -63,11 +63,11 @@ contains
          end do
          p(0, 0) = 0.0_dp
       end associate
-   end subroutine start_stress_series
+   end subroutine start_lattice_stress_series
 
    !> Adds the fields at a point.
    pure subroutine add_at(self, place, depth, fields)
-      class(stress_series), intent(in) :: self
+      class(lattice_stress_series), intent(in) :: self
       complex(dp), intent(in) :: place             !! from a crest [s]
       real(dp), intent(in) :: depth                !! >= that of the start [s]
       real(dp), intent(inout) :: fields(stress_field_count)
@@ -124,4 +124,4 @@ contains
       end associate
    end subroutine add_wave
 
-end module wavycon_stress_series
+end module wavycon_lattice_stress_series
