@@ -141,7 +141,8 @@ contains
             curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*rotated*edge(places)%re/length(1)
             curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
-         ! All contours are alike. The area is computed from the expansion; that of the polygon would be less accurate.
+         ! All contours are alike. The area is computed from the fitted function; that of the polygon would be less
+         ! accurate.
          curves(k)%turns = 1
          curves(k)%spot = k
          curves(k)%pool = 1

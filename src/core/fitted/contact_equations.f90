@@ -13,14 +13,14 @@
 !> The solution for a wrong edge has a singular term at the edge, which the weight (1 - |w|^2)^power excludes. So the
 !> equations can only be met with the right edge. With adhesion the weight includes this term, and the equations of the
 !> edge (F67) give the term the strength that the work of adhesion requires. The unknowns are the coefficients of the
-!> expansion, the approach of a spot or, with adhesion, the load of a pool, and the coefficients of the shape. There are
-!> more equations than unknowns, which are met in the sense of least squares.
+!> fitted function, the approach of a spot or, with adhesion, the load of a pool, and the coefficients of the shape.
+!> There are more equations than unknowns, which are met in the sense of least squares.
 module wavycon_contact_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
       pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
       sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
@@ -60,12 +60,12 @@ module wavycon_contact_equations
 
 contains
 
-   !> Chooses points of collocation and rules for expansions of the same degree, number of shape terms and symmetry as a
-   !> given one.
+   !> Chooses points of collocation and rules for fitted functions of the same degree, number of shape terms and
+   !> symmetry as a given one.
    subroutine start_equations(equations, like, merging_ratio)
       type(contact_equations), intent(inout) :: equations
-      type(expansion), intent(in) :: like     !! the given expansion
-      real(dp), intent(in) :: merging_ratio   !! merging ratio of the shape: 0 for a point, 1 where neighbours touch
+      type(fitted_function), intent(in) :: like   !! the given fitted function
+      real(dp), intent(in) :: merging_ratio       !! merging ratio of the shape: 0 for a point, 1 where neighbours touch
 
       type(contact_equations) :: new
       real(dp) :: phi
@@ -125,7 +125,7 @@ contains
    subroutine linearise(self, lattice, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now      !! the approximation, of the kind that the equations were started for
+      type(fitted_function), intent(in) :: now!! the approximation, of the kind that the equations were started for
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
       real(dp) :: known, shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
@@ -164,7 +164,7 @@ contains
    !> the size of the others.
    subroutine linearise_edge(self, now)
       class(contact_equations), intent(inout) :: self
-      type(expansion), intent(in) :: now   !! as of `linearise`
+      type(fitted_function), intent(in) :: now   !! as of `linearise`
 
       real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, scale, strength
       integer :: i, row
@@ -191,10 +191,10 @@ contains
       end do
    end subroutine linearise_edge
 
-   !> The integral over the spot or pool of the expansion, p or g, times a function of the position.
+   !> The integral over the spot or pool of the fitted function, p or g, times a function of the position.
    real(dp) function integral(self, now, factor)
       class(contact_equations), intent(in) :: self
-      type(expansion), intent(in) :: now            !! of the kind that the equations were started for
+      type(fitted_function), intent(in) :: now      !! of the kind that the equations were started for
       real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
 
       real(dp) :: product(size(self%rule%point))

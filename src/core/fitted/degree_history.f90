@@ -1,8 +1,8 @@
 !> The solutions of one load with rising degrees: estimates of their errors from their differences, and which solution
 !> is the best one.
 module wavycon_degree_history
-   use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, load_measure, perimeter_measure
    use wavycon_fitted_tuning, only: error_safety, fastest_decay, fastest_decay_at_point, first_error_factor, &
       least_relative_share, previous_difference_share
@@ -21,7 +21,7 @@ module wavycon_degree_history
       logical :: newest_is_best = .false.                          !! whether the newest solution is the best one
       real(dp) :: decay(2) = 1.0_dp                                !! chi_n and chi_(n-1): misfit over the one before
       real(dp), private :: misfit = huge(1.0_dp)                   !! misfit of the newest solution
-      type(expansion) :: newest(0:most_previous)                   !! the last solutions, the newest first
+      type(fitted_function) :: newest(0:most_previous)             !! the last solutions, the newest first
    contains
       procedure :: push
       procedure :: best_meets
@@ -38,7 +38,7 @@ contains
    !> Adds the solution of the next degree, and estimates its errors if it is not the first one.
    pure subroutine push(self, now, measures, scale, misfit, remaining)
       class(degree_history), intent(inout) :: self
-      type(expansion), intent(in) :: now
+      type(fitted_function), intent(in) :: now
       real(dp), intent(in) :: measures(all_measures)   !! measures of the solution
       real(dp), intent(in) :: scale(all_measures)      !! what errors of the measures are relative to, > 0
       real(dp), intent(in) :: misfit                   !! >= 0, mean residual of the equations, as of least_squares_step

@@ -3,7 +3,7 @@
 module wavycon_disc_sources
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
    use wavycon_stress_kernel, only: add_sources, of_gap, of_gradient, of_pressure, stress_field_count
@@ -27,7 +27,7 @@ contains
    !> Makes the sources of a solution at the points of a rule over the whole disc.
    subroutine start_disc_sources(sources, solution, gradient, radii, angles)
       type(disc_sources), intent(out) :: sources
-      type(expansion), intent(in) :: solution
+      type(fitted_function), intent(in) :: solution
       logical, intent(in) :: gradient      !! whether the sources are the gradient of a pool's gap; false for a spot
       integer, intent(in) :: radii         !! number of points on a radius, >= 1
       integer, intent(in) :: angles        !! number of points in a full turn, rounded up to a multiple of 2 fold
@@ -59,7 +59,7 @@ contains
    !> edge. Without adhesion this power is 1/2 both for a pressure and for the gradient of a gap, so that one rule
    !> serves both: README.md, section 13.
    subroutine find_density(solution, gradient, n, w, inside, density)
-      type(expansion), intent(in) :: solution
+      type(fitted_function), intent(in) :: solution
       logical, intent(in) :: gradient              !! whether the source is the gradient of the gap
       integer, intent(in) :: n
       complex(dp), intent(in) :: w(n)              !! points of the disc
@@ -112,17 +112,17 @@ contains
       end do
    end function copies
 
-   !> The strengths of the sources of one sector, which are the terms of an expansion times weight and area, and the
-   !> derivatives of strengths and positions with respect to the shape.
+   !> The strengths of the sources of one sector, which are the terms of a fitted function times weight and area, and
+   !> the derivatives of strengths and positions with respect to the shape.
    pure subroutine linearise_sources(shape, rule, values, c, weighted, strength_slope, moment_x, moment_y)
       type(shape_map), intent(in) :: shape
-      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the expansion
+      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the fitted function
       real(dp), intent(in) :: values(:, :)             !! the basis at the rule's points, shape (n, N)
-      real(dp), intent(in) :: c(:)                     !! coefficients of the expansion, shape (N)
+      real(dp), intent(in) :: c(:)                     !! coefficients of the fitted function, shape (N)
       real(dp), intent(out) :: weighted(:, :)          !! strength of each term, shape (n, N) [s^2]
-      real(dp), intent(out) :: strength_slope(:, 0:)   !! d(strength of the expansion)/d b_k, shape (n, 0:K) [s]
+      real(dp), intent(out) :: strength_slope(:, 0:)   !! d(strength of the fitted function)/d b_k, shape (n, 0:K) [s]
       real(dp), intent(out), dimension(:, 0:) :: moment_x, moment_y
-         !! strength of the expansion times dz/d b_k, real and imaginary part, shape (n, 0:K) [s^2]
+         !! strength of the fitted function times dz/d b_k, real and imaginary part, shape (n, 0:K) [s^2]
 
       complex(dp), dimension(size(rule%point)) :: conjugate_slope, slope
       complex(dp) :: place_slope(0:ubound(shape%b, 1))

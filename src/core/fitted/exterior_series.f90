@@ -9,7 +9,7 @@
 module wavycon_exterior_series
    use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_table
    use wavycon_constants, only: pi
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp
    use wavycon_stress_kernel, only: stress_field_count, surface_field
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
@@ -41,10 +41,10 @@ contains
    !> Makes the series. The number of terms is raised until the last ones are below the accuracy.
    subroutine start_exterior_series(series, solution, accuracy, most_places, found)
       type(exterior_series), intent(out) :: series
-      type(expansion), intent(in) :: solution       !! the spot or pool
-      real(dp), intent(in) :: accuracy              !! error of the series over its largest coefficient, > 0
-      integer, intent(in) :: most_places            !! largest number of points at which the field may be integrated
-      logical, intent(out) :: found                 !! whether this number was enough; if not there is no series
+      type(fitted_function), intent(in) :: solution       !! the spot or pool
+      real(dp), intent(in) :: accuracy                    !! error of the series over its largest coefficient, > 0
+      integer, intent(in) :: most_places                  !! most points at which the field may be integrated
+      logical, intent(out) :: found                       !! whether this number was enough; if not there is no series
 
       type(stress_rays) :: rays
       integer :: places, terms(2)

@@ -21,7 +21,7 @@ module wavycon_fitted_answer_stress
       real(dp), private :: relative_error = 0.0_dp        !! relative error of the peak pressure or, if larger, the area
       real(dp), private :: edge_error = 0.0_dp            !! mean error of the edge's position [s]
       type(fitted_function_stress), allocatable, private :: of_degree(:)
-         !! stresses of the answer's expansion, 0, and of those of lower degrees, from 1 on
+         !! stresses of the answer's fitted function, 0, and of those of lower degrees, from 1 on
    contains
       procedure :: at
    end type fitted_answer_stress

@@ -1,9 +1,9 @@
-!> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
+!> Pressure, displacement and gap anywhere on the surface, from a fitted function and without a grid.
 !>
-!> Positions are measured from a crest, in s. Inside the spot or pool the fields follow from the expansion and the
-!> condition of contact. Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10).
-!> The integrals over near images are computed by fine rules or along rays, the others by one coarse rule: README.md,
-!> section 12.
+!> Positions are measured from a crest, in s. Inside the spot or pool the fields follow from the fitted function and the
+!> condition of contact. Elsewhere they are integrals over the fitted function and all its images: README.md (F2) and
+!> (F10). The integrals over near images are computed by fine rules or along rays, the others by one coarse rule:
+!> README.md, section 12.
 module wavycon_fitted_fields
    use wavycon_chebyshev_table, only: chebyshev_table, square_argument, square_nodes
    use wavycon_constants, only: pi
@@ -278,8 +278,8 @@ contains
 
    !> The values of `fitted_separations` and estimates of their errors.
    !>
-   !> The error of the expansion is estimated from the values of lower degrees at the same positions. The error of the
-   !> integrals over near images is estimated from a second evaluation by finer rules.
+   !> The error of the fitted function is estimated from the values of lower degrees at the same positions. The error of
+   !> the integrals over near images is estimated from a second evaluation by finer rules.
    subroutine find_fitted_details(lattice, answer, values, error)
       type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
       type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
@@ -307,7 +307,8 @@ contains
       ! The errors are estimated separately: the saddle may be nearly closed while the trough is wide open.
       do i = 1, size(values)
          decay = answer%misfit_decay
-         ! The gap inside a pool is a value of the expansion, while the others are integrals of the expansion.
+         ! The gap inside a pool is a value of the fitted function, while the others are integrals of the fitted
+         ! function.
          if (answer%pool .and. i == 1) decay = max(decay, fastest_decay_at_point)
          error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
       end do

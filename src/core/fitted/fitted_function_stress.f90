@@ -1,4 +1,4 @@
-!> Stresses in the half-space below one expansion and all its images: README.md, section 13.
+!> Stresses in the half-space below one fitted function and all its images: README.md, section 13.
 !>
 !> At depth the stresses are a Fourier series. Near the surface they are the sum of two parts: the spots or pools near
 !> the point are integrated one by one, by a rule over the disc or, next to a spot or pool, along rays; the stresses of
@@ -6,8 +6,8 @@
 module wavycon_fitted_function_stress
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
-   use wavycon_expansion, only: expansion
    use wavycon_far_stress, only: far_stress, set_far_values, start_far_stress
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: far_top, near_clearance, series_depth
    use wavycon_kinds, only: dp
    use wavycon_lattice_stress_series, only: add_wave, lattice_stress_series, start_lattice_stress_series
@@ -43,8 +43,8 @@ contains
    subroutine start_fitted_function_stress(stress, lattice, solution, accuracy)
       type(fitted_function_stress), intent(out) :: stress
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: solution      !! the solution of the lattice, without adhesion
-      real(dp), intent(in) :: accuracy             !! error of the stresses over the peak pressure
+      type(fitted_function), intent(in) :: solution      !! the solution of the lattice, without adhesion
+      real(dp), intent(in) :: accuracy                   !! error of the stresses over the peak pressure
 
       complex(dp), allocatable :: centre(:)
       complex(dp) :: first

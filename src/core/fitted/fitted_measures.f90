@@ -3,14 +3,14 @@ module wavycon_fitted_measures
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations
    use wavycon_disc_sources, only: copies
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp
    use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: measure_expansion
+   public :: measure_fitted_function
 
    !> The order of the measures in an array, and their number.
    integer, parameter, public :: gap_measure = 1        !! mean gap G [Delta]
@@ -25,10 +25,10 @@ module wavycon_fitted_measures
 contains
 
    !> Computes all measures of a solution.
-   subroutine measure_expansion(equations, lattice, now, measures, scale)
-      type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
+   subroutine measure_fitted_function(equations, lattice, now, measures, scale)
+      type(contact_equations), intent(in) :: equations     !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(inout) :: now                !! the solution; the load of an adhesive spot is set
+      type(fitted_function), intent(inout) :: now          !! the solution; the load of an adhesive spot is set
       real(dp), intent(out) :: measures(all_measures)
       real(dp), intent(out) :: scale(all_measures)
          !! what errors are relative to: the measure; for loads and pressures with adhesion plus the tension at the edge
@@ -96,6 +96,6 @@ contains
          end if
       end function strain_energy
 
-   end subroutine measure_expansion
+   end subroutine measure_fitted_function
 
 end module wavycon_fitted_measures

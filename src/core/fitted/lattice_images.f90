@@ -15,7 +15,7 @@ module wavycon_lattice_images
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: copies, linearise_sources
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: most_near_points, series_clearance
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
@@ -47,7 +47,7 @@ contains
    subroutine prepare(self, lattice, now, growth, tolerance)
       class(lattice_images), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
+      type(fitted_function), intent(in) :: now
       real(dp), intent(in) :: growth        !! the series shall hold up to this multiple of the shape's size, >= 1
       real(dp), intent(in) :: tolerance
          !! error of F relative to its largest value, > 0; that of the Laplacian, whose weight in the equations is a few
@@ -120,16 +120,16 @@ contains
       end associate
    end subroutine find_coefficients
 
-   !> Adds, for several targets, the integrals over all images of each term of an expansion, and the derivatives of the
-   !> integral of their sum by the shape. Also sets the integrals without a kernel, and their derivatives: those of the
-   !> load.
+   !> Adds, for several targets, the integrals over all images of each term of a fitted function, and the derivatives of
+   !> the integral of their sum by the shape. Also sets the integrals without a kernel, and their derivatives: those of
+   !> the load.
    !>
    !> N.B. The derivatives are at fixed w_t: the targets z(w_t) move with the shape.
    subroutine add_rows(self, lattice, now, rule, values, target, rows, shape_rows, load_row, load_slope)
       class(lattice_images), intent(in) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
-      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the expansion
+      type(fitted_function), intent(in) :: now
+      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the fitted function
       real(dp), intent(in) :: values(:, :)             !! the basis at the rule's points, shape (n, N)
       complex(dp), intent(in) :: target(:)             !! w_t, |w_t| <= 1, shape (m)
       real(dp), intent(inout) :: rows(:, :)            !! integrals, shape (m, N)

@@ -5,13 +5,13 @@ module wavycon_load_continuation
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_disc_polynomials, only: start_disc_polynomials
-   use wavycon_expansion, only: edge_power, expansion
+   use wavycon_fitted_function, only: edge_power, fitted_function
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
    use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, start_degree
    use wavycon_gauss_newton, only: add_step, change_per_square, newton_steps
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_kinds, only: dp
-   use wavycon_expansion_size, only: merging_ratio
+   use wavycon_fitted_size, only: merging_ratio
    use wavycon_quantities, only: polynomial_degree
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -36,7 +36,7 @@ contains
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                    !! mean pressure P
       logical, intent(in) :: pool                     !! true: for a pool; false: for a spot
-      type(expansion), intent(out) :: now             !! the approximation
+      type(fitted_function), intent(out) :: now       !! the approximation
       integer, intent(out) :: degree                  !! degree of the first solution
       integer, intent(inout) :: iterations            !! the number of Gauss-Newton steps is added
       logical, intent(out) :: found                   !! whether there is an approximation
@@ -96,7 +96,7 @@ contains
       logical, intent(in) :: pool                     !! true: for a pool; false: for a spot
       real(dp), intent(in) :: work                    !! work of adhesion W > 0 [pi E* Delta^2/s]
       real(dp), intent(in) :: area                    !! area of the spot or pool [s^2]
-      type(expansion), intent(out) :: now             !! the approximation
+      type(fitted_function), intent(out) :: now       !! the approximation
       integer, intent(out) :: degree                  !! degree of the first solution
       integer, intent(inout) :: iterations            !! the number of Gauss-Newton steps is added
       logical, intent(out) :: found                   !! whether there is an approximation
@@ -135,9 +135,9 @@ contains
 
    !> A spot or pool with adhesion, scaled to another area without a change of pressures and gaps.
    pure function scaled_to_area(from, area) result(scaled)
-      type(expansion), intent(in) :: from
+      type(fitted_function), intent(in) :: from
       real(dp), intent(in) :: area      !! the other area [s^2]
-      type(expansion) :: scaled
+      type(fitted_function) :: scaled
 
       scaled = from
       scaled%shape%b = from%shape%b*sqrt(area/from%shape%area())
@@ -172,7 +172,7 @@ contains
       steps = ceiling(abs(log(ratio))/log(load_step_ratio))
    end function load_steps
 
-   !> The asymptote of small spots or pools, as an expansion of low degree over a circle.
+   !> The asymptote of small spots or pools, as a fitted function of low degree over a circle.
    !>
    !> A spot is a Hertzian contact at a crest: README.md (F41) and (23) of the paper. A pool is the opening of a
    !> penny-shaped crack at a trough: (F42), and (24), (A4)-(A8) of the paper. With adhesion at a given area they are
@@ -183,7 +183,7 @@ contains
       real(dp), intent(in) :: load   !! P > 0, for a pool < closing pressure; not used with adhesion
       logical, intent(in) :: pool    !! true: a pool; false: a spot
       real(dp), intent(in), optional :: work, area   !! with adhesion: W > 0, and the area of the spot or pool [s^2]
-      type(expansion) :: now
+      type(fitted_function) :: now
 
       real(dp), allocatable :: inside(:), values(:, :)
       real(dp) :: curvature(2), mean, missing, radius, ratio   ! ratio: of the axes along y and x
@@ -242,9 +242,9 @@ contains
    !> asymptotes.
    function scaled_to_load(lattice, from, old_load, new_load) result(scaled)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: from
+      type(fitted_function), intent(in) :: from
       real(dp), intent(in) :: old_load, new_load  !! mean pressures P
-      type(expansion) :: scaled
+      type(fitted_function) :: scaled
 
       real(dp) :: factor
 

@@ -1,15 +1,15 @@
-!> The derivatives of mean gap and contact area by the load, from an expansion. Equations (I..) are those of
+!> The derivatives of mean gap and contact area by the load, from a fitted function. Equations (I..) are those of
 !> src/beyond/README.md.
 module wavycon_load_slopes
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: error_estimate
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
    use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
-   use wavycon_expansion_size, only: merging_ratio
+   use wavycon_fitted_size, only: merging_ratio
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -50,10 +50,10 @@ contains
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 
-   !> The derivatives of one expansion by the load: (I4) to (I7b).
+   !> The derivatives of one fitted function by the load: (I4) to (I7b).
    subroutine slopes_of(lattice, now, slopes, found)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now                   !! the expansion, a solution without adhesion
+      type(fitted_function), intent(in) :: now             !! the fitted function, a solution without adhesion
       real(dp), intent(out) :: slopes(number_of_slopes)    !! as of find_load_slopes
       logical, intent(out) :: found                        !! as of find_load_slopes
 

@@ -4,7 +4,7 @@
 !> or pool, where none does, the integration is along rays.
 module wavycon_spot_integral
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: rule_angles_factor, rule_angles_per_degree, rule_fineness, rule_radii_factor, &
       rule_radii_per_degree
    use wavycon_kinds, only: dp
@@ -23,7 +23,7 @@ module wavycon_spot_integral
    integer, parameter, public :: far_level = 2
 
    type :: spot_integral
-      type(expansion) :: solution                            !! the spot or pool
+      type(fitted_function) :: solution                      !! the spot or pool
       real(dp) :: radius = 0.0_dp                            !! radius of a circle around the shape [s]
       real(dp) :: digits = 0.0_dp                            !! natural logarithm of 1/accuracy
       integer, private :: kernel = 1                         !! all_fields or surface_field of wavycon_stress_kernel
@@ -43,9 +43,9 @@ contains
    !> Prepares the integrals over a spot or pool, and chooses the numbers of points of the rules.
    subroutine start_spot_integral(spot, solution, accuracy, kernel)
       type(spot_integral), intent(out) :: spot
-      type(expansion), intent(in) :: solution      !! the spot or pool
-      real(dp), intent(in) :: accuracy             !! error of the integrals over the peak of pressure or displacement
-      integer, intent(in) :: kernel                !! all_fields or surface_field
+      type(fitted_function), intent(in) :: solution    !! the spot or pool
+      real(dp), intent(in) :: accuracy                 !! error of the integrals over the peak pressure or displacement
+      integer, intent(in) :: kernel                    !! all_fields or surface_field
 
       !> Factor on the radius of the shape, which is known from some points only and may be too small.
       real(dp), parameter :: radius_margin = 1.05_dp

@@ -7,7 +7,7 @@
 module wavycon_stress_rays
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: find_density
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: ray_angles_of_strain, ray_angles_per_unit, ray_points, ray_points_per_degree, &
       ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
@@ -44,7 +44,7 @@ contains
    !> Chooses the numbers of rays and points for a degree and an accuracy.
    subroutine start_stress_rays(rays, degree, digits, kernel)
       type(stress_rays), intent(out) :: rays
-      integer, intent(in) :: degree              !! degree of the expansion
+      integer, intent(in) :: degree              !! degree of the fitted function
       real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
       integer, intent(in) :: kernel              !! all_fields, or surface_field for positions outside
 
@@ -60,7 +60,7 @@ contains
    !> point closest to z(w_0), with more points on each ray if n > 1.
    subroutine add_at(self, solution, origin, offset, depth, fields)
       class(stress_rays), intent(inout) :: self
-      type(expansion), intent(in) :: solution             !! the spot or pool
+      type(fitted_function), intent(in) :: solution       !! the spot or pool
       complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
       complex(dp), intent(in) :: offset(:)                !! x + i y of the points less z(w_0), shape (n) [s]
       real(dp), intent(in) :: depth(:)                    !! depths >= 0, shape (n) [s]

@@ -15,9 +15,8 @@ module wavycon_series_stress_fields
    use wavycon_stress_fields, only: start_place, stress_fields
    use wavycon_stress_kernel, only: stress_parts
    use wavycon_stress_tensor, only: von_mises, zz
-   use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
-      plane_points, plane_ratio, pressure_part, shift_of_smooth, steps_in_shift, waves_in_depth, window_depth, &
-      window_points
+   use wavycon_stress_tuning, only: coarsest, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
+      pressure_part, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, window_points
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -152,7 +151,7 @@ contains
       if (noise <= noise_part*(reach/width)**2) return
       self%known = [self%known, taylor_series(centre=place)]
       self%used = size(self%known)
-      call self%waves%find_moments(place - self%first, expansion_order, self%known(self%used)%moment)
+      call self%waves%find_moments(place - self%first, taylor_order, self%known(self%used)%moment)
       noise = noise_at(0.0_dp)
 
    contains
@@ -161,7 +160,7 @@ contains
       pure real(dp) function noise_at(distance)
          real(dp), intent(in) :: distance   !! of the place from the centre of a series [rad]
 
-         noise_at = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
+         noise_at = ((distance + reach)/min(width, max(place(3), least_width(self))))**(taylor_order + 1)/8
       end function noise_at
 
    end subroutine expand

@@ -1,7 +1,7 @@
 !> The solvers as a deck names them: their names, their keys in &method, which surfaces they cannot solve, and how a
 !> solver is started from the values of its keys.
 module wavycon_methods
-   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
+   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_lattice, has_neither, &
       last_choice, points_are_given, points_are_of_the_map
    use wavycon_series_contact, only: series_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
@@ -123,7 +123,7 @@ contains
          if (.not. closed_form_exists(surface)) words = "is for the 1-D wave and kind = 'ball'"
       case ('fitted')
          call find_frame(surface, frame)
-         ! A flat surface is in full contact at every load: no expansion is needed.
+         ! A flat surface is in full contact at every load: no fitted function is needed.
          if (.not. allocated(frame%lattice) .and. surface%amplitude > 0.0_dp) words = &
             "is for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
             ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
@@ -229,8 +229,8 @@ contains
          traits = solver%traits()
          words = grid_in_words(values, surface)
          if (traits%choice == has_closed_form) words = trim(closed_form(surface%dimension))
-         if (traits%choice == has_expansions) words = fitted
-         if (traits%choice == has_expansions .or. (traits%choice == has_closed_form .and. surface%dimension == 2)) &
+         if (traits%choice == has_lattice) words = fitted
+         if (traits%choice == has_lattice .or. (traits%choice == has_closed_form .and. surface%dimension == 2)) &
             words = words//', grids where it cannot'
       end select
       if (present(description)) call move_alloc(words, description)
@@ -245,7 +245,7 @@ contains
 
       reasons = ''
       reasons(has_closed_form) = 'the surface is the 1-D wave or a ball, which has a closed form'
-      reasons(has_expansions) = 'the surface has a lattice of equal spots; grids solve the loads for which '// &
+      reasons(has_lattice) = 'the surface has a lattice of equal spots; grids solve the loads for which '// &
                                 "'fitted' is not accurate enough"
       reasons(has_neither) = 'the surface has neither a closed form nor a lattice of equal spots'
       reasons(has_a_hardness) = "neither the closed form nor 'fitted' has a hardness"

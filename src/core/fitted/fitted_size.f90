@@ -1,7 +1,8 @@
-!> Chooses the size of an expansion: the sequence of degrees, the number of shape terms, and the clustering of the map.
-!> They depend on the merging ratio, a measure of how close a spot or pool is to its neighbours, which is computed here.
-module wavycon_expansion_size
-   use wavycon_expansion, only: expansion
+!> Chooses the size of a fitted function: the sequence of degrees, the number of shape terms, and the clustering of the
+!> map. They depend on the merging ratio, a measure of how close a spot or pool is to its neighbours, which is computed
+!> here.
+module wavycon_fitted_size
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: degree_per_shape_term, degree_per_shape_term_twofold, degree_step, first_degree, &
       full_step_degree, pool_clustering, pool_clustering_power, least_clustering, round_shape_ratio, &
       spot_clustering, spot_clustering_power
@@ -21,7 +22,7 @@ contains
    !> where they overlap.
    pure real(dp) function merging_ratio(lattice, now) result(ratio)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now          !! the spot or pool
+      type(fitted_function), intent(in) :: now    !! the spot or pool
 
       complex(dp), allocatable :: midpoints(:)
       integer :: i
@@ -107,4 +108,4 @@ contains
       next_clustering = min(next_clustering, tau + 0.02_dp)
    end function next_clustering
 
-end module wavycon_expansion_size
+end module wavycon_fitted_size
