@@ -13,7 +13,7 @@ module wavycon_auto_contact
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: main_quantities
-   use wavycon_solution_record, only: by_choice
+   use wavycon_solution_record, only: by_auto
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -115,7 +115,7 @@ contains
       if (allocated(self%preferred)) traits = self%preferred%traits()
       if (self%choice == has_lattice .or. of_grids%needs_whole_grids) traits%finest_grid = of_grids%finest_grid
       traits%needs_whole_grids = of_grids%needs_whole_grids
-      traits%solver = by_choice
+      traits%solver = by_auto
       traits%has_details = .false.
       traits%choice = self%choice
    end function traits

@@ -17,7 +17,7 @@ module wavycon_contact_solution
    use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, peak_pressure, quantities, unknown
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
-   use wavycon_solution_record, only: by_grids, record_words, solution_record
+   use wavycon_solution_record, only: by_grid, record_words, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -229,7 +229,7 @@ contains
    pure logical function is_kept(self)
       class(contact_solution), intent(in) :: self
 
-      is_kept = self%solver == by_grids .and. .not. any(self%status == [interrupted, no_memory])
+      is_kept = self%solver == by_grid .and. .not. any(self%status == [interrupted, no_memory])
    end function is_kept
 
    !> Packs a solution into 8-byte words for a checkpoint, so that a resumed run need not compute the solution again:

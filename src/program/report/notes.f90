@@ -16,7 +16,7 @@ module wavycon_notes
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
-   use wavycon_solution_record, only: by_beale, by_dual, solution_record, solver_names
+   use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
    implicit none (type, external)
    private
 
@@ -293,7 +293,7 @@ contains
       associate (scene => results%scene, surface => results%solver%surface)
          of_loads = ' of '//integer_text(size(loads))//' loads'
          call note_unresolved()
-         is_series = loads%solver == by_beale .or. loads%solver == by_dual
+         is_series = loads%solver == by_beale .or. loads%solver == by_series
          if (any(is_series)) call log%note( &
             "the errors of the paper's truncated series are not estimated: with its harmonics and points they are "// &
             'up to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
