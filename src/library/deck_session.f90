@@ -331,7 +331,7 @@ contains
          associate (surface => self%results%solver%surface, scale => self%scale)
             call pick_number([character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', 'points_x', &
                               'points_y', 'dimension', 'loads'], [scale%e_star, scale%p_star, scale%amplitude, &
-                             scale%sides, real([surface%points/surface%parts(), surface%dimension, &
+                             scale%sides, real([surface%points/surface%maps_in_cell(), surface%dimension, &
                                                 size(self%results%order)], dp)], name, value, error)
          end associate
       end if

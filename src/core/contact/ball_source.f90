@@ -127,7 +127,7 @@ contains
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      allocate (answer, source=ball_fields(parts=surface%parts(), surface=surface, contact=self%contact))
+      allocate (answer, source=ball_fields(maps_in_cell=surface%maps_in_cell(), surface=surface, contact=self%contact))
    end subroutine fields
 
    !> Hertz's pressure in contact, and the displacement (C31) outside. With adhesion the tension F is that of a flat
@@ -214,23 +214,23 @@ contains
       stress%exist = stress%own%exist
       stress%pbar_over_pstar = stress%own%pbar_over_pstar*stress%unit
       stress%side_ratio = surface%length(2)/surface%length(1)
-      stress%parts = stress%own%parts
+      stress%maps_in_cell = stress%own%maps_in_cell
       call move_alloc(stress, answer)
    end subroutine stresses
 
    !> The stresses at a point, from those at the corresponding point below the smaller rectangle.
-   subroutine stress_at(self, x, y, depth, parts, error)
+   subroutine stress_at(self, x, y, depth, nu_terms, error)
       class(ball_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
       real(dp) :: angles(3)   ! X, Y, Z on the smaller rectangle; the crest has X = Y = pi/2 on both
 
       angles = self%angle_ratio*[x - 0.5_dp*pi, y - 0.5_dp*pi, depth] + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
-      call self%own%at(angles(1), angles(2), angles(3), parts, error)
-      parts = parts*self%unit
+      call self%own%at(angles(1), angles(2), angles(3), nu_terms, error)
+      nu_terms = nu_terms*self%unit
       if (present(error)) error = error*self%unit
    end subroutine stress_at
 

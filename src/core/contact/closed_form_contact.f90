@@ -173,18 +173,18 @@ contains
    end subroutine stresses
 
    !> The stresses below Westergaard's pressure.
-   subroutine stress_at(self, x, y, depth, parts, error)
+   subroutine stress_at(self, x, y, depth, nu_terms, error)
       class(closed_form_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
       !> Error of the stresses relative to the peak pressure.
       real(dp), parameter :: rounding = 1e-14_dp
 
       associate (unused => y); end associate
-      call westergaard_stress(x, depth, self%pbar_over_pstar, parts)
+      call westergaard_stress(x, depth, self%pbar_over_pstar, nu_terms)
       if (present(error)) error = rounding*westergaard_peak_pressure_over_pstar(self%pbar_over_pstar)
    end subroutine stress_at
 

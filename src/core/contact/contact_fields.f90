@@ -23,7 +23,7 @@ module wavycon_contact_fields
       type(grid_slab) :: own_slab = grid_slab()
       !> Symmetries of the fields: on_grid evaluates one point of each set of equivalent ones.
       type(equivalent_points) :: symmetry = equivalent_points()
-      integer :: parts(2) = 1               !! parts() of the surface: how often the points of on_grid fit into the cell
+      integer :: maps_in_cell(2) = 1        !! that of the surface: how often the points of on_grid fit into the cell
    contains
       procedure(fields_at_point), deferred :: at
       procedure :: on_grid
@@ -66,7 +66,7 @@ contains
          do k = 1, points(1)
             first = self%symmetry%first_of([k, l] - 1)
             associate (i => first%point(1) + 1, j => first%point(2) + 1, &
-                       angles => 2*pi*(first%point + offset)/(self%parts*points))
+                       angles => 2*pi*(first%point + offset)/(self%maps_in_cell*points))
                if (i == k .and. j == l) &
                   call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
                pressure(k, l) = pressure(i, j)

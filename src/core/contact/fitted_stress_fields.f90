@@ -24,18 +24,18 @@ module wavycon_fitted_stress_fields
 contains
 
    !> The stresses at a point, converted from the axes and units of the lattice.
-   subroutine at(self, x, y, depth, parts, error)
+   subroutine at(self, x, y, depth, nu_terms, error)
       class(fitted_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
       integer :: i
 
-      call self%fitted%at(self%frame%place(x, y), self%frame%length(1)*depth/(2*pi*self%frame%side), parts, error)
+      call self%fitted%at(self%frame%place(x, y), self%frame%length(1)*depth/(2*pi*self%frame%side), nu_terms, error)
       do i = 1, 2
-         parts(:, i) = self%frame%pressure_unit*rotated(parts(:, i), conjg(self%frame%turn))
+         nu_terms(:, i) = self%frame%pressure_unit*rotated(nu_terms(:, i), conjg(self%frame%turn))
       end do
       if (present(error)) error = self%frame%pressure_unit*error
    end subroutine at

@@ -56,7 +56,7 @@ contains
       if (.not. edge%even) return
       ! The points of a quarter, midway between the lines of the grid; in 1-D only along x.
       where (edge%slab%points > 1)
-         fields%own_points = 2*edge%slab%points/surface%parts()
+         fields%own_points = 2*edge%slab%points/surface%maps_in_cell()
          fields%own_offset = 0.5_dp
       end where
    end subroutine start_grid_fields
@@ -120,7 +120,8 @@ contains
                pressure(k, l) = max(value, 0.0_dp)
                gap(k, l) = max(-value, 0.0_dp)
             else
-               call interpolate(self, ([k, l] - 1 + offset)/(self%surface%parts()*points), pressure(k, l), gap(k, l))
+               call interpolate(self, ([k, l] - 1 + offset)/(self%surface%maps_in_cell()*points), pressure(k, l), &
+                                gap(k, l))
             end if
          end do
       end do

@@ -58,23 +58,23 @@ contains
    !> position.
    !>
    !> N.B. On the surface inside a pool the pressure is not exactly 0, but the residual of the equations.
-   subroutine at(self, place, depth, parts, error)
+   subroutine at(self, place, depth, nu_terms, error)
       class(fitted_answer_stress), intent(inout) :: self
       complex(dp), intent(in) :: place             !! x + i y from a crest [s]
       real(dp), intent(in) :: depth                !! depth z >= 0 [s]
-      real(dp), intent(out) :: parts(6, 2)
-         !! xx, yy, zz, xy, xz, yz [pi E* Delta/s], tension > 0: the stress is parts(:, 1) + nu*parts(:, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
+         !! xx, yy, zz, xy, xz, yz [pi E* Delta/s], tension > 0: the stress is nu_terms(:, 1) + nu*nu_terms(:, 2)
       real(dp), intent(out), optional :: error
          !! estimate of the largest error of the components for any 0 <= nu <= 1/2 [pi E* Delta/s]
 
-      !> The matrix that makes the stresses for nu = 0 and nu = 1/2 of `parts`.
+      !> The matrix that makes the stresses for nu = 0 and nu = 1/2 of `nu_terms`.
       real(dp), parameter :: at_limits(2, 2) = reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2])
       real(dp) :: distance, lower(6, 2), values(12, 0:ubound(self%of_degree, 1))
       integer :: i
 
-      call self%of_degree(0)%at(place, depth, parts)
+      call self%of_degree(0)%at(place, depth, nu_terms)
       if (.not. present(error)) return
-      values(:, 0) = reshape(matmul(parts, at_limits), [12])
+      values(:, 0) = reshape(matmul(nu_terms, at_limits), [12])
       do i = 1, ubound(values, 2)
          call self%of_degree(i)%at(place, depth, lower)
          values(:, i) = reshape(matmul(lower, at_limits), [12])

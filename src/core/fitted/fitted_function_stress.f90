@@ -13,7 +13,7 @@ module wavycon_fitted_function_stress
    use wavycon_lattice_stress_series, only: add_wave, lattice_stress_series, start_lattice_stress_series
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: all_fields, stress_field_count, stress_parts
+   use wavycon_stress_kernel, only: all_fields, nu_terms_of, stress_field_count
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -64,11 +64,11 @@ contains
    end subroutine start_fitted_function_stress
 
    !> The stresses at a point, less those of the mean pressure.
-   subroutine at(self, place, depth, parts)
+   subroutine at(self, place, depth, nu_terms)
       class(fitted_function_stress), intent(inout) :: self
       complex(dp), intent(in) :: place                    !! x + i y of the point from a crest [s]
       real(dp), intent(in) :: depth                       !! depth z >= 0 [s]
-      real(dp), intent(out) :: parts(6, 2)                !! as of stress_parts [pi E* Delta/s]
+      real(dp), intent(out) :: nu_terms(6, 2)             !! as of nu_terms_of [pi E* Delta/s]
 
       complex(dp) :: z
       real(dp) :: fields(stress_field_count)
@@ -93,7 +93,7 @@ contains
             call add_wave(2*pi*self%lattice%wave(:, i), self%lattice%pressure(i), place, depth, fields)
          end do
       end if
-      parts = stress_parts(fields)
+      nu_terms = nu_terms_of(fields)
    end subroutine at
 
    !> The distance of a position on the surface from the nearest edge of a spot or pool [s].

@@ -51,10 +51,10 @@ contains
    !> The position of the largest stress as parts of the cell: x/L_x and y/L_y, from 0 to 1, and z/L_x. In a cell of a
    !> height map and its mirror images the position is moved to the equivalent one in the map itself. NaN if the load
    !> has no solution.
-   pure function place_in_cell(self, parts) result(place)
+   pure function place_in_cell(self, maps_in_cell) result(place)
       class(largest_stress), intent(in) :: self
-      integer, intent(in) :: parts(2)   !! maps along x and y in the cell: 2 if mirrored, otherwise 1 (surface%parts())
-      real(dp) :: place(3)              !! [-]
+      integer, intent(in) :: maps_in_cell(2)   !! maps along x and y in the cell: 2 if mirrored, otherwise 1
+      real(dp) :: place(3)                     !! [-]
 
       !> An angle between -1e-6 and 0 is 0 but for rounding. Without this tolerance the position would be reported on
       !> the far side of the cell.
@@ -66,7 +66,7 @@ contains
       place(:2) = modulo(place(:2) + rounding, 2*pi) - rounding
       where (abs(place(:2)) <= rounding) place(:2) = 0.0_dp
       place = place/(2*pi)
-      where (parts > 1) place(:2) = abs(place(:2) - anint(place(:2)))
+      where (maps_in_cell > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function place_in_cell
 
    !> Refines the places with the largest stresses, at most `refined_places` of them, and returns the largest refined
@@ -87,7 +87,7 @@ contains
       !> Sizes of stresses [p*]: at the start places, -1 where a place is not to be refined; the least one that is
       !> refined; the answer less its error if it is doubtful; the largest one plus its error.
       real(dp) :: values(size(places)), threshold, certain, lower, highest
-      real(dp) :: component_error, least_gain, gain, parts(6, 2), uncertainty
+      real(dp) :: component_error, least_gain, gain, nu_terms(6, 2), uncertainty
       logical :: is_doubtful, is_larger
       type(largest_stress) :: other
       integer :: best, i, k
@@ -96,7 +96,7 @@ contains
       best = maxloc(values, dim=1)
       least_gain = search_accuracy*values(best)
       associate (here => places(best)%place)
-         call fields%at(here(1), here(2), here(3), parts, component_error)
+         call fields%at(here(1), here(2), here(3), nu_terms, component_error)
       end associate
       if (.not. ieee_is_nan(component_error)) least_gain = min(gain_part*component_error, least_gain)
       answer%value = -1.0_dp
@@ -110,8 +110,8 @@ contains
          other%place = places(best)%place
          call refine(fields, body, by_shear, places(best)%width, least_gain, answer%value, other, gain)
          if (fields%dimension == 1) other%place(2) = 0.0_dp
-         call fields%at(other%place(1), other%place(2), other%place(3), parts, component_error)
-         other%value = size_of(by_shear, body%stress(parts, fields%pbar_over_pstar))
+         call fields%at(other%place(1), other%place(2), other%place(3), nu_terms, component_error)
+         other%value = size_of(by_shear, body%stress(nu_terms, fields%pbar_over_pstar))
          ! (S7).
          other%error = error_of_invariant*component_error + gain
          uncertainty = 0.0_dp
@@ -255,10 +255,10 @@ contains
       real(dp) function size_near(position)
          real(dp), intent(in) :: position(3)   !! X, Y, Z [rad]
 
-         real(dp) :: parts(6, 2)
+         real(dp) :: nu_terms(6, 2)
 
-         call fields%near(position, parts)
-         size_near = size_of(by_shear, body%stress(parts, fields%pbar_over_pstar))
+         call fields%near(position, nu_terms)
+         size_near = size_of(by_shear, body%stress(nu_terms, fields%pbar_over_pstar))
       end function size_near
 
    end subroutine refine

@@ -13,7 +13,7 @@ module wavycon_series_stress_fields
    use wavycon_pressure_wave_sums, only: deepest, pressure_wave_sums
    use wavycon_series_samples, only: sample_series
    use wavycon_stress_fields, only: start_place, stress_fields
-   use wavycon_stress_kernel, only: stress_parts
+   use wavycon_stress_kernel, only: nu_terms_of
    use wavycon_stress_tensor, only: von_mises, zz
    use wavycon_stress_tuning, only: coarsest, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
       pressure_part, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, window_points
@@ -73,7 +73,7 @@ contains
 
       stress%pbar_over_pstar = pbar_over_pstar
       stress%dimension = surface%dimension
-      stress%parts = surface%parts()
+      stress%maps_in_cell = surface%maps_in_cell()
       stress%side_ratio = surface%length(2)/surface%length(1)
       if (surface%dimension == 1) stress%side_ratio = 1.0_dp
       call stress%waves%start(pressure, stress%side_ratio, is_sampled)
@@ -117,17 +117,17 @@ contains
    end subroutine remove_images
 
    !> The stress at one point: that on a line of a single point.
-   subroutine at(self, x, y, depth, parts, error)
+   subroutine at(self, x, y, depth, nu_terms, error)
       class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
-      real(dp) :: errors(1), parts_on_line(6, 2, 1)
+      real(dp) :: errors(1), nu_terms_on_line(6, 2, 1)
 
-      call self%on_line([x, y], [0, 0], [0.0_dp], depth, parts_on_line, errors)
-      parts = parts_on_line(:, :, 1)
+      call self%on_line([x, y], [0, 0], [0.0_dp], depth, nu_terms_on_line, errors)
+      nu_terms = nu_terms_on_line(:, :, 1)
       if (present(error)) error = errors(1)
    end subroutine at
 
@@ -173,14 +173,14 @@ contains
    end function least_width
 
    !> The stress near a place, by the Taylor series that `expand` chose.
-   subroutine near(self, place, parts)
+   subroutine near(self, place, nu_terms)
       class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: place(3)
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
 
       associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
-         parts = stress_parts(sums_near(known%moment, (place - known%centre)*scale, place(3)) &
-                              + smooth_sums(self, place))
+         nu_terms = nu_terms_of(sums_near(known%moment, (place - known%centre)*scale, place(3)) &
+                                + smooth_sums(self, place))
       end associate
    end subroutine near
 
@@ -234,13 +234,13 @@ contains
 
    !> The stresses along a line. Waves with the same wave number m = d_x k + d_y l along the line are added up first, so
    !> that each point takes a sum over m only.
-   subroutine on_line(self, start, direction, t, depth, parts, error)
+   subroutine on_line(self, start, direction, t, depth, nu_terms, error)
       class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: start(2)
       integer, intent(in) :: direction(2)
       real(dp), intent(in) :: t(:)
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(:, :, :), error(:)
+      real(dp), intent(out) :: nu_terms(:, :, :), error(:)
 
       complex(dp), allocatable :: along(:, :), turn_x(:), waves(:)
       complex(dp) :: turned, wave
@@ -278,8 +278,8 @@ contains
          do m = lbound(along, 2), ubound(along, 2)
             sums = sums + real(along(:, m)*turn(m*t(i)))
          end do
-         parts(:, :, i) = stress_parts(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))
-         error(i) = error_of(self, parts(zz, 1, i) - self%pbar_over_pstar, sums(9:))
+         nu_terms(:, :, i) = nu_terms_of(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))
+         error(i) = error_of(self, nu_terms(zz, 1, i) - self%pbar_over_pstar, sums(9:))
       end do
    end subroutine on_line
 
@@ -314,7 +314,7 @@ contains
 
       number = merge(9, 6, self%waves%octave_reaches(depth))
       mean = body%stress(no_waves, self%pbar_over_pstar)
-      associate (of_cell => self%parts*points)
+      associate (of_cell => self%maps_in_cell*points)
          step = 2*pi/of_cell
          allocate (fields(of_cell(1), of_cell(2), number), waves(of_cell(1)/2 + 1, of_cell(2), number))
          call plane%start(of_cell, even=.false., whole=.true.)
@@ -332,7 +332,7 @@ contains
          do k = 1, points(1)
             stress(k, l, :) = fields(k, l, :6) + mean
             if (allocated(self%load)) stress(k, l, :) = stress(k, l, :) &
-               + matmul(stress_parts(smooth(:, k, l)), [1.0_dp, body%nu])
+               + matmul(nu_terms_of(smooth(:, k, l)), [1.0_dp, body%nu])
             error(k, l) = error_of(self, stress(k, l, zz), fields(k, l, 7:))
          end do
       end do

@@ -75,7 +75,7 @@ contains
       real(dp) :: to_unit(5)   ! units of value, error, x, y and depth in the deck's units
 
       associate (surface => results%solver%surface)
-         images = surface%parts()
+         images = surface%maps_in_cell()
          to_unit = [results%scene%p_star, results%scene%p_star, surface%length, surface%length(1)]
       end associate
       do body = 1, size(results%scene%stress_setting%body)

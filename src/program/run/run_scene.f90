@@ -294,7 +294,7 @@ contains
       end if
       ! The surface takes the memory of its series, and twice as much more while the series is gathered.
       if (needs_surface .and. results%solver%surface%is_distributed()) &
-         numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
+         numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%maps_in_cell())
       if (.not. has_memory_for(numbers) .and. results%sharing%is_first) call fatal_error(error, exit_file_trouble, &
          'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
          'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &

@@ -326,7 +326,7 @@ contains
       type(surface_type), intent(in) :: surface
       integer :: points(2)
 
-      points = surface%parts()*nint(values%grid_points%pair)
+      points = surface%maps_in_cell()*nint(values%grid_points%pair)
    end function points_of_grid
 
    !> Checks the keys of grids and sets grid_points along x and y. If the deck gives neither grid_points nor an
@@ -344,7 +344,7 @@ contains
          if (.not. surface%mirrored .and. any(mod(nint(grid%numbers), 2) /= 0)) call values%complain(grid, &
             'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
          if (.not. (grid%is_given .or. values%accuracy%is_given) .and. all(surface%points > 0)) then
-            call grid%set(real(surface%points/surface%parts(), dp))
+            call grid%set(real(surface%points/surface%maps_in_cell(), dp))
             grid%in_effect = .false.
          end if
          if (size(grid%numbers) > 0 .and. .not. values%accuracy%is_given) values%accuracy%in_effect = .false.
@@ -363,7 +363,7 @@ contains
 
       integer :: points(2)
 
-      points = points_of_grid(values, surface)/surface%parts()
+      points = points_of_grid(values, surface)/surface%maps_in_cell()
       if (all(points > 0)) then
          words = 'a grid of '//integer_text(points(1))
          if (surface%dimension == 2) words = words//' x '//integer_text(points(2))
