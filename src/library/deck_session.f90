@@ -162,7 +162,7 @@ contains
          return
       end if
       ! The checks skip a group that the deck does not have: mark the group as given.
-      values%place = 1
+      values%position = 1
       call keys(1)%take_value(k, number=value)
       call keys(1)%check_relations()
       call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)

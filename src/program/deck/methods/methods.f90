@@ -281,7 +281,7 @@ contains
       else if (points <= harmonics) then
          origin = ' (the default)'
          if (values%harmonics%is_given) origin = ''
-         call values%problems%add(max(values%harmonics%place, values%constraint_points%place), &
+         call values%problems%add(max(values%harmonics%position, values%constraint_points%position), &
             'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
             integer_text(harmonics)//origin)
       else if (.not. values%symmetry%is_bad) then
