@@ -22,7 +22,7 @@ module wavycon_ball_source
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
    use wavycon_solution_record, only: by_closed_form
-   use wavycon_stress_fields, only: start_place, stress_fields
+   use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -56,7 +56,7 @@ module wavycon_ball_source
       real(dp) :: unit = 1.0_dp                  !! p* of the smaller rectangle over that of the surface
    contains
       procedure :: at => stress_at
-      procedure :: start_places
+      procedure :: start_points
    end type ball_stress_fields
 
 contains
@@ -235,22 +235,22 @@ contains
    end subroutine stress_at
 
    !> Start points of the search for the largest stress, converted from those on the smaller rectangle.
-   subroutine start_places(self, body, places)
+   subroutine start_points(self, body, places)
       class(ball_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_point), allocatable, intent(out) :: places(:)
 
       integer :: i
 
-      call self%own%start_places(body, places)
+      call self%own%start_points(body, places)
       do i = 1, size(places)
-         associate (here => places(i)%place)
+         associate (here => places(i)%position)
             here = (here - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])/self%angle_ratio + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
          end associate
          places(i)%stress = places(i)%stress*self%unit
       end do
       places%width = places%width/maxval(self%angle_ratio)
-   end subroutine start_places
+   end subroutine start_points
 
    !> Derivatives with respect to the load. Approach and area are both proportional to the force to the power 2/3.
    subroutine derivatives(self, surface, answer)

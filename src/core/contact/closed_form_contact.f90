@@ -20,7 +20,7 @@ module wavycon_closed_form_contact
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
    use wavycon_solution_record, only: by_closed_form, no_solution
-   use wavycon_stress_fields, only: start_place, stress_fields
+   use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -56,7 +56,7 @@ module wavycon_closed_form_contact
    type, extends(stress_fields) :: closed_form_stress_fields
    contains
       procedure :: at => stress_at
-      procedure :: start_places
+      procedure :: start_points
    end type closed_form_stress_fields
 
 contains
@@ -190,10 +190,10 @@ contains
 
    !> Places at which searches for the largest stress start: some across half of the contact and a little beyond it, at
    !> depths from the surface down to 1.2 half widths.
-   subroutine start_places(self, body, places)
+   subroutine start_points(self, body, places)
       class(closed_form_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_point), allocatable, intent(out) :: places(:)
 
       !> Distances from the middle of the contact, and depths, over the half width of the contact.
       real(dp), parameter :: across(*) = [0.0_dp, 0.3_dp, 0.6_dp, 0.9_dp, 1.0_dp, 1.1_dp], &
@@ -202,10 +202,10 @@ contains
       integer :: i, k
 
       half_width = pi*westergaard_contact_area_fraction(self%pbar_over_pstar)
-      places = [((start_place(half_width*[across(i), 0.0_dp, below(k)], 0.5_dp*half_width), i=1, size(across)), &
+      places = [((start_point(half_width*[across(i), 0.0_dp, below(k)], 0.5_dp*half_width), i=1, size(across)), &
                  k=1, size(below))]
       call self%set_stresses(body, places)
-   end subroutine start_places
+   end subroutine start_points
 
    !> Derivatives with respect to the load: of the mean gap (20), and of the area A = 2 psi/pi with P = sin^2 psi (7).
    subroutine derivatives(self, surface, answer)

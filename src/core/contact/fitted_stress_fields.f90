@@ -5,7 +5,7 @@ module wavycon_fitted_stress_fields
    use wavycon_fitted_answer_stress, only: fitted_answer_stress
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_kinds, only: dp
-   use wavycon_stress_fields, only: start_place, stress_fields
+   use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: depths_of_spot, depths_of_cell, edge_ratios
    implicit none (type, external)
@@ -18,7 +18,7 @@ module wavycon_fitted_stress_fields
       type(fitted_answer_stress) :: fitted   !! stresses in the axes and units of the lattice, already started
    contains
       procedure :: at
-      procedure :: start_places
+      procedure :: start_points
    end type fitted_stress_fields
 
 contains
@@ -58,10 +58,10 @@ contains
 
    !> Places at which searches for the largest stress start, on the lines of symmetry of the lattice. Before the spots
    !> merge they are below the spot; afterwards they are below the crest and about the pool.
-   subroutine start_places(self, body, places)
+   subroutine start_points(self, body, places)
       class(fitted_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_point), allocatable, intent(out) :: places(:)
 
       complex(dp) :: centre
       complex(dp), allocatable :: at_surface(:), edge(:)
@@ -91,12 +91,12 @@ contains
       do k = 1, size(below)
          do i = 1, n
             associate (z => at_surface(i)*self%frame%side/self%frame%turn, here => places((k - 1)*n + i))
-               here%place = 2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
+               here%position = 2*pi*([z%re, z%im, below(k)*self%frame%side]/self%frame%length([1, 2, 1]))
                here%width = 2*pi*max(below(k), 0.25_dp*radius)*self%frame%side/self%frame%length(1)
             end associate
          end do
       end do
       call self%set_stresses(body, places)
-   end subroutine start_places
+   end subroutine start_points
 
 end module wavycon_fitted_stress_fields

@@ -12,7 +12,7 @@ module wavycon_series_stress_fields
    use wavycon_load_tree, only: load_tree, plant_load_tree
    use wavycon_pressure_wave_sums, only: deepest, pressure_wave_sums
    use wavycon_series_samples, only: sample_series
-   use wavycon_stress_fields, only: start_place, stress_fields
+   use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_stress_kernel, only: nu_terms_of
    use wavycon_stress_tensor, only: von_mises, zz
    use wavycon_stress_tuning, only: coarsest, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
@@ -56,7 +56,7 @@ module wavycon_series_stress_fields
       procedure :: near
       procedure :: on_line
       procedure :: on_plane
-      procedure :: start_places
+      procedure :: start_points
    end type series_stress_fields
 
 contains
@@ -344,10 +344,10 @@ contains
    !> The first plane is the surface, and each further one is `plane_ratio` times as deep as the plane before. Deeper
    !> planes need fewer points. If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the
    !> planes close to the surface are computed within these windows only, which takes less time at light loads.
-   subroutine start_places(self, body, places)
+   subroutine start_points(self, body, places)
       class(series_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_point), allocatable, intent(out) :: places(:)
 
       integer, parameter :: window(2) = window_points
       real(dp), allocatable :: highest(:, :), pressure(:, :)
@@ -436,7 +436,7 @@ contains
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
                                      min(floor(to*number), number - 1), depth/side(1), body, point, stress)
                do k = 1, 2
-                  places = [places, start_place([2*pi*(corner/real(points, dp) + side*point(:, k)/number), depth] &
+                  places = [places, start_point([2*pi*(corner/real(points, dp) + side*point(:, k)/number), depth] &
                                                 + self%first, max(depth, step), stress(:, k))]
                end do
                largest = max(largest, von_mises(stress(:, 1)))
@@ -454,6 +454,6 @@ contains
                               i=1, seen(1), middle), j=1, seen(2), middle)], (seen - 1)/middle + 1)
       end subroutine find_highest
 
-   end subroutine start_places
+   end subroutine start_points
 
 end module wavycon_series_stress_fields

@@ -13,16 +13,16 @@ module wavycon_stress_fields
    implicit none (type, external)
    private
 
-   public :: start_place, stress_fields
+   public :: start_point, stress_fields
 
    !> A place from which the search for the largest stress starts.
-   type :: start_place
-      real(dp) :: place(3) = 0.0_dp     !! X, Y, Z [rad]
+   type :: start_point
+      real(dp) :: position(3) = 0.0_dp  !! X, Y, Z [rad]
       real(dp) :: width = 0.0_dp        !! distance over which the stress changes there, about the depth [rad]
       real(dp) :: stress(6) = 0.0_dp    !! approximation of the stress there or of its deviator [p*]
-   end type start_place
+   end type start_point
 
-   !> The stresses of one load. Extensions override `at` and `start_places` by those of a solver's solution. This type
+   !> The stresses of one load. Extensions override `at` and `start_points` by those of a solver's solution. This type
    !> itself is that of a load without a solution: its stresses are NaN.
    type :: stress_fields
       real(dp) :: pbar_over_pstar = 0.0_dp    !! mean pressure P [p*]
@@ -35,7 +35,7 @@ module wavycon_stress_fields
       integer :: maps_in_cell(2) = 1
    contains
       procedure :: at
-      procedure :: start_places
+      procedure :: start_points
       procedure :: expand
       procedure :: near
       procedure :: on_line
@@ -62,14 +62,14 @@ contains
 
    !> Proposes the places from which the search for the largest stress starts. At least one of them should be close to
    !> the largest stress of the body.
-   subroutine start_places(self, body, places)
+   subroutine start_points(self, body, places)
       class(stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)   !! with their stresses
+      type(start_point), allocatable, intent(out) :: places(:)   !! with their stresses
 
       associate (unused => self, unused_too => body); end associate
       allocate (places(0))
-   end subroutine start_places
+   end subroutine start_points
 
    !> Prepares the evaluation of stresses by `near` around a place. Here there is nothing to prepare, as `near` is `at`.
    subroutine expand(self, place, width, reach, noise)
@@ -97,13 +97,13 @@ contains
    subroutine set_stresses(self, body, places)
       class(stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), intent(inout) :: places(:)
+      type(start_point), intent(inout) :: places(:)
 
       real(dp) :: nu_terms(6, 2)
       integer :: i
 
       do i = 1, size(places)
-         associate (here => places(i)%place)
+         associate (here => places(i)%position)
             call self%at(here(1), here(2), here(3), nu_terms)
          end associate
          places(i)%stress = body%stress(nu_terms, self%pbar_over_pstar)

@@ -134,8 +134,8 @@ contains
       end if
    end function next_token
 
-   !> The position before the first byte that is in a set, searched from `position` on; the last position of the text if no
-   !> byte is.
+   !> The position before the first byte that is in a set, searched from `position` on; the last position of the text if
+   !> no byte is.
    pure integer function end_before(content, position, set)
       character(*), intent(in) :: content, set   !! the text; the bytes of the set
       integer, intent(in) :: position

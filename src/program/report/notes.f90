@@ -192,7 +192,7 @@ contains
                   call line%add('body', real(body, dp))
                   call line%add(trim(names(1)), stress_unit*yielding%value)
                   call line%add('error', stress_unit*yielding%error)
-                  call line%add(trim(names(2)), depth_unit*yielding%place(3)/(2*pi))
+                  call line%add(trim(names(2)), depth_unit*yielding%position(3)/(2*pi))
                   call line%add(trim(names(3)), stress_unit*shear%value)
                   call line%add('error', stress_unit*shear%error)
                   if (scene%gives_modulus .and. .not. surface%has_free_edges) &

@@ -88,8 +88,8 @@ contains
                                results%in_p_star([results%loads(load)%pbar_over_pstar, yielding%value, &
                                                   yielding%error, shear%value, shear%error]), ratio, &
                                results%mean_pressure(load), &
-                               to_unit*[yielding%value, yielding%error, yielding%place_in_cell(images)], &
-                               to_unit*[shear%value, shear%error, shear%place_in_cell(images)], &
+                               to_unit*[yielding%value, yielding%error, yielding%position_in_cell(images)], &
+                               to_unit*[shear%value, shear%error, shear%position_in_cell(images)], &
                                status_code(status)], [status_name(status)])
          end associate
       end do
