@@ -88,7 +88,7 @@ contains
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
-      call self%fitted%at(self%frame%place(x, y), pressure, displacement, gap)
+      call self%fitted%at(self%frame%lattice_position(x, y), pressure, displacement, gap)
       pressure = pressure*self%frame%pressure_unit
       ! Without adhesion a negative pressure can only be an error next to the edge.
       if (self%fitted%answer%solution%work <= 0.0_dp) pressure = max(pressure, 0.0_dp)
@@ -115,7 +115,8 @@ contains
       real(dp) :: inside   ! area that the contours enclose over the area of the cell, negative for pools
 
       to_surface = self%frame%side/self%frame%turn
-      edge = self%answer%solution%shape%place([(exp(cmplx(0.0_dp, 2*pi*i/edge_points, dp)), i=0, edge_points - 1)]) &
+      edge = self%answer%solution%shape%position_of([(exp(cmplx(0.0_dp, 2*pi*i/edge_points, dp)), &
+                                                       i=0, edge_points - 1)]) &
          *to_surface
       contours = self%frame%crests
       trough = (0.0_dp, 0.0_dp)

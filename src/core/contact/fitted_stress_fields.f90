@@ -33,7 +33,8 @@ contains
 
       integer :: i
 
-      call self%fitted%at(self%frame%place(x, y), self%frame%length(1)*depth/(2*pi*self%frame%side), nu_terms, error)
+      call self%fitted%at(self%frame%lattice_position(x, y), &
+                          self%frame%length(1)*depth/(2*pi*self%frame%side), nu_terms, error)
       do i = 1, 2
          nu_terms(:, i) = self%frame%pressure_unit*rotated(nu_terms(:, i), conjg(self%frame%turn))
       end do
@@ -74,7 +75,7 @@ contains
          if (self%fitted%answer%pool) centre = self%frame%lattice%trough
          directions = 2*shape%fold
          allocate (edge(directions/2 + 1))
-         edge(:) = [(shape%place(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
+         edge(:) = [(shape%position_of(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
          radius = maxval(abs(edge))
       end associate
       allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])

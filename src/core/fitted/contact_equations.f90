@@ -149,10 +149,10 @@ contains
          if (now%pool) known = now%load - lattice%closing_pressure
          if (self%constraints == 1) self%matrix(:m, self%before_shape) = -1.0_dp
          do i = 1, m
-            z = now%shape%place(self%target(i))
+            z = now%shape%position_of(self%target(i))
             self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
             slope = -lattice%rise_slope(now%pool, z)
-            call now%shape%linearise_place(self%target(i), place_slope)
+            call now%shape%linearise_position(self%target(i), place_slope)
             self%matrix(i, first:) = self%matrix(i, first:) + slope%re*place_slope%re + slope%im*place_slope%im
          end do
       end associate

@@ -44,7 +44,7 @@ contains
          call find_density(solution, gradient, size(density), rule%point, &
                            (1.0_dp - abs(rule%point))*(1.0_dp + abs(rule%point)), density)
          density = density*rule%weight/(2*fold)
-         z = copies(fold, solution%shape%place(rule%point))
+         z = copies(fold, solution%shape%position_of(rule%point))
          ! A gradient is a vector: it is rotated and mirrored with its position.
          if (gradient) strength = copies(fold, density)
          if (.not. gradient) strength = reshape(density, [size(z)], pad=density)
@@ -140,7 +140,7 @@ contains
          strength_slope(:, k) = -2*density*(conjugate_slope%re*power(:, 1, k) - conjugate_slope%im*power(:, 2, k))
       end do
       do i = 1, n
-         call shape%linearise_place(rule%point(i), place_slope)
+         call shape%linearise_position(rule%point(i), place_slope)
          weighted(i, :) = rule%weight(i)*jacobian(i)*values(i, :)
          moment_x(i, :) = density(i)*jacobian(i)*place_slope%re
          moment_y(i, :) = density(i)*jacobian(i)*place_slope%im

@@ -80,8 +80,8 @@ contains
             edge = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*solution%shape%fold), dp))
             v = edge/(1.0_dp - (0.5_dp*(1.0_dp + chebyshev_nodes(terms(2))))**2)
             fields = 0.0_dp
-            call rays%add_at(solution, edge, [(solution%shape%place_outside(v(j)), j=1, terms(2))] &
-                             - solution%shape%place(edge), spread(0.0_dp, 1, terms(2)), fields)
+            call rays%add_at(solution, edge, [(solution%shape%position_outside(v(j)), j=1, terms(2))] &
+                             - solution%shape%position_of(edge), spread(0.0_dp, 1, terms(2)), fields)
             values(i, :, 1) = fields(1, :)
             if (series%is_singular) values(i, :, 1) = fields(1, :)*sqrt(1.0_dp - 1.0_dp/abs(v))
          end do

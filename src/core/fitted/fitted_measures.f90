@@ -68,7 +68,7 @@ contains
 
          kernel = lattice%kernel(2)
          kernel%whole = .true.
-         from_crest = lattice%trough + copies(now%basis%fold, now%shape%place(equations%rule%point))
+         from_crest = lattice%trough + copies(now%basis%fold, now%shape%position_of(equations%rule%point))
          call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
          ! The points of the rule lie in one sector. So the mean of the kernel over their copies is taken.
          mean = sum(reshape(value, [size(mean), 2*now%basis%fold]), 2)/(2*now%basis%fold)
@@ -85,7 +85,7 @@ contains
 
          complex(dp) :: z(size(equations%rule%point))
 
-         z = now%shape%place(equations%rule%point)
+         z = now%shape%position_of(equations%rule%point)
          if (now%pool) then
             associate (rise => lattice%rise(.true., z) - lattice%closing_pressure, &
                        full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))

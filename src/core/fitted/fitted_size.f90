@@ -49,7 +49,7 @@ contains
          if (abs(rotated%im) < rounding) then
             ! The midpoint lies on an axis of symmetry. The edge's point in this direction is the image of the disc's
             ! one.
-            ratio = abs(shape%place(direction))/abs(midpoint)
+            ratio = abs(shape%position_of(direction))/abs(midpoint)
          else
             ! Long spots have tips off the axes, which approach the midpoint from the side.
             ratio = 1.0_dp - distance_from_edge(shape, edge_points(shape), midpoint)/abs(midpoint)

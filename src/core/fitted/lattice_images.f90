@@ -150,8 +150,8 @@ contains
       m = size(target)
       n = size(rule%point)
       columns = size(now%shape%b)
-      place = now%shape%place(target)
-      source = now%shape%place(rule%point)
+      place = now%shape%position_of(target)
+      source = now%shape%position_of(rule%point)
       call linearise_sources(now%shape, rule, values, now%c, weighted, strength_slope, moment_x, moment_y)
       load_row = sum(weighted, 1)
       load_slope = sum(strength_slope, 1)
@@ -178,7 +178,7 @@ contains
       call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_x, n, moment_x, n, 1.0_dp, shape_rows, m)
       call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_y, n, moment_y, n, 1.0_dp, shape_rows, m)
       do t = 1, m
-         call now%shape%linearise_place(target(t), place_slope)
+         call now%shape%linearise_position(target(t), place_slope)
          shape_rows(t, :) = shape_rows(t, :) + target_gradient(t)%re*place_slope%re &
             + target_gradient(t)%im*place_slope%im
       end do

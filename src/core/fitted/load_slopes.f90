@@ -74,7 +74,7 @@ contains
       do i = 1, n
          w = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(now%basis%fold*n), dp))
          normal = now%shape%tangent(w)
-         call now%shape%linearise_place(w, place_change)
+         call now%shape%linearise_position(w, place_change)
          total = total + real(conjg(normal)*dot_product(change(equations%before_shape + 1:), place_change), dp)
       end do
       slopes(2) = 2*pi/n*total/lattice%area

@@ -66,7 +66,7 @@ contains
          if (square > 1.0_dp) then
             call shape%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
          else
-            at_v = shape%place(v)
+            at_v = shape%position_of(v)
             call shape%slopes(1, [v], slope, conjugate_slope)
          end if
          left = z - at_v
@@ -104,7 +104,7 @@ contains
       angle = direction
       do i = 1, most_inverse_steps
          w = exp(cmplx(0.0_dp, angle, dp))
-         edge = shape%place(w)
+         edge = shape%position_of(w)
          missing = direction - atan2(edge%im, edge%re)
          missing = missing - 2*pi*anint(missing/(2*pi))
          if (abs(missing) < angle_tolerance) exit
@@ -126,7 +126,7 @@ contains
 
       integer :: i
 
-      edge = shape%place([(exp(cmplx(0.0_dp, 2*pi*i/distance_points, dp)), i=1, distance_points)])
+      edge = shape%position_of([(exp(cmplx(0.0_dp, 2*pi*i/distance_points, dp)), i=1, distance_points)])
    end function edge_points
 
    !> The distance of a position from the edge, negative inside [s]. The search starts at the nearest of some points of
@@ -147,11 +147,11 @@ contains
       step = 2*pi/distance_points
       do i = 1, distance_halvings
          step = 0.5_dp*step
-         edge = shape%place(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
+         edge = shape%position_of(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
          nearest = minloc(abs(z - edge), 1) - 2
          angle = angle + nearest*step
       end do
-      edge = shape%place(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
+      edge = shape%position_of(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
       outwards = (0.0_dp, -1.0_dp)*(edge(1) - edge(-1))
       distance = sign(abs(z - edge(0)), real((z - edge(0))*conjg(outwards), dp))
    end function distance_from_edge

@@ -131,7 +131,7 @@ contains
          origin = v
          if (.not. found .or. abs(v) > 1.0_dp) then
             origin = v/abs(v)
-            offset = z - self%solution%shape%place(origin)
+            offset = z - self%solution%shape%position_of(origin)
          end if
          distance = abs(v)
          below = depth/self%stretch
