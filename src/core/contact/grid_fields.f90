@@ -116,7 +116,7 @@ contains
       do l = 1, points(2)
          do k = 1, points(1)
             if (at_own) then
-               value = self%edge%pressure_or_gap(self%edge%place(k, 1), self%edge%place(l, 2))
+               value = self%edge%pressure_or_gap(self%edge%index_in_grid(k, 1), self%edge%index_in_grid(l, 2))
                pressure(k, l) = max(value, 0.0_dp)
                gap(k, l) = max(-value, 0.0_dp)
             else
@@ -141,7 +141,7 @@ contains
       allocate (fields%psi(-1:m + 2, -1:n + 2))
       do l = -1, n + 2
          do k = -1, m + 2
-            associate (value => fields%edge%at(k, l))
+            associate (value => fields%edge%value_at(k, l))
                fields%psi(k, l) = value**2
                if (value <= 0.0_dp) fields%psi(k, l) = -abs(value)**(2.0_dp/3)
             end associate

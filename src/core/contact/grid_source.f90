@@ -256,10 +256,11 @@ contains
       integer :: k, l
 
       allocate (loads(numbers%spots), source=0.0_dp)
-      do l = 0, ubound(numbers%at, 2)
-         do k = 0, ubound(numbers%at, 1)
-            associate (spot => numbers%at(k, l))
-               if (spot > 0) loads(spot) = loads(spot) + edge%pressure_or_gap(edge%place(k, 1), edge%place(l, 2))
+      do l = 0, ubound(numbers%region_at, 2)
+         do k = 0, ubound(numbers%region_at, 1)
+            associate (spot => numbers%region_at(k, l))
+               if (spot > 0) loads(spot) = loads(spot) &
+                                           + edge%pressure_or_gap(edge%index_in_grid(k, 1), edge%index_in_grid(l, 2))
             end associate
          end do
       end do
