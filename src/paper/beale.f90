@@ -51,7 +51,7 @@ contains
       type(qp_solution), intent(out) :: solution
 
       type(working_set) :: set
-      real(dp) :: scale, x(size(problem%linear)), slacks(size(problem%bounds))
+      real(dp) :: unit, x(size(problem%linear)), slacks(size(problem%bounds))
       integer :: pass, pivots
       logical :: has_ended
 
@@ -67,9 +67,9 @@ contains
          if (solution%status == qp_converged) return
          ! On the way from here to x = 0 the slacks that are below zero rise to it.
          call problem%slacks(solution%x, slacks)
-         scale = 1.0_dp
-         if (any(slacks < 0.0_dp)) scale = minval(problem%bounds/(problem%bounds + slacks), mask=slacks < 0.0_dp)
-         x = scale*solution%x
+         unit = 1.0_dp
+         if (any(slacks < 0.0_dp)) unit = minval(problem%bounds/(problem%bounds + slacks), mask=slacks < 0.0_dp)
+         x = unit*solution%x
       end do
       if (.not. has_ended) solution%status = qp_iteration_limit
    end subroutine solve_by_beale

@@ -70,12 +70,12 @@ contains
       real(dp) :: radius
       integer :: directions, i, k, n
 
-      associate (shape => self%fitted%answer%solution%shape)
+      associate (map => self%fitted%answer%solution%shape)
          centre = (0.0_dp, 0.0_dp)
          if (self%fitted%answer%pool) centre = self%frame%lattice%trough
-         directions = 2*shape%fold
+         directions = 2*map%fold
          allocate (edge(directions/2 + 1))
-         edge(:) = [(shape%position_of(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
+         edge(:) = [(map%position_of(exp(cmplx(0.0_dp, 2*pi*i/directions, dp))), i=0, directions/2)]
          radius = maxval(abs(edge))
       end associate
       allocate (at_surface, source=[(centre + edge_ratios(i)*edge, i=1, size(edge_ratios))])

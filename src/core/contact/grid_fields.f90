@@ -62,17 +62,17 @@ contains
    end subroutine start_grid_fields
 
    !> The fields at the points of one own column: the solution's numbers, without interpolation.
-   subroutine at_own_column(self, column, shape, pressure, displacement, gap)
+   subroutine at_own_column(self, column, shape_values, pressure, displacement, gap)
       class(grid_fields), intent(in) :: self
       integer, intent(in) :: column
-      real(dp), intent(in) :: shape(:)
+      real(dp), intent(in) :: shape_values(:)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
 
       associate (values => self%edge%pressure_or_gap(:, column - self%edge%slab%first + 1))
          pressure = max(values, 0.0_dp)
          gap = max(-values, 0.0_dp)
       end associate
-      displacement = gap - (1.0_dp - self%approach) + shape
+      displacement = gap - (1.0_dp - self%approach) + shape_values
    end subroutine at_own_column
 
    !> The fields at one point, interpolated by (C20).
@@ -86,10 +86,10 @@ contains
    end subroutine at
 
    !> The fields at many points, interpolated by (C20), with the surface's shape that the caller knows.
-   subroutine at_points(self, angle, shape, pressure, displacement, gap)
+   subroutine at_points(self, angle, shape_values, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       real(dp), intent(in) :: angle(:, :)
-      real(dp), intent(in) :: shape(:)
+      real(dp), intent(in) :: shape_values(:)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
 
       integer :: k
@@ -97,7 +97,7 @@ contains
       do k = 1, size(gap)
          call interpolate(self, angle(:, k)/(2*pi), pressure(k), gap(k))
       end do
-      displacement = gap - (1.0_dp - self%approach) + shape
+      displacement = gap - (1.0_dp - self%approach) + shape_values
    end subroutine at_points
 
    !> The fields on a grid of the cell: the solution's numbers if this is its own grid, otherwise interpolated.

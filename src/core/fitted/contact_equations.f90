@@ -166,11 +166,11 @@ contains
       class(contact_equations), intent(inout) :: self
       type(fitted_function), intent(in) :: now   !! as of `linearise`
 
-      real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, scale, strength
+      real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, row_factor, strength
       integer :: i, row
 
-      scale = pi**2*now%shape%b(0)
-      if (now%pool) scale = 0.25_dp/now%shape%b(0)
+      row_factor = pi**2*now%shape%b(0)
+      if (now%pool) row_factor = 0.25_dp/now%shape%b(0)
       do i = 1, size(self%edge)
          row = size(self%target) + i
          call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
@@ -185,9 +185,9 @@ contains
             strength = -sqrt(now%work*ratio)/pi
             log_slope = 0.5_dp*log_slope
          end if
-         self%matrix(row, :self%before_shape) = [scale*self%edge_values(i, :), 0.0_dp]
-         self%matrix(row, self%before_shape + 1:) = -scale*strength*log_slope
-         self%residual(row) = scale*(strength - dot_product(self%edge_values(i, :), now%c))
+         self%matrix(row, :self%before_shape) = [row_factor*self%edge_values(i, :), 0.0_dp]
+         self%matrix(row, self%before_shape + 1:) = -row_factor*strength*log_slope
+         self%residual(row) = row_factor*(strength - dot_product(self%edge_values(i, :), now%c))
       end do
    end subroutine linearise_edge
 
@@ -197,11 +197,11 @@ contains
       type(fitted_function), intent(in) :: now      !! of the kind that the equations were started for
       real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
 
-      real(dp) :: product(size(self%rule%point))
+      real(dp) :: at_points(size(self%rule%point))
 
-      product = self%rule%weight*now%shape%jacobian(self%rule%point)*matmul(self%values, now%c)
-      if (present(factor)) product = product*factor
-      integral = sum(product)
+      at_points = self%rule%weight*now%shape%jacobian(self%rule%point)*matmul(self%values, now%c)
+      if (present(factor)) at_points = at_points*factor
+      integral = sum(at_points)
    end function integral
 
 end module wavycon_contact_equations

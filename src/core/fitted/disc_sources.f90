@@ -96,10 +96,10 @@ contains
 
    !> All copies of n positions or vectors by the symmetry. For each rotation by 2 pi g/fold, g = 0, .., fold-1, the n
    !> rotated ones come first, and then those that are mirrored at the x axis before the rotation.
-   pure function copies(fold, z) result(all)
+   pure function copies(fold, z) result(copied)
       integer, intent(in) :: fold                  !! order of the rotational symmetry
       complex(dp), intent(in) :: z(:)              !! x + i y, shape (n)
-      complex(dp) :: all(2*fold*size(z))
+      complex(dp) :: copied(2*fold*size(z))
 
       complex(dp) :: turn
       integer :: g, n
@@ -107,15 +107,15 @@ contains
       n = size(z)
       do g = 0, fold - 1
          turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
-         all(2*n*g + 1:2*n*g + n) = turn*z
-         all(2*n*g + n + 1:2*n*(g + 1)) = turn*conjg(z)
+         copied(2*n*g + 1:2*n*g + n) = turn*z
+         copied(2*n*g + n + 1:2*n*(g + 1)) = turn*conjg(z)
       end do
    end function copies
 
    !> The strengths of the sources of one sector, which are the terms of a fitted function times weight and area, and
    !> the derivatives of strengths and positions with respect to the shape.
-   pure subroutine linearise_sources(shape, rule, values, c, weighted, strength_slope, moment_x, moment_y)
-      type(shape_map), intent(in) :: shape
+   pure subroutine linearise_sources(map, rule, values, c, weighted, strength_slope, moment_x, moment_y)
+      type(shape_map), intent(in) :: map
       type(disc_rule), intent(in) :: rule              !! a rule for the weight of the fitted function
       real(dp), intent(in) :: values(:, :)             !! the basis at the rule's points, shape (n, N)
       real(dp), intent(in) :: c(:)                     !! coefficients of the fitted function, shape (N)
@@ -125,22 +125,22 @@ contains
          !! strength of the fitted function times dz/d b_k, real and imaginary part, shape (n, 0:K) [s^2]
 
       complex(dp), dimension(size(rule%point)) :: conjugate_slope, slope
-      complex(dp) :: place_slope(0:ubound(shape%b, 1))
+      complex(dp) :: place_slope(0:ubound(map%b, 1))
       real(dp), dimension(size(rule%point)) :: density, jacobian
-      real(dp) :: power(size(rule%point), 2, ubound(shape%b, 1)), step(size(rule%point), 2)
+      real(dp) :: power(size(rule%point), 2, ubound(map%b, 1)), step(size(rule%point), 2)
       integer :: i, k, n
 
       n = size(rule%point)
       density = rule%weight*matmul(values, c)
-      call shape%slopes(n, rule%point, slope, conjugate_slope)
-      call shape%linearise_slopes(n, rule%point, power, step)
+      call map%slopes(n, rule%point, slope, conjugate_slope)
+      call map%linearise_slopes(n, rule%point, power, step)
       jacobian = slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2)
-      strength_slope(:, 0) = 2*density*(slope%re**2 + slope%im**2)/shape%b(0)
-      do k = 1, ubound(shape%b, 1)
+      strength_slope(:, 0) = 2*density*(slope%re**2 + slope%im**2)/map%b(0)
+      do k = 1, ubound(map%b, 1)
          strength_slope(:, k) = -2*density*(conjugate_slope%re*power(:, 1, k) - conjugate_slope%im*power(:, 2, k))
       end do
       do i = 1, n
-         call shape%linearise_position(rule%point(i), place_slope)
+         call map%linearise_position(rule%point(i), place_slope)
          weighted(i, :) = rule%weight(i)*jacobian(i)*values(i, :)
          moment_x(i, :) = density(i)*jacobian(i)*place_slope%re
          moment_y(i, :) = density(i)*jacobian(i)*place_slope%im

@@ -40,19 +40,19 @@ contains
 
    !> Chooses the numbers of terms and the nodes. The nearest singularities of the fields are at the distance
    !> `near_clearance` from the rectangle, and as far above the surface.
-   subroutine start_far_stress(table, sides, pool, digits)
+   subroutine start_far_stress(table, sides, pool, e_folds)
       type(far_stress), intent(out) :: table
       real(dp), intent(in) :: sides(2)         !! half the sides of the rectangle about a crest, along x and y [s]
       logical, intent(in) :: pool              !! true: below pools; false: below spots
-      real(dp), intent(in) :: digits           !! natural logarithm of 1/accuracy
+      real(dp), intent(in) :: e_folds     !! natural logarithm of 1/accuracy
 
       real(dp), parameter :: middle = 0.5_dp*(far_bottom**2 + far_top**2), half = 0.5_dp*(far_bottom**2 - far_top**2)
 
       table%sides = sides
       table%regime = merge(2, 1, pool)
-      table%n(:2) = ceiling(digits/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
+      table%n(:2) = ceiling(e_folds/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
       ! The nodes are below the surface. At the surface the polynomials have grown by the factor in the denominator.
-      table%n(3) = ceiling(digits/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
+      table%n(3) = ceiling(e_folds/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
       table%n = max(table%n, 4)
       table%node_x = square_nodes(table%n(1), sides(1))
       table%node_y = square_nodes(table%n(2), sides(2))

@@ -288,29 +288,29 @@ contains
 
       !> Accuracy of the second evaluation.
       real(dp), parameter :: finer = 1e-15_dp
-      real(dp) :: at(3, 0:size(answer%previous)), decay(2), scale(3)
+      real(dp) :: of_degree(3, 0:size(answer%previous)), decay(2), reference(3)
       type(fitted_answer) :: older
       integer :: i, k
 
       values = fitted_separations(lattice, answer)
-      at(:, 0) = values
+      of_degree(:, 0) = values
       older = answer
       do k = 1, size(answer%previous)
          older%solution = answer%previous(k)
          if (.not. answer%pool) older%value(mean_gap) = 1.0_dp - older%solution%approach
-         at(:, k) = fitted_separations(lattice, older)
+         of_degree(:, k) = fitted_separations(lattice, older)
       end do
       ! All values except the gap inside a pool are differences of numbers of order 1, so that their rounding is
       ! absolute.
-      scale = 1.0_dp
-      if (answer%pool) scale(1) = at(1, 0)
+      reference = 1.0_dp
+      if (answer%pool) reference(1) = of_degree(1, 0)
       ! The errors are estimated separately: the saddle may be nearly closed while the trough is wide open.
       do i = 1, size(values)
          decay = answer%misfit_decay
          ! The gap inside a pool is a value of the fitted function, while the others are integrals of the fitted
          ! function.
          if (answer%pool .and. i == 1) decay = max(decay, fastest_decay_at_point)
-         error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
+         error(i:i) = error_estimate(of_degree(i:i, :), decay, reference(i:i))
       end do
       ! The approach of a spot is part of both gaps, so its error is part of theirs.
       if (.not. answer%pool) error(:2) = max(error(:2), answer%error(mean_gap))

@@ -128,11 +128,11 @@ contains
    end subroutine prepare_series
 
    !> Makes a Fourier series of all spots or pools from the point sources, pressure or gap, of one of them.
-   subroutine start_series(stress, series, sources, depth, digits)
+   subroutine start_series(stress, series, sources, depth, e_folds)
       type(fitted_function_stress), intent(in) :: stress
       type(lattice_stress_series), intent(out) :: series
       type(disc_sources), intent(in) :: sources               !! sources of one spot or pool
-      real(dp), intent(in) :: depth, digits                   !! as of start_lattice_stress_series
+      real(dp), intent(in) :: depth, e_folds             !! as of start_lattice_stress_series
 
       complex(dp) :: centre
 
@@ -141,7 +141,7 @@ contains
          ! A pool and its image by half a turn about a crest have the same even terms. So the second pool of a cell is a
          ! factor 2.
          call start_lattice_stress_series(series, lattice%rows, centre%re + sources%x, centre%im + sources%y, &
-                                  merge(lattice%troughs, 1, pool)*sources%strength(:, 1), pool, depth, digits)
+                                  merge(lattice%troughs, 1, pool)*sources%strength(:, 1), pool, depth, e_folds)
       end associate
    end subroutine start_series
 
@@ -152,7 +152,7 @@ contains
 
       type(disc_sources) :: sources
       type(lattice_stress_series) :: series
-      complex(dp) :: at
+      complex(dp) :: position
       real(dp), allocatable :: values(:, :, :, :)
       real(dp) :: fields(stress_field_count)
       integer :: i, j, k, m
@@ -169,9 +169,9 @@ contains
                do i = 1, size(x)
                   fields = 0.0_dp
                   do m = 1, size(self%centre)
-                     at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
+                     position = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
                      fields(7:8) = self%half_turn(m)*fields(7:8)
-                     call sources%add_at(all_fields, at, z(k), fields)
+                     call sources%add_at(all_fields, position, z(k), fields)
                      fields(7:8) = self%half_turn(m)*fields(7:8)
                   end do
                   fields = -fields

@@ -25,12 +25,12 @@ module wavycon_fitted_measures
 contains
 
    !> Computes all measures of a solution.
-   subroutine measure_fitted_function(equations, lattice, now, measures, scale)
+   subroutine measure_fitted_function(equations, lattice, now, measures, reference)
       type(contact_equations), intent(in) :: equations     !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
       type(fitted_function), intent(inout) :: now          !! the solution; the load of an adhesive spot is set
       real(dp), intent(out) :: measures(all_measures)
-      real(dp), intent(out) :: scale(all_measures)
+      real(dp), intent(out) :: reference(all_measures)
          !! what errors are relative to: the measure; for loads and pressures with adhesion plus the tension at the edge
 
       real(dp) :: at_edge
@@ -46,12 +46,12 @@ contains
       measures(energy_measure) = strain_energy(measures(gap_measure))
       measures(perimeter_measure) = now%shape%perimeter()
       measures(load_measure) = now%load
-      scale = measures
+      reference = measures
       if (now%work > 0.0_dp) then
          ! The tensions of (F71) and (F72).
          at_edge = sqrt(now%work/(2*sqrt(now%area/pi)))
          associate (of_load => merge(at_edge, 4*at_edge*now%area/(pi*lattice%area), now%pool))
-            scale([peak_measure, load_measure, centre_measure]) = abs(measures([peak_measure, load_measure, &
+            reference([peak_measure, load_measure, centre_measure]) = abs(measures([peak_measure, load_measure, &
                centre_measure])) + [at_edge, of_load, at_edge]
          end associate
       end if

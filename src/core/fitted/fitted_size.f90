@@ -36,8 +36,8 @@ contains
    end function merging_ratio
 
    !> The merging ratio towards one midpoint.
-   pure real(dp) function ratio_towards(shape, midpoint) result(ratio)
-      type(shape_map), intent(in) :: shape
+   pure real(dp) function ratio_towards(map, midpoint) result(ratio)
+      type(shape_map), intent(in) :: map
       complex(dp), intent(in) :: midpoint   !! its position from the shape's centre [s]
 
       !> An angle whose sine is less than this counts as 0.
@@ -45,14 +45,14 @@ contains
       complex(dp) :: direction
 
       direction = midpoint/abs(midpoint)
-      associate (rotated => direction**shape%fold)
+      associate (rotated => direction**map%fold)
          if (abs(rotated%im) < rounding) then
             ! The midpoint lies on an axis of symmetry. The edge's point in this direction is the image of the disc's
             ! one.
-            ratio = abs(shape%position_of(direction))/abs(midpoint)
+            ratio = abs(map%position_of(direction))/abs(midpoint)
          else
             ! Long spots have tips off the axes, which approach the midpoint from the side.
-            ratio = 1.0_dp - distance_from_edge(shape, edge_points(shape), midpoint)/abs(midpoint)
+            ratio = 1.0_dp - distance_from_edge(map, edge_points(map), midpoint)/abs(midpoint)
          end if
       end associate
    end function ratio_towards

@@ -136,7 +136,7 @@ contains
       type(newton_steps) :: newton
       real(dp), allocatable :: area_change(:)
       real(dp) :: area_slopes(2, 0:2)   ! derivatives by the area of the newest solution and the two before
-      real(dp) :: clustering, measures(all_measures), ratio, scale(all_measures), tolerance
+      real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
       integer :: degree, failed, k
       logical :: merged
 
@@ -169,15 +169,15 @@ contains
          failed = failed + 1
          if (newton%change <= 1e-4_dp .or. newton%remaining <= tolerance) then
             failed = 0
-            call measure_fitted_function(equations, lattice, now, measures, scale)
-            if (.not. all(scale(:load_measure) > 0.0_dp)) exit
+            call measure_fitted_function(equations, lattice, now, measures, reference)
+            if (.not. all(reference(:load_measure) > 0.0_dp)) exit
             if (now%work > 0.0_dp) then
                area_slopes(:, 1:) = area_slopes(:, :1)
                area_change = [(0.0_dp, k=1, equations%unknowns)]
                call change_with_area(equations, now, area_change)
                area_slopes(:, 0) = slopes_of(equations, lattice, now, area_change)
             end if
-            call history%push(now, measures, scale, newton%misfit, newton%remaining)
+            call history%push(now, measures, reference, newton%misfit, newton%remaining)
             if (history%newest_is_best) then
                call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
                answer%area_slopes = area_slopes(:, 0)

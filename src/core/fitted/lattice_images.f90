@@ -54,7 +54,7 @@ contains
          !! hundredths, may be 20 times as large
 
       complex(dp), allocatable :: point(:)
-      real(dp) :: clearance, digits, distance, radius
+      real(dp) :: clearance, e_folds, distance, radius
       integer :: degree
 
       radius = now%shape%radius()
@@ -72,9 +72,9 @@ contains
       ! of F. Then terms that vary with the angle fall as powers of this lattice point's distance from the source, and
       ! axisymmetric terms as in a Chebyshev series.
       distance = minval(abs(point), abs(point) >= clearance)/radius - 1.0_dp
-      digits = -log(tolerance)
+      e_folds = -log(tolerance)
       associate (fold => now%basis%fold)
-         degree = max(fold*(ceiling(digits/(fold*log(distance))) - 1), 2*(ceiling(digits/(2*acosh(distance))) - 1))
+         degree = max(fold*(ceiling(e_folds/(fold*log(distance))) - 1), 2*(ceiling(e_folds/(2*acosh(distance))) - 1))
       end associate
       point = pack(point, abs(point) < clearance .and. abs(point) > 0.0_dp)
       if (size(point) > most_near_points) return
@@ -191,15 +191,15 @@ contains
          integer, intent(in) :: direction          !! 1, or -1 if the sources are rotated by half a turn
          complex(dp), intent(in) :: to_centre      !! the targets' centre less the sources' centre [s]
 
-         complex(dp) :: all(2*now%shape%fold*n), turn, z(2*now%shape%fold*n)
-         real(dp), dimension(size(all)) :: slope_x, slope_y, value
+         complex(dp) :: copied(2*now%shape%fold*n), turn, z(2*now%shape%fold*n)
+         real(dp), dimension(size(copied)) :: slope_x, slope_y, value
          real(dp) :: total_x(n), total_y(n)
          integer :: copy, mirror
 
-         all = direction*copies(now%shape%fold, source) - to_centre
+         copied = direction*copies(now%shape%fold, source) - to_centre
          associate (mean => 1.0_dp/(2*now%shape%fold))
             do t = 1, m
-               z = place(t) - all
+               z = place(t) - copied
                call kernel%evaluate(size(z), z%re, z%im, value, slope_x, slope_y)
                total_x = 0.0_dp
                total_y = 0.0_dp

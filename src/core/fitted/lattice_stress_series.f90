@@ -25,14 +25,14 @@ module wavycon_lattice_stress_series
 contains
 
    !> Computes the amplitudes of the waves that reach a depth, from the point sources of one cell.
-   subroutine start_lattice_stress_series(series, rows, x, y, strength, gap, depth, digits)
+   subroutine start_lattice_stress_series(series, rows, x, y, strength, gap, depth, e_folds)
       type(lattice_stress_series), intent(out) :: series
       type(row_lattice), intent(in) :: rows
       real(dp), intent(in) :: x(:), y(:)         !! positions of the n sources from a crest, shape (n) [s]
       real(dp), intent(in) :: strength(:)        !! pressure or gap times area, shape (n)
       logical, intent(in) :: gap                 !! true: the sources are a gap, whose waves have |k| times the pressure
       real(dp), intent(in) :: depth              !! least depth at which the series will be evaluated, > 0 [s]
-      real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
+      real(dp), intent(in) :: e_folds       !! natural logarithm of 1/accuracy
 
       real(dp), allocatable :: along_x(:, :), along_y(:, :)
       real(dp) :: height, largest, length
@@ -41,8 +41,8 @@ contains
       height = rows%spacing*merge(2, 1, rows%shift > 0.0_dp)
       series%base_x = 2*pi/merge(height, 1.0_dp, rows%along_y)
       series%base_y = 2*pi/merge(1.0_dp, height, rows%along_y)
-      series%digits = digits
-      largest = digits/depth
+      series%digits = e_folds
+      largest = e_folds/depth
       waves_x = ceiling(largest/series%base_x)
       waves_y = ceiling(largest/series%base_y)
       n = size(x)

@@ -45,7 +45,7 @@ contains
 
       type(contact_equations) :: equations
       type(newton_steps) :: newton
-      real(dp) :: at, next
+      real(dp) :: reached, next
       integer :: steps
 
       degree = first_degree
@@ -61,9 +61,9 @@ contains
          end if
       end if
       ! At heavier loads the asymptote of a spot is too far from the solution for Newton's method.
-      at = min(load, 0.06_dp)
-      if (pool) at = max(load, heavy_load_start*lattice%closing_pressure)
-      now = asymptote(lattice, at, pool)
+      reached = min(load, 0.06_dp)
+      if (pool) reached = max(load, heavy_load_start*lattice%closing_pressure)
+      now = asymptote(lattice, reached, pool)
       do
          call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp)
@@ -74,15 +74,15 @@ contains
          ! In many loads next to merging that were solved the merging ratio of the start was 0.92 at most.
          merged = merging_ratio(lattice, now) >= 1.0_dp
          found = .not. merged
-         steps = load_steps(lattice, at, load, pool)
+         steps = load_steps(lattice, reached, load, pool)
          if (merged .or. steps == 0) exit
          next = load
          if (steps > 1) then
-            next = load_step_ratio*at
-            if (pool) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - at)
+            next = load_step_ratio*reached
+            if (pool) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - reached)
          end if
-         now = scaled_to_load(lattice, now, at, next)
-         at = next
+         now = scaled_to_load(lattice, now, reached, next)
+         reached = next
       end do
       iterations = iterations + newton%iterations
    end subroutine start_at_load
@@ -104,7 +104,7 @@ contains
 
       type(contact_equations) :: equations
       type(newton_steps) :: newton
-      real(dp) :: at
+      real(dp) :: reached
 
       degree = first_degree
       found = present(start)
@@ -118,17 +118,17 @@ contains
          degree = max(first_degree, nint(start%value(polynomial_degree)) - 2*degree_step)
          return
       end if
-      at = min(area, small_area*lattice%area)
-      now = asymptote(lattice, 0.0_dp, pool, work, at)
+      reached = min(area, small_area*lattice%area)
+      now = asymptote(lattice, 0.0_dp, pool, work, reached)
       do
          call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp)
          newton%contraction = 0.0_dp
          call newton%solve(equations, lattice, now, change_per_square*start_shape_change**2)
          found = newton%valid
-         if (.not. found .or. at >= area) exit
-         at = min(load_step_ratio*at, area)
-         now = scaled_to_area(now, at)
+         if (.not. found .or. reached >= area) exit
+         reached = min(load_step_ratio*reached, area)
+         now = scaled_to_area(now, reached)
       end do
       iterations = iterations + newton%iterations
    end subroutine start_at_area

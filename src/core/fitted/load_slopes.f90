@@ -35,18 +35,18 @@ contains
 
       !> Relative error of G'' by the finite differences of Newton's matrix.
       real(dp), parameter :: of_differences = 1e-10_dp
-      real(dp) :: at(number_of_slopes, 0:size(answer%previous))
+      real(dp) :: of_degree(number_of_slopes, 0:size(answer%previous))
       logical :: found_too
       integer :: k
 
       call slopes_of(lattice, answer%solution, slopes, found)
-      at(:, 0) = slopes
+      of_degree(:, 0) = slopes
       do k = 1, size(answer%previous)
-         call slopes_of(lattice, answer%previous(k), at(:, k), found_too)
+         call slopes_of(lattice, answer%previous(k), of_degree(:, k), found_too)
          found = found .and. found_too
       end do
       if (.not. found) return
-      errors = error_estimate(at, answer%misfit_decay, abs(slopes))
+      errors = error_estimate(of_degree, answer%misfit_decay, abs(slopes))
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 

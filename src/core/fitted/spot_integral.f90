@@ -117,7 +117,7 @@ contains
 
       real(dp), parameter :: far_from_disc = 1.5_dp
       complex(dp) :: edge, pole, v
-      real(dp) :: angular, below, distance, nearest, radial
+      real(dp) :: angular, below, distance, closest, radial
       logical :: found
 
       offset = 0.0_dp
@@ -139,8 +139,8 @@ contains
       ! How fast the errors of rules over a round disc of radius 1 fall, for a point at a distance from its axis,
       ! README.md (F57): as exp(-angular) with each angle, and as exp(-radial) with each radius, where `radial` is twice
       ! the logarithm of the sum of an ellipse's half axes.
-      nearest = min(hypot(distance, below), 1.0_dp)
-      angular = 1.0_dp + ((distance - nearest)**2 + below**2)/(2*max(distance*nearest, 1e-12_dp))
+      closest = min(hypot(distance, below), 1.0_dp)
+      angular = 1.0_dp + ((distance - closest)**2 + below**2)/(2*max(distance*closest, 1e-12_dp))
       angular = acosh(min(angular, 1e6_dp))
       ! Bernstein's ellipse through the nearest singularity of the integrand in |w|^2, which goes from 0 to 1.
       pole = 2*cmplx(distance, below, dp)**2 - 1.0_dp

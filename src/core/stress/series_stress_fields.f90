@@ -178,8 +178,8 @@ contains
       real(dp), intent(in) :: place(3)
       real(dp), intent(out) :: nu_terms(6, 2)
 
-      associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
-         nu_terms = nu_terms_of(sums_near(known%moment, (place - known%centre)*scale, place(3)) &
+      associate (known => self%known(self%used), to_series => [1.0_dp, self%side_ratio, 1.0_dp])
+         nu_terms = nu_terms_of(sums_near(known%moment, (place - known%centre)*to_series, place(3)) &
                                 + smooth_sums(self, place))
       end associate
    end subroutine near
@@ -325,8 +325,9 @@ contains
       end do
       deallocate (waves)
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
-      associate (scale => [1.0_dp, self%side_ratio])
-         if (allocated(self%load)) call self%load%sums_on_plane(offset*step*scale, step*scale, points, depth, smooth)
+      associate (to_series => [1.0_dp, self%side_ratio])
+         if (allocated(self%load)) call self%load%sums_on_plane(offset*step*to_series, step*to_series, points, depth, &
+                                                            smooth)
       end associate
       do l = 1, points(2)
          do k = 1, points(1)
