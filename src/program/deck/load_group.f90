@@ -80,16 +80,16 @@ contains
       type(load_group), intent(inout) :: values
       logical, intent(in) :: with_adhesion   !! whether loads may be tensions, and approaches separations
 
-      character(:), allocatable :: key, kind
+      character(:), allocatable :: key, word
       integer :: loads_by, position
       real(dp), allocatable :: loads(:)
 
       if (values%problems%number > 0 .or. values%position == 0 .or. values%any_bad) return
       call given_loads(values, key, position, loads_by, loads)
-      kind = 'tension'
-      if (loads_by == by_approach) kind = 'separation'
+      word = 'tension'
+      if (loads_by == by_approach) word = 'separation'
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
-         key//' = '//short_number(minval(loads))//' is a '//kind// &
+         key//' = '//short_number(minval(loads))//' is a '//word// &
          ': without work_of_adhesion of &interface it is >= 0')
       if (with_adhesion .and. loads_by == by_yield) call values%problems%add(position, &
          'the load of yield is found without adhesion: leave yield or work_of_adhesion of &interface out')

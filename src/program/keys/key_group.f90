@@ -198,15 +198,15 @@ contains
       character(:), allocatable :: number
       integer :: i, used
 
-      associate (kind => self%rows(k)%kind, numbers => self%keys(k)%value%numbers)
-         select case (kind)
+      associate (key_kind => self%rows(k)%kind, numbers => self%keys(k)%value%numbers)
+         select case (key_kind)
          case (real_value, integer_value)
             ! Appending numbers one by one would copy the text each time, for up to 100000 numbers.
             allocate (character((most_digits + len(between))*size(numbers)) :: text)
             used = 0
             do i = 1, size(numbers)
                number = exact_number(numbers(i))
-               if (kind == integer_value) number = integer_text(nint(numbers(i)))
+               if (key_kind == integer_value) number = integer_text(nint(numbers(i)))
                if (i > 1) number = between//number
                text(used + 1:used + len(number)) = number
                used = used + len(number)

@@ -125,9 +125,9 @@ contains
    contains
 
       !> Writes a row for each region of one kind.
-      subroutine put_regions(regions, kind)
+      subroutine put_regions(regions, word)
          type(connected_region), intent(in) :: regions(:)   !! the largest first
-         character(*), intent(in) :: kind                   !! 'spot' or 'pool'
+         character(*), intent(in) :: word                   !! 'spot' or 'pool'
 
          real(dp) :: area, mean_pressure, radius
          integer :: i
@@ -144,7 +144,7 @@ contains
                      mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
                   call file%put_row([real(dp) :: load, i, area, region%area_fraction, radius, region%perimeter, &
                                      region%load_fraction, mean_pressure, surface%length*region%centre/(2*pi), &
-                                     region%holes, merge(1, 0, region%percolates)], [kind])
+                                     region%holes, merge(1, 0, region%percolates)], [word])
                end associate
             end do
          end associate
