@@ -55,3 +55,4 @@ plot joined using P:(up_to(0.5, gap(column('light_eq29_mean_gap_over_amplitude')
      '' using P:(gap(column('closure_longer_mean_gap_over_amplitude'))) with lines ls 31 title '(30), longer', \
      '' using P:(gap(gap_fit(column(P)))) with lines ls 32 dt solid title 'Rostami and Jackson'
 unset multiplot
+EOF

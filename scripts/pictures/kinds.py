@@ -5,7 +5,7 @@ far as COMPANIONS lists them, and raises CannotBeDrawn if there is nothing to be
 """
 from fields import edges, heights, lines, maps, series, spectra
 from interfaces import adhesion, interface, partial_slip, slip_loops, slip_maps
-from loading import details, histogram, spot_sizes, spots, summary, theory
+from loading import bounds, details, histogram, spot_sizes, spots, summary, theory
 from stresses import below_crest, largest, planes, section
 
 COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summary",), "stress_planes": ("contour",)}
@@ -14,4 +14,4 @@ DRAWN = {"summary": summary, "lines": lines, "map": maps, "theory_lines": lines,
          "spots": spots, "spot_sizes": spot_sizes, "histogram": histogram,
          "stress_largest": largest, "stress_line": below_crest, "stress_section": section, "stress_planes": planes,
          "interface": interface, "partial_slip": partial_slip, "slip_loop": slip_loops, "slip_map": slip_maps,
-         "adhesion": adhesion}
+         "adhesion": adhesion, "bounds": bounds}

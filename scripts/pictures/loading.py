@@ -49,6 +49,11 @@ DETAILS = {"contact_area_fraction": f"contact area {AREA}",
            "saddle_pressure_over_pstar": f"pressure at saddle {P}/{P_STAR}",
            "elastic_energy_over_pstar_amplitude": f"elastic energy/({P_STAR}{DELTA})", "perimeter": "perimeter"}
 
+# The quantities that have bounds: name, unit, whether their distance is over the quantity itself, and title.
+# The mean gap is a constant less the approach: their bounds have the same distance.
+BOUNDS = (("energy", "pstar_amplitude", True, "complementary energy, over itself"),
+          ("approach", "amplitude", False, f"approach and mean gap, over {DELTA}"))
+
 
 def summary(picture):
     """Summaries: contact area, mean gap and peak pressure against the mean pressure."""
@@ -83,6 +88,24 @@ def summary(picture):
 
     runs = [(run, table, 11 if reference else 31 + run) for run, table in enumerate(picture.tables)]
     with_errors(picture, SUMMARY, runs, entries, beside, joined=not reference)
+
+
+def bounds(picture):
+    """The distance between the guaranteed bounds of energy and of approach against the mean pressure."""
+    table, columns = picture.table, picture.table.columns
+    pressures = [table.numbers.get("p*", 1.0)*load for load in columns["pbar_over_pstar"]]
+    load, x = mean_pressure_axis([table], [pressures])
+    curves, drawn = [], []
+    for n, (name, unit, over, title) in enumerate(BOUNDS):
+        lower, upper = (columns[f"{name}_{side}_over_{unit}"] for side in ("lower", "upper"))
+        widths = [(high - low)/((high + low)/2 if over else 1.0) if high > low else math.nan
+                  for low, high in zip(lower, upper)]
+        drawn += [width for width in widths if width > 0]
+        curves.append(picture.curve(f"linespoints ls {31 + n}", load.of(pressures), widths, title=title,
+                                    joined=True))
+    if not drawn:
+        raise CannotBeDrawn("it has no bounds: the grid lacks waves of the surface, or no load is solved")
+    picture.single(x, decades(drawn, "distance between the bounds"), curves, key="top right")
 
 
 def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda n, found: [],

@@ -28,7 +28,8 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "partial_slip": ("tangential_over_limit", "stick_area_fraction"),
          "slip_loop": ("branch", "tangential_load", "displacement"),
          "slip_map": ("x", "y", "traction", "slip_state"),
-         "adhesion": ("contact_area_fraction", "approach", "branch", "point")}
+         "adhesion": ("contact_area_fraction", "approach", "branch", "point"),
+         "bounds": ("pbar_over_pstar", "energy_lower_over_pstar_amplitude", "energy_is_inside")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
 HEAD_NUMBER = re.compile(r"(Delta|p\*|e_star|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
@@ -64,8 +65,8 @@ class Table:
     """A table: kind, names of columns, `blocks`, and what the head says.
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
-    `title` is the deck's, '' if it has none; `method` is the first word of its line; `mirrored` says whether the cell is
-    a map that its mirror images continue. The rest of a line that begins a block is not needed.
+    `title` is the deck's, '' if it has none; `method` is the first word of its line; `mirrored` says whether the cell
+    is a map that its mirror images continue. The rest of a line that begins a block is not needed.
     """
 
     def __init__(self, path):

@@ -162,6 +162,8 @@ contains
             trouble = 'a surface with free edges has no bounds: they are those of a surface that repeats itself'
          else if (.not. units%p_star > 0.0_dp) then
             trouble = 'a flat surface has no bounds'
+         else if (surface%kernel%layer%shear_ratio > 0.0_dp) then
+            trouble = 'a layer whose base is not rigid has no bounds'
          else if (.not. (mean_pressure > 0.0_dp .and. mean_pressure/units%p_star < surface%hardness)) then
             trouble = 'the mean pressure must be above 0 and below the hardness'
          else if (.not. (all(ieee_is_finite(pressure)) .and. all(ieee_is_finite(gap)))) then
@@ -290,6 +292,10 @@ contains
       type(stress_group), target :: values
 
       call prepare_fields(session, solved, error)
+      if (.not. allocated(error)) then
+         if (session%results%solver%surface%kernel%has_layer()) call fatal_error(error, exit_bad_input, &
+            'stresses are computed in half-spaces, not in a layer')
+      end if
       if (allocated(error)) return
       call list_stress_keys(values, keys)
       call keys%start('')

@@ -46,7 +46,7 @@ program bench_iterations
    implicit none (type, external)
 
    integer, parameter :: cutoffs(2) = [4, 16], seeds = 3
-   !> By Persson's estimate, which gives the mean pressure: area = erf(2^(1/2) p/(E* h')), h' the root mean square slope.
+   !> By Persson's estimate, which gives the mean pressure: area = erf(2^(1/2) p/(E* h')), with the rms slope h'.
    real(dp), parameter :: areas(*) = [0.001_dp, 0.01_dp, 0.05_dp, 0.2_dp, 0.5_dp, 0.9_dp, 0.99_dp, 0.999_dp]
    real(dp), parameter :: slope = 1.0_dp
 
@@ -68,7 +68,7 @@ program bench_iterations
    end if
    worst = 0
    write (output_unit, '(a)') &
-      '# points  shortest_wave      area  seed    contact  iterations_on_last_grid  iterations_weighted  residual'
+      '# points  shortest_wave      area  seed    contact  iterations_on_last_grid  iterations_weighted  transform_pairs  residual'
    side = 512
    do while (side <= largest)
       do j = 1, size(cutoffs)
@@ -87,8 +87,8 @@ program bench_iterations
                call solve_by_sequence(surface, inverse_erf(areas(i))*slope/(sqrt(2.0_dp)*pi*full), 0.0_dp, &
                                       surface%points, answer, progress, 1e-8_dp)
                weighted = sum(numbers(:grids)*(real(sides(:grids), dp)/side)**2)
-               write (output_unit, '(2x,i6,i15,f10.3,i6,f11.5,i25,f21.1,es10.1)') side, cutoffs(j), areas(i), seed, &
-                  answer%value(contact_area_counted), numbers(grids), weighted, answer%state%residual
+               write (output_unit, '(2x,i6,i15,f10.3,i6,f11.5,i25,f21.1,f17.2,es10.1)') side, cutoffs(j), areas(i), seed, &
+                  answer%value(contact_area_counted), numbers(grids), weighted, answer%transform_pairs, answer%state%residual
                flush (output_unit)
                worst = max(worst, numbers(grids))
             end do

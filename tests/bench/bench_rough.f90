@@ -3,8 +3,8 @@
 !>    bench_rough HEIGHTS POINTS LOAD RESIDUAL PRESSURES
 !>
 !> HEIGHTS holds POINTS x POINTS heights, 8 bytes each, on a cell of side 1; LOAD is the mean pressure where E* = 1/pi,
-!> and RESIDUAL the tolerance (C9) of src/core/contact/README.md. PRESSURES gets the pressures in the format of HEIGHTS. The
-!> line of standard output: whether it converged (T or F), processor time [s] from the heights to the pressures,
+!> and RESIDUAL the tolerance (C9) of src/core/contact/README.md. PRESSURES gets the pressures in the format of HEIGHTS.
+!> The line of standard output: whether it converged (T or F), processor time [s] from the heights to the pressures,
 !> iterations on all grids and on the last, and transforms there and back in units of one on the last grid.
 program bench_rough
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit

@@ -140,7 +140,8 @@ def load_for_contact(case, command, fraction):
     def logit(value):
         return math.log(value/(1 - value))
 
-    x = math.log(case.load)
+    x = last_x = math.log(case.load)
+    last_y = 0.0
     points = []
     for _ in range(8):
         case.load = math.exp(x)
@@ -152,7 +153,7 @@ def load_for_contact(case, command, fraction):
         if abs(y) < 0.01:
             break
         # The contact grows at least as the pressure.
-        slope = 1.1 if len(points) == 1 else max((y - last_y)/(x - last_x), 0.5) if x != last_x else 1.1
+        slope = max((y - last_y)/(x - last_x), 0.5) if x != last_x else 1.1
         last_x, last_y = x, y
         x -= max(-1.0, min(1.0, y/slope))
     return math.exp(min(points)[1]) if points else case.load

@@ -133,7 +133,7 @@ def write_runs(out, results, floors):
     for load, floor in floors.items():
         for solver in [*OWN, *PEERS]:
             out.write(f'# P = {load}, {solver}\n')
-            if load == list(floors)[0] and solver == OWN[0]:
+            if load == next(iter(floors)) and solver == OWN[0]:
                 out.write('# fineness  time[ms], errors of gap, area, peak; their errors that count; '
                           'the floors of these\n')
             runs = results.get(solver, {}).get(load, [])

@@ -40,6 +40,7 @@ TITLE = "Steel_1 {a}^2 'b' @c & 100 % \\n `touch CANARY` $(touch CANARY)"
 DECKS = {
     "auto": WAVE + "&method solver = 'fitted' /\n&output " + TABLES + ", spots = t, theory = t, details = t /",
     "paper": WAVE + "&method solver = 'beale' /\n&output " + TABLES + ", theory = t, coefficients = t /",
+    "bounded": WAVE + "&method solver = 'grid', grid_points = 32 /\n&output bounds = t /",
     "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.1, 0.6 /\n"
             "&method solver = 'beale' /\n&output " + TABLES + ", spots = t, histograms = t, theory = t, coefficients = t /",
     "oblong": "&surface kind = 'wave_2d', wavelength = 30, wavelength_y = 60 /\n&load pbar_over_pstar = 0.3 /\n&output " + TABLES + " /",
@@ -82,6 +83,7 @@ SHOWN = {
     "auto.contour.dat": ("auto|y|mean pressure p̄/p*", ""),
     "auto.theory.dat": ("auto|mean gap ḡ/Δ", ""),
     "auto.details.dat": ("auto|perimeter", ""),
+    "bounded.bounds.dat": ("distance between the bounds|complementary energy, over itself|mean pressure p̄/p*", ""),
     "paper.coefficients.dat": ("paper|harmonic", ""),
     "auto.spots.dat": ("auto|closed pools|percolates along|mean pressure p̄/p*", ""),
     "auto.spot_sizes.dat": ("auto|number of at least this area", ""),

@@ -57,7 +57,7 @@ ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", ASAN_OPTIONS="detect_le
 
 def run(*command, **options):
     """Runs a command; its output, which a failure shows."""
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False,
                           stdin=subprocess.DEVNULL, timeout=LONGEST,
                           env=dict(ENVIRONMENT, **options.pop("environment", {})), **options)
     if done.returncode != 0:

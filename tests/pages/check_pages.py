@@ -26,7 +26,7 @@ SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed 
 ALL_TABLES = ("lines = t, map = t, contours = t, spots = t, histograms = t, coefficients = t, theory = t, "
               "spectrum = t, bounds = t, line_points = 8, map_points = 8")
 TABLE_DECKS = {
-    "line": f"&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'beale' /\n"
+    "line": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'beale' /\n"
             f"&output {ALL_TABLES} /\n",
     "plane": f"&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'beale' /\n"
              f"&output {ALL_TABLES} /\n",
@@ -53,7 +53,8 @@ def pages():
     """Every page of the tree, builds and results of runs aside, which other tests write and remove meanwhile."""
     tops = [path for path in sorted(ROOT.iterdir()) if not re.match(r"build|\.|outputs", path.name)]
     found = [path for top in tops for path in ([top] if top.suffix == ".md" else sorted(top.rglob("*.md")))]
-    return found + [ROOT/"outputs/README.md", *sorted((ROOT/"outputs/gallery").glob("*.md"))]
+    return found + [ROOT/"outputs/README.md", *sorted((ROOT/"outputs/gallery").glob("*.md")),
+                    *sorted((ROOT/".github").rglob("*.md"))]
 
 
 def without_fences(text):
@@ -110,7 +111,7 @@ def numbers_of_formulas(text):
 
 
 def numbers_cited(text):
-    return set(re.findall(rf"\(([ACEFGIMQS]\d+[a-z]?)\)", text))
+    return set(re.findall(r"\(([ACEFGIMQS]\d+[a-z]?)\)", text))
 
 
 def decks(text):

@@ -261,8 +261,8 @@ class Pictures(ValuesTest):
 
     def test_units(self):
         one = wc.solve(self.rough, e_star=2, mean_pressure=0.01, pressure_unit="MPa", length_unit="um")
-        self.assertEqual(("contact area [µm²]", "mean gap [µm]"), [(ax.get_xlabel(), ax.get_ylabel()) for ax in
-                                                                  [one.plot("mean_gap", "contact_area")]][0])
+        ax = one.plot("mean_gap", "contact_area")
+        self.assertEqual(("contact area [µm²]", "mean gap [µm]"), (ax.get_xlabel(), ax.get_ylabel()))
         ax = one[0].plot_map()
         self.assertEqual(("mean pressure 0.01 MPa", "x [µm]"), (ax.get_title(), ax.get_xlabel()))
         # Without labels over p* and Delta.

@@ -53,7 +53,7 @@ class Maps(ProgramTest):
         super().setUpClass()
         (cls.folder/"heights.dat").write_text(text_of(rough_map(SIDE, SIDE, 5)))
         cls.summaries, cls.maps = {}, {}
-        for name, (surface, method, output, own) in DECKS.items():
+        for name, (surface, method, output, _) in DECKS.items():
             cls.run_map(name, surface + method, output)
             cls.summaries[name] = [{key: word if key in ("solver", "status") else float(word)
                                     for key, word in record.items()}

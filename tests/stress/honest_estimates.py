@@ -124,6 +124,25 @@ def interface_case(stream, kind):
                          f"&method {method} /\n"} for method in (f"solver = 'grid', grid_points = {points}", truth)]
 
 
+def layer_case(stream, kind):
+    """The files of a wave or of a random map on a layer, on a grid and on one that is four times as fine."""
+    points = stream.choice((64, 96, 128, 256))
+    surface = f"kind = '{stream.choice(('wave_1d', 'wave_2d', 'hexagonal'))}'"
+    if stream.random() < 0.6:
+        surface = (f"kind = 'self_affine', points = {points}, length_x = 1, rms_slope = 0.1, long_wavelength = 0.5,\n"
+                   f"   hurst = {stream.choice((0.3, 0.8))!r},\n"
+                   f"   short_wavelength = {stream.choice((4.0, 8.0, 16.0))/points!r},\n"
+                   f"   seed = {stream.randint(1, 2**30)}")
+    layer = f"layer_thickness = {10.0**stream.uniform(-2.5, 0.3)!r}, "
+    layer += stream.choice(("layer_base = 'smooth'", f"layer_nu = {stream.choice((0.0, 0.3, 0.45, 0.5))!r}",
+                            f"layer_nu = {stream.choice((0.0, 0.3, 0.5))!r}, base_nu = 0.3,\n"
+                            f"   base_e = {10.0**stream.uniform(-1.0, 2.0)!r}"))
+    loads = [1.0/(1.0 + math.exp(-stream.uniform(-6.0, 5.0))) for _ in range(3)]
+    return [{"deck.nml": f"&surface {surface} /\n&material {layer} /\n"
+                         f"&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
+                         f"&method solver = 'grid', grid_points = {grid} /\n"} for grid in (points, 4*points)]
+
+
 def solve_with_interface(program, files, work):
     """The rows of the summary with the words of the table of the interface, if there is one."""
     rows, complaints = solve(program, files, work)
@@ -152,6 +171,7 @@ def campaign(settings, work):
             ("grid of a map's points", map_case, ("elastic",), rare, VALUES),
             ("grid with a hardness", map_case, ("hard",), rare, VALUES + OF_HARDNESS),
             ("grid with free edges", free_case, ("free edges", "patch"), rare, OF_FREE_EDGES),
+            ("grid on a layer", layer_case, ("layer",), rare, VALUES),
             ("derivatives on grids", interface_case, ("wave_2d", "hexagonal", "self_affine"), rare, OF_INTERFACE)):
         largest = LARGEST_RATIO_OF_INTERFACE if values is OF_INTERFACE else LARGEST_RATIO
         ratios, unknown = [], 0

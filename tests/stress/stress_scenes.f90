@@ -1,5 +1,5 @@
-!> Solves the loads of a deck on grids as the program does, and checks the contact conditions of every solution. Prints a
-!> line for each load, also if no solution was needed or found.
+!> Solves the loads of a deck on grids as the program does, and checks the contact conditions of every solution. Prints
+!> a line for each load, also if no solution was needed or found.
 !>
 !> usage: stress_scenes DECK [HARDNESS]   the hardness, over the mean pressure of each load, takes the place of that of
 !> the deck

@@ -12,9 +12,9 @@ import re
 import sys
 
 # Those without an expected value have that of the second word in its place.
-ASSERTIONS = {name: "" for name in (
+ASSERTIONS = dict.fromkeys((
     "assertEqual", "assertRelativelyEqual", "assertLessThan", "assertLessThanOrEqual", "assertGreaterThan",
-    "assertGreaterThanOrEqual", "assertIsFinite", "assertIsNaN", "assertFail")}
+    "assertGreaterThanOrEqual", "assertIsFinite", "assertIsNaN", "assertFail"), "")
 ASSERTIONS |= {"assertTrue": ".true., ", "assertFalse": ".false., "}
 PROCEDURES = "test", "before", "after"
 

@@ -5,8 +5,9 @@ module wavycon_contact_solver
    use wavycon_contact_measures, only: full_contact_quantities
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
+   use wavycon_full_contact, only: mean_compliance
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: elastic_energy
+   use wavycon_quantities, only: approach, elastic_energy
    use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
@@ -107,6 +108,7 @@ contains
                    pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
             solution%status = full_contact
             solution%quantities = full_contact_quantities(surface, pbar_over_pstar)
+            call add_mean_compression(surface, solution)
          else
             shall_stop = .false.
             if (associated(self%progress)) shall_stop = self%progress%shall_stop(0, 1.0_dp)
@@ -114,11 +116,25 @@ contains
                solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
             else
                call self%solve_partial_contact(pbar_over_pstar, solution)
+               call add_mean_compression(surface, solution)
                if (allocated(solution%source)) solution%source%record = solution%solution_record
             end if
          end if
       end associate
    end subroutine solve
+
+   !> Adds what the mean pressure does to the layer below, if there is one: (E31) of src/core/half_space/README.md.
+   subroutine add_mean_compression(surface, solution)
+      type(surface_type), intent(in) :: surface
+      type(contact_solution), intent(inout) :: solution   !! of partial or full contact
+
+      real(dp) :: compression
+
+      if (.not. surface%kernel%has_layer()) return
+      compression = mean_compliance(surface)*solution%pbar_over_pstar
+      solution%value(approach) = solution%value(approach) + compression
+      solution%value(elastic_energy) = solution%value(elastic_energy) + 0.5_dp*compression*solution%pbar_over_pstar
+   end subroutine add_mean_compression
 
    !> Forgets the last solution, so that the next load starts as the first one does. By default there is nothing to
    !> forget.

@@ -60,8 +60,11 @@ contains
          search = root_search(target=target, quantity=quantity)
          search%closes = quantity == contact_area .and. target >= 1.0_dp
          search%most = surface%hardness
-         if (.not. surface%has_free_edges) search%most = min(1.0_dp, surface%hardness)
-         if (quantity == approach) search%is_bounded = .not. (surface%has_free_edges .or. surface%has_hardness())
+         ! The approach goes on beyond full contact where a layer is compressed.
+         if (.not. (surface%has_free_edges .or. (quantity == approach .and. surface%kernel%has_layer()))) &
+            search%most = min(1.0_dp, surface%hardness)
+         if (quantity == approach) search%is_bounded = &
+            .not. (surface%has_free_edges .or. surface%has_hardness() .or. surface%kernel%has_layer())
          if (target <= 0.0_dp .or. (target >= 1.0_dp .and. search%is_bounded .and. .not. surface%has_free_edges)) then
             known_load = target
             if (quantity == mean_gap) known_load = 1.0_dp - target

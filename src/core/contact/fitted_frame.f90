@@ -42,7 +42,7 @@ contains
       real(dp) :: curvature(2)
 
       if (surface%dimension == 1 .or. surface%has_free_edges .or. surface%amplitude <= 0.0_dp) return
-      if (.not. surface%shape%is_even()) return
+      if (surface%kernel%has_layer() .or. .not. surface%shape%is_even()) return
       if (surface%is_height_map()) return
       associate (c => surface%shape%c, length => surface%length)
          frame%side = minval(length)

@@ -24,6 +24,7 @@ module wavycon_multilevel_preconditioner
    type :: multilevel_preconditioner
       logical, private :: even = .false.       !! whether the grid continues by mirror images, otherwise periodically
       real(sp), private :: decay = 1.0_sp      !! c of (C4c), factor for each doubling of the distance from the contact
+      real(dp), private :: reach = 0.0_dp      !! as of `start`, in steps of this grid
       type(grid_slab), private :: slab         !! columns of this grid that this process has
       !> w_j of (C4b): the part of a point's area that is in contact, on the finest grid 1 or 0, shape (M,
       !> slab%columns()). `start` allocates this array; the caller sets it on the finest grid.
@@ -44,14 +45,17 @@ module wavycon_multilevel_preconditioner
 contains
 
    !> Allocates a grid and all coarser ones, without any point in contact.
-   subroutine start(self, points, even)
+   subroutine start(self, points, even, reach)
       class(multilevel_preconditioner), intent(out) :: self
       integer, intent(in) :: points(2)   !! M, N of the grid; N = 1 in 1-D
       logical, intent(in) :: even        !! whether the points are those of a quarter of an even field's cell
+      !> Steps beyond which no displacement reaches, the thickness of a layer; 0 or absent: there is no limit.
+      real(dp), intent(in), optional :: reach
 
       type(grid_slab) :: slab
 
       call slab%start(points)
+      if (present(reach)) self%reach = reach
       call start_on(slab, even, self)
    end subroutine start
 
@@ -67,6 +71,7 @@ contains
       if (.not. all((mod(slab%points, 2) == 0 .and. slab%points >= 2*least_points) .or. slab%points == 1)) return
       grid%averaged = slab%coarser()
       allocate (grid%coarser)
+      grid%coarser%reach = 0.5_dp*grid%reach
       call start_on(distributed_or_whole(grid%averaged), even, grid%coarser)
       allocate (grid%values(grid%averaged%points(1), 0:grid%coarser%slab%columns() + 1))
    end subroutine start_on
@@ -91,10 +96,13 @@ contains
          call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
          self%decay = self%coarser%decay
+         if (self%reach > 0.0_dp) self%decay = self%decay* &
+            real(min(1.0_dp, self%reach)/min(1.0_dp, self%coarser%reach), sp)
       else
          total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
          self%decay = real(min(1.0_dp, decay_alone &
                                        + decay_growth*sqrt(total(1)/product(real(self%slab%points, dp)))), sp)
+         if (self%reach > 0.0_dp) self%decay = self%decay*real(min(1.0_dp, self%reach), sp)
       end if
    end subroutine average_contact
 

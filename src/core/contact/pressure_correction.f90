@@ -8,7 +8,8 @@ module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: longest_chunk
-   use wavycon_contact_tuning, only: blocked_part, overlap_part, stencil_fraction
+   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, reach_of_layer, &
+      stencil_fraction, whole_step
    use wavycon_correction_state, only: correction_state
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -46,7 +47,9 @@ contains
       real(dp) :: blocked, descent
       real(sp), allocatable :: r(:), d(:)      !! residual and direction of the last iteration, shape (region%points)
       real(sp), allocatable :: field(:, :)     !! shape of the pressure
+      real(sp) :: expected_step                !! of the next iteration; 0: unknown
       integer :: iterations
+      logical :: is_bounded                    !! whether d is the change of the pressure (C7a)
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
       call assert(most_iterations > 0, 'most_iterations > 0')
@@ -57,6 +60,7 @@ contains
       descent = 0.0_dp
       ! A smaller overlap may be rounding: a point that has it would enter and leave the contact again and again.
       state%allowance = real(overlap_part*part, sp)
+      expected_step = real(first_step, sp)
       iterations = 0
       do while (state%residual > part*state%scale .and. iterations < most_iterations)
          if (present(progress)) grid%interrupted = progress%shall_stop(iterations, state%residual)
@@ -67,8 +71,13 @@ contains
          if (blocked > blocked_part*state%contact_points) &
             call precondition(extension, stencil, half_space, state, field)
          call find_direction(state, field, r, d, descent)                            ! (C5): field = d
+         call bound_direction(state, expected_step, d, field, is_bounded)            ! (C7a)
          call state%displace(half_space, field)                                      !       field = Sd
-         call take_step(state, half_space, r, d, field)                              ! (C6) to (C8), (C3)
+         if (is_bounded) then
+            call take_bounded_step(state, r, d, field, expected_step, descent)       ! (C7a), (C8), (C3)
+         else
+            call take_step(state, half_space, r, d, field, expected_step)            ! (C6) to (C8), (C3)
+         end if
       end do
       call state%add_to(grid)
       grid%corrections = grid%corrections + 1
@@ -98,7 +107,8 @@ contains
       end if
       field = 0.0_sp
       call state%put_residual(field)
-      if (.not. allocated(extension%contact)) call extension%start(state%slab%points, half_space%even)
+      if (.not. allocated(extension%contact)) call extension%start(state%slab%points, half_space%even, &
+         reach=reach_of_layer*half_space%kernel%layer%thickness*maxval(half_space%stiffness_per_step))
       if (state%contact_is_new) then
          !$omp parallel do num_threads(state%region%threads)
          do c = 1, state%region%chunks
@@ -123,7 +133,8 @@ contains
       real(sp), intent(inout), contiguous :: field(:, :)    !! on entry z, on return d; shape (M, slab%columns())
       real(sp), intent(inout), contiguous :: residuals(:)   !! on entry r_old, on return r; shape (region%points)
       real(sp), intent(inout), contiguous :: direction(:)   !! on entry d_old, on return d; shape (region%points)
-      !> On entry (gap_old, z_old), on return (gap, z). Zero on entry restarts the search with beta = 0.
+      !> On entry (gap_old, z_old), after a change (C7a) that of (C7b); on return (gap, z). Zero on entry restarts the
+      !> search with beta = 0.
       real(dp), intent(inout) :: descent
 
       real(dp) :: sums(5)
@@ -167,38 +178,151 @@ contains
       end do
    end subroutine find_direction
 
-   !> Takes the step to the least energy along the direction (C6), keeps the pressure within its bounds and restores its
-   !> mean (C7) or (C24), and updates the contact (C8). If no point reaches a bound, the displacement S d gives the new
-   !> gap; otherwise one more application of S is needed for the change of the pressure.
-   subroutine take_step(state, half_space, residuals, direction, field)
-      type(correction_state), intent(inout) :: state
-      type(compliance_operator), intent(inout) :: half_space           !! S, started on the grid
-      real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d, shape (region%points)
-      real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
+   !> If the expected step would take points out of the contact: replaces the direction by the change of the pressure
+   !> that keeps it within its bound and keeps its mean (C7a). The transform that follows is then that of the change
+   !> itself, and (C7) needs no further one. With a hardness (C24) takes the place of (C7), and no step is expected.
+   subroutine bound_direction(state, expected_step, direction, field, is_bounded)
+      type(correction_state), intent(in) :: state
+      real(sp), intent(in) :: expected_step                     !! tau_e; 0: unknown
+      real(sp), intent(inout), contiguous :: direction(:)       !! d; on return with is_bounded the d of (C7a)
+      real(sp), intent(inout), contiguous :: field(:, :)        !! the same at the points of the region
+      logical, intent(out) :: is_bounded
 
       real(dp) :: sums(4)
-      real(dp), allocatable :: chunk_sums(:, :)
-      real(sp) :: mean, step   ! mean gap over the free points after the step (C8b); tau of (C6)
-      real(sp), dimension(longest_chunk) :: change, free, image
+      real(sp) :: change(longest_chunk), excess
       integer :: c, n
 
-      allocate (chunk_sums(size(sums), state%region%chunks), source=0.0_dp)
+      is_bounded = .false.
+      if (expected_step <= 0.0_sp .or. allocated(state%below_hardness)) return
+      sums = sums_after(state, direction, expected_step)
+      ! No change is bounded if all points would leave, or if the factor P/(mean of p_e) would be rounded to zero.
+      is_bounded = sums(1) > 0.0_dp .and. sums(1) < state%contact_points .and. sums(3) < sums(2)
+      if (.not. is_bounded) return
+      excess = real(-sums(3)/sums(2), sp)
+      !$omp parallel do num_threads(state%region%threads) private(change, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
+            n = b - a + 1
+            change(:n) = max(state%change(a:b) - expected_step*direction(a:b), -start(a:b))
+            change(:n) = change(:n) + state%contact(a:b)*(excess*(start(a:b) + change(:n)))
+            direction(a:b) = state%change(a:b) - change(:n)
+            call state%region%put_chunk(c, direction(a:b), field)
+         end associate
+      end do
+   end subroutine bound_direction
+
+   !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change, and updates the
+   !> contact (C8). With the whole change points leave the contact, with a shorter step none does.
+   subroutine take_bounded_step(state, residuals, direction, field, expected_step, descent)
+      type(correction_state), intent(inout) :: state
+      real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d of (C7a), shape (region%points)
+      real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
+      real(sp), intent(inout) :: expected_step             !! on entry that of (C7a), on return the next one
+      real(dp), intent(out) :: descent                     !! nu (d, S d) of (C7b)
+
+      !> A pressure below this part of the numbers that it is the sum of is zero but for rounding.
+      real(sp), parameter :: rounding = 4*epsilon(1.0_sp)
+      real(dp) :: sums(2)
+      real(dp), allocatable :: chunk_sums(:, :)
+      real(sp) :: best, step   ! part of the change with the least energy, and the part that is taken
+      real(sp), dimension(longest_chunk) :: image, least
+      integer :: c, n
+
+      allocate (chunk_sums(size(sums), state%region%chunks))
       !$omp parallel do num_threads(state%region%threads) private(image, n)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
             n = b - a + 1
             call state%region%take_chunk(c, field, image)
-            chunk_sums(:3, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
-                                 sdot(n, state%contact(a:b), 1, image, 1)]
+            chunk_sums(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1)]
          end associate
       end do
       sums = state%totals(chunk_sums)
+      best = 0.0_sp
+      if (sums(1) > 0.0_dp) best = real(max(sums(2)/sums(1), 0.0_dp), sp)
+      step = best
+      if (best > whole_step) step = 1.0_sp
+      descent = step*sums(1)
+      expected_step = expected_step*best
+      if (best < least_foreseen) expected_step = 0.0_sp
+      !$omp parallel do num_threads(state%region%threads) private(image, least, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
+            n = b - a + 1
+            call state%region%take_chunk(c, field, image)
+            image(:n) = -step*image(:n)
+            call state%region%put_chunk(c, image, field)
+            least(:n) = rounding*(start(a:b) + abs(state%change(a:b)))
+            state%change(a:b) = state%change(a:b) - step*direction(a:b)
+            where (start(a:b) + state%change(a:b) <= least(:n))
+               state%change(a:b) = -start(a:b)
+               state%contact(a:b) = 0.0_sp
+            end where
+         end associate
+      end do
+      state%contact_is_new = .true.
+      call state%update_contact(state%mean_gap(field))
+   end subroutine take_bounded_step
+
+   !> Takes the step to the least energy along the direction (C6), keeps the pressure within its bounds and restores its
+   !> mean (C7) or (C24), and updates the contact (C8). If no point reaches a bound, the displacement S d gives the new
+   !> gap; otherwise one more application of S is needed for the change of the pressure.
+   subroutine take_step(state, half_space, residuals, direction, field, step)
+      type(correction_state), intent(inout) :: state
+      type(compliance_operator), intent(inout) :: half_space           !! S, started on the grid
+      real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d, shape (region%points)
+      real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
+      real(sp), intent(out) :: step                        !! tau of (C6)
+
+      real(dp) :: sums(4)
+      real(dp), allocatable :: chunk_sums(:, :)
+      real(sp) :: image(longest_chunk), mean   ! S d; mean gap over the free points after the step (C8b)
+      integer :: c, n
+
+      allocate (chunk_sums(3, state%region%chunks))
+      !$omp parallel do num_threads(state%region%threads) private(image, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
+            n = b - a + 1
+            call state%region%take_chunk(c, field, image)
+            chunk_sums(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
+                                sdot(n, state%contact(a:b), 1, image, 1)]
+         end associate
+      end do
+      sums(:3) = state%totals(chunk_sums)
       ! If only one point is free the direction and the step are zero, but points may still enter the contact.
       step = 0.0_sp
       if (sums(1) > 0.0_dp) step = real(sums(2)/sums(1), sp)
       mean = real(-step*sums(3)/max(state%contact_points, 1.0_dp), sp)
-      ! Sums after the step: number of the free points whose pressure stays above zero, sum of their pressures, sum of
-      ! the changes since the start, and number of the points that reach H.
+      sums = sums_after(state, direction, step)
+      if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) then
+         call state%update_contact(mean, step, direction, field)
+         return
+      end if
+      if (sums(4) > 0.0_dp) then
+         call project(state, direction, step, field)
+      else
+         call restore_mean(state, direction, step, sums(2), sums(3), field)
+      end if
+      state%contact_is_new = .true.
+      call state%displace(half_space, field)
+      call state%update_contact(state%mean_gap(field))
+   end subroutine take_step
+
+   !> Sums over the grid after a step that keeps the pressure at zero or above: number of the free points whose pressure
+   !> stays above zero, sum of their pressures, sum of the changes since the start, and number of the points that
+   !> reach H.
+   function sums_after(state, direction, step) result(sums)
+      type(correction_state), intent(in) :: state
+      real(sp), intent(in), contiguous :: direction(:)     !! d, shape (region%points)
+      real(sp), intent(in) :: step                         !! what the direction is multiplied by
+      real(dp) :: sums(4)
+
+      real(dp), allocatable :: chunk_sums(:, :)
+      real(sp), dimension(longest_chunk) :: change, free
+      integer :: c, n
+
+      allocate (chunk_sums(size(sums), state%region%chunks), source=0.0_dp)
       !$omp parallel do num_threads(state%region%threads) private(change, free, n)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
@@ -214,19 +338,7 @@ contains
          end associate
       end do
       sums = state%totals(chunk_sums)
-      if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) then
-         call state%update_contact(mean, step, direction, field)
-         return
-      end if
-      if (sums(4) > 0.0_dp) then
-         call project(state, direction, step, field)
-      else
-         call restore_mean(state, direction, step, sums(2), sums(3), field)
-      end if
-      state%contact_is_new = .true.
-      call state%displace(half_space, field)
-      call state%update_contact(state%mean_gap(field))
-   end subroutine take_step
+   end function sums_after
 
    !> Takes a step by which points leave the contact, and then multiplies the pressure by the factor that restores its
    !> mean (C7). The factor is 1 + excess.

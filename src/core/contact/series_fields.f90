@@ -7,7 +7,7 @@ module wavycon_series_fields
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_status, only: full_contact, no_load
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_full_contact, only: full_contact_series
+   use wavycon_full_contact, only: full_contact_series, mean_compliance
    use wavycon_kinds, only: dp
    use wavycon_series_samples, only: sample_series
    use wavycon_surface, only: surface_type
@@ -18,9 +18,9 @@ module wavycon_series_fields
 
    type, extends(contact_fields) :: series_fields
       type(fourier_series) :: pressure       !! p/p*
-      type(fourier_series) :: displacement   !! (u - ubar)/Delta
+      type(fourier_series) :: displacement   !! (u - ubar)/Delta, of full contact on a layer u/Delta
       type(surface_type) :: surface
-      real(dp) :: mean_gap = 1.0_dp          !! G [Delta]
+      real(dp) :: mean_gap = 1.0_dp          !! G, less the mean of the displacement [Delta]
       !> Whether the series are those of full contact or no load. Then pressures below least_pressure and gaps below 0
       !> are due to rounding, or lie between the points of a height map, and are set to these limits.
       logical, private :: is_edgeless = .false.
@@ -45,7 +45,9 @@ contains
       if (status == full_contact) then
          fields%pressure = full_contact_series(surface, pbar_over_pstar)
          fields%displacement = surface%shape
-         fields%mean_gap = 0.0_dp
+         ! On a layer the displacement has a mean, which the approach has too.
+         fields%mean_gap = -mean_compliance(surface)*pbar_over_pstar
+         call fields%displacement%set_mean(-fields%mean_gap)
          ! Below P = 1 only adhesion holds surfaces in full contact: at the troughs the pressure is a tension.
          if (pbar_over_pstar < 1.0_dp) fields%least_pressure = -huge(1.0_dp)
       else

@@ -22,7 +22,7 @@ module wavycon_compliance_operator
       integer :: points(2) = 0                     !! M, N, points of the grid
       !> Whether the points are those of a quarter of an even surface's cell.
       logical :: even = .true.
-      type(wave_stiffness) :: kernel               !! kernel of the surface
+      type(wave_stiffness) :: kernel               !! kernel of the surface, unit of length surface%stiffness
       !> Stiffness of a harmonic of the half-space whose wavelength is one step along x or along y [p*/Delta].
       real(dp) :: stiffness_per_step(2) = 0.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
@@ -53,7 +53,8 @@ contains
       self%even = surface%shape%is_even()
       self%points = points
       if (present(part)) self%points = part
-      self%kernel = surface%kernel
+      ! Frequencies are times the stiffness below.
+      self%kernel = surface%kernel%in_unit(surface%stiffness)
       self%is_free = surface%has_free_edges
       step = surface%length/(merge(2, 1, self%even)*points)
       if (points(2) == 1) step(2) = surface%length(2)

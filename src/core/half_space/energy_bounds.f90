@@ -7,6 +7,7 @@ module wavycon_energy_bounds
    use wavycon_alias_sums, only: alias_sums
    use wavycon_assertion, only: assert
    use wavycon_fourier_series, only: fourier_series
+   use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_surface, only: surface_type
@@ -78,7 +79,7 @@ contains
       type(energy_bounds), intent(out) :: answer
 
       ! The lower bound (first its energy <u S^-1 u>/2) and the upper bound of F; U and V; H <max(-g, 0)>; eta.
-      real(dp) :: dual, factor, half_pu, mean_p, overlap, ph, primal, rounding, share, width
+      real(dp) :: compression, dual, factor, half_pu, mean_p, overlap, ph, primal, rounding, share, width
       real(dp), allocatable :: g(:, :), p(:, :)
 
       if (pbar_over_pstar <= 0.0_dp) return
@@ -92,8 +93,8 @@ contains
       rounding = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
       mean_p = mean(p)
       call energies(self, surface, p, g, rounding, half_pu, ph, dual)
-      ! The pressure is multiplied by a factor that gives it the mean P. With a hardness a factor above 1 might exceed H;
-      ! then the uniform pressure share*H is added instead, which has no elastic energy, and factor + share = 1.
+      ! The pressure is multiplied by a factor that gives it the mean P. With a hardness a factor above 1 might exceed
+      ! H; then the uniform pressure share*H is added instead, which has no elastic energy, and factor + share = 1.
       factor = pbar_over_pstar/mean_p
       share = 0.0_dp
       if (surface%has_hardness() .and. factor > 1.0_dp) then
@@ -122,6 +123,10 @@ contains
          answer%approach(2) = min(answer%approach(2), 1.0_dp)
          answer%mean_gap = 1.0_dp - answer%approach(2:1:-1)
       end if
+      ! What the mean pressure does to a layer, (E31).
+      compression = mean_compliance(surface)*pbar_over_pstar
+      answer%approach = answer%approach + compression*[1.0_dp - rounding, 1.0_dp + rounding]
+      answer%energy = answer%energy + 0.5_dp*compression*pbar_over_pstar*[1.0_dp - rounding, 1.0_dp + rounding]
 
    contains
 

@@ -4,6 +4,7 @@ module wavycon_roughness
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_kinds, only: dp
+   use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private
 
@@ -13,7 +14,8 @@ module wavycon_roughness
       real(dp) :: height = 0.0_dp      !! root mean square of the height less its mean, eq. (M22) [length]
       real(dp) :: slope = 0.0_dp       !! root mean square of |gradient|, eq. (M23) [-]
       real(dp) :: curvature = 0.0_dp   !! that of half the Laplacian, for a profile of h'', eq. (M24) [1/length]
-      !> Sum over all waves of the mean square divided by the wavelength, eq. (M25a) [length].
+      !> Sum over all waves of the mean square divided by the wavelength, eq. (M25a) [length]; on a layer each
+      !> is also divided by the factor of the wave (E27).
       real(dp) :: frequency_moment = 0.0_dp
    end type roughness_type
 
@@ -33,12 +35,14 @@ module wavycon_roughness
 contains
 
    !> Computes the roughness of a surface from the Fourier series of its height.
-   type(roughness_type) function roughness_of(series, amplitude, length, points) result(roughness)
+   type(roughness_type) function roughness_of(series, amplitude, length, points, kernel) result(roughness)
       type(fourier_series), intent(in) :: series   !! series of the height over `amplitude`; its mean is not used
       real(dp), intent(in) :: amplitude            !! unit of the series, >= 0 [length]
       real(dp), intent(in) :: length(2)            !! L_x, L_y, sides of the periodic cell, > 0 [length]
       integer, intent(in) :: points(2)             !! numbers of points of the grid that the series interpolates, or 0
+      type(wave_stiffness), intent(in), optional :: kernel   !! of the bodies; absent: half-spaces
 
+      type(wave_stiffness) :: of_waves
       !> For each wave number in X the sums (M22) to (M25a) over the waves, in the order of roughness_type.
       real(dp) :: moments(4, series%first():series%last(1))
       real(dp), dimension(series%first():series%last(1)) :: powers, q_squared, x_squared
@@ -48,6 +52,7 @@ contains
       ! Wave numbers are taken over 2 pi/unit. So their powers do not overflow and do not all underflow, whatever the
       ! unit of length is.
       unit = minval(length)
+      if (present(kernel)) of_waves = kernel%in_unit(unit)
       x_squared = [((k*(unit/length(1)))**2, k=series%first(), series%last(1))]
       moments = 0.0_dp
       do l = 0, series%last(2)
@@ -56,7 +61,8 @@ contains
          moments(1, :) = moments(1, :) + powers
          moments(2, :) = moments(2, :) + powers*q_squared
          moments(3, :) = moments(3, :) + powers*q_squared**2
-         moments(4, :) = moments(4, :) + powers*sqrt(q_squared)
+         call of_waves%of(q_squared)
+         moments(4, :) = moments(4, :) + powers*q_squared
       end do
       sums = series%rows%column_totals(moments)
       sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))

@@ -2,13 +2,15 @@
 !> full contact, where the displacement is the shape.
 module wavycon_full_contact
    use wavycon_fourier_series, only: divide_series, fourier_series, weighted
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_roughness, only: roughness_of, roughness_type
+   use wavycon_series_peak, only: find_peak
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: displacement_of, full_contact_energy, full_contact_series, pressure_of
+   public :: displacement_of, full_contact_energy, full_contact_series, mean_compliance, pressure_of, set_closure
 
 contains
 
@@ -47,8 +49,40 @@ contains
 
       type(roughness_type) :: roughness
 
-      roughness = roughness_of(surface%shape, 1.0_dp, surface%length, surface%points)
+      roughness = roughness_of(surface%shape, 1.0_dp, surface%length, surface%points, surface%kernel)
       full_contact_energy = 0.5_dp*surface%stiffness*roughness%frequency_moment
    end function full_contact_energy
+
+   !> Sets what closes a surface: its stiffness, so that p* is its largest tension in full contact, and its largest
+   !> pressure there. Of a map they are those at its points.
+   subroutine set_closure(surface)
+      type(surface_type), intent(inout) :: surface   !! periodic or mirrored, not flat, with its shape and kernel
+
+      type(fourier_series) :: pressure
+      type(grid_transform) :: transform
+      real(dp), allocatable :: values(:, :)
+      real(dp) :: largest(2), unused(2)   ! of pressure and tension
+
+      pressure = weighted(surface%shape, surface%length, surface%kernel)
+      if (surface%is_height_map()) then
+         call transform%start(surface%points/surface%maps_in_cell(), even=surface%mirrored)
+         allocate (values(transform%points(1), transform%slab%columns()))
+         call transform%sample(pressure, values)
+         largest = transform%slab%extremes(values)
+      else
+         call find_peak(pressure, largest(1), unused)
+         call divide_series(pressure, -1.0_dp)
+         call find_peak(pressure, largest(2), unused)
+      end if
+      surface%stiffness = 1.0_dp/largest(2)
+      surface%full_contact_peak = largest(1)/largest(2)
+   end subroutine set_closure
+
+   !> How much the mean pressure p* compresses the layer under a surface [Delta]; 0 without one.
+   pure real(dp) function mean_compliance(surface)
+      type(surface_type), intent(in) :: surface
+
+      mean_compliance = surface%kernel%layer%mean_compliance()/surface%stiffness
+   end function mean_compliance
 
 end module wavycon_full_contact

@@ -19,8 +19,8 @@ module wavycon_paper_wave
 
 contains
 
-   !> Which wave of the paper the surface is. A distributed surface counts as none. A flat surface that is not a height
-   !> map counts as a straight wave of amplitude 0 in 1-D and on a square cell.
+   !> Which wave of the paper the surface is. A distributed surface and one on a layer count as none. A flat surface
+   !> that is not a height map counts as a straight wave of amplitude 0 in 1-D and on a square cell.
    pure integer function paper_wave(surface)
       type(surface_type), intent(in) :: surface
 
@@ -28,7 +28,8 @@ contains
       integer :: highest(2)
 
       paper_wave = no_paper_wave
-      if (surface%is_distributed() .or. surface%has_free_edges .or. .not. surface%shape%is_even()) return
+      if (surface%is_distributed() .or. surface%has_free_edges .or. surface%kernel%has_layer()) return
+      if (.not. surface%shape%is_even()) return
       if (surface%dimension == 2 .and. .not. is_square(surface)) return
       longest = 0.0_dp
       highest = min(1, ubound(surface%shape%c))

@@ -4,6 +4,7 @@ module wavycon_surface_of_points
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: divide_series, weighted
    use wavycon_free_edges, only: form_of_radii, set_units_without_closure
+   use wavycon_full_contact, only: set_closure
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
@@ -83,10 +84,7 @@ contains
       if (surface%has_free_edges) then
          call set_units_without_closure(surface)
       else
-         call transform%sample(weighted(surface%shape, surface%length, surface%kernel), values)
-         extremes = transform%slab%extremes(values)
-         surface%stiffness = 1.0_dp/extremes(2)
-         surface%full_contact_peak = extremes(1)*surface%stiffness
+         call set_closure(surface)
       end if
    end function surface_of_points
 

@@ -2,6 +2,7 @@
 module wavycon_wave_surfaces
    use wavycon_constants, only: sqrt3
    use wavycon_fourier_series, only: divide_series, fourier_series, turn, weighted
+   use wavycon_full_contact, only: set_closure
    use wavycon_kinds, only: dp
    use wavycon_series_peak, only: find_peak
    use wavycon_surface, only: surface_type
@@ -92,8 +93,7 @@ contains
       real(dp), intent(in) :: length(2)            !! L_x, L_y [length], > 0
       type(fourier_series), intent(in) :: height   !! height [length]; its mean is not used
 
-      type(fourier_series) :: pressure
-      real(dp) :: lowest, unused(2)
+      real(dp) :: unused(2)
 
       surface%shape = height
       call surface%shape%set_mean(0.0_dp)
@@ -104,12 +104,7 @@ contains
       if (surface%amplitude <= 0.0_dp) return
       call divide_series(surface%shape, surface%amplitude)
       call find_peak(weighted(surface%shape, surface%length), surface%crest_curvature, unused)
-      pressure = weighted(surface%shape, surface%length, surface%kernel)
-      call find_peak(pressure, surface%full_contact_peak, unused)
-      call divide_series(pressure, -1.0_dp)
-      call find_peak(pressure, lowest, unused)
-      surface%stiffness = 1.0_dp/lowest
-      surface%full_contact_peak = surface%full_contact_peak/lowest
+      call set_closure(surface)
    end function surface_of_series
 
 end module wavycon_wave_surfaces

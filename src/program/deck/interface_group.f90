@@ -91,6 +91,10 @@ contains
       if (.not. present(surface)) return
       if (surface%has_hardness()) call values%problems%add(values%position, &
          '&interface takes elastic contacts: leave hardness or &interface out')
+      if (surface%kernel%has_layer() .and. (values%friction%is_given .or. values%resistivity1%is_given .or. &
+                                            values%work_of_adhesion%is_given)) &
+         call values%problems%add(values%position, 'of a layer the stiffness is computed alone: leave friction, '// &
+                                  'resistivity1, work_of_adhesion or layer_thickness out')
       if (.not. surface%amplitude > 0.0_dp) call values%problems%add(values%position, &
          'the surface is flat and in full contact: leave &interface out')
       if (surface%has_free_edges .and. surface%dimension == 1) call values%problems%add(values%position, &

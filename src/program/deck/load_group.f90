@@ -158,7 +158,8 @@ contains
          where (mean_pressure > 0.0_dp) target = ieee_value(1.0_dp, ieee_positive_inf)
          return
       end if
-      if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges)) then
+      if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges .or. &
+                                         surface%kernel%has_layer())) then
          target = target/most
          return
       end if

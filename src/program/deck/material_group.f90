@@ -1,7 +1,10 @@
-!> The &material group: the stiffness of the two bodies, and the pressure at which they yield.
+!> The &material group: the stiffness of the two bodies, the pressure at which they yield, and a layer in place of the
+!> first body.
 module wavycon_material_group
+   use wavycon_elastic_layer, only: elastic_layer
+   use wavycon_full_contact, only: set_closure
    use wavycon_key_group, only: key_group, key_list, key_value
-   use wavycon_key_table, only: key_type, real_value
+   use wavycon_key_table, only: choice_value, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
    use wavycon_scene_groups, only: material_group
@@ -13,6 +16,9 @@ module wavycon_material_group
 
    !> Largest ratio of the hardness to p*, and of p* to the hardness. A larger ratio is most likely a mistake of units.
    real(dp), parameter :: most_hardness = 1.0e6_dp
+   !> Largest ratio of a layer's thickness and the longer side of the cell, and of the stiffness of layer and base, for
+   !> the same reason.
+   real(dp), parameter :: most_of_layer = 1.0e6_dp
 
 contains
 
@@ -35,10 +41,25 @@ contains
       call keys%add(values%hardness, key_type(real_value, 'hardness', '', 'unit of e_star', &
          'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
          'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', above=0))
+      call keys%add(values%layer_thickness, key_type(real_value, 'layer_thickness', '', 'length', &
+         'Thickness of an elastic layer, which is the first body: e1 and nu1, or e_star and layer_nu, are its own. '// &
+         'Without it the bodies are half-spaces. Within a factor of 1e6 of the longer side of the cell.', above=0))
+      call keys%add(values%layer_base, key_type(choice_value, 'layer_base', "'bonded'", '', &
+         "what the layer lies on: 'bonded', on a body that it is bonded to, rigid unless base_e is given; "// &
+         "'smooth', on a rigid body on which it slides without friction.", choices='bonded smooth', &
+         needs='layer_thickness'))
+      call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
+         "Poisson's ratio of the layer, if e_star is given.", above=-1, most=0.5_dp, way=10, needs='layer_thickness'))
+      call keys%add(values%base_e, key_type(real_value, 'base_e', '', 'pressure', &
+         "Young's modulus of the half-space that the layer is bonded to, within a factor of 1e6 of the layer's. "// &
+         'Without it the base is rigid.', above=0, &
+         needs='base_nu layer_thickness'))
+      call keys%add(values%base_nu, key_type(real_value, 'base_nu', '', '-', &
+         "Poisson's ratio of this half-space.", above=-1, most=0.5_dp, needs='base_e'))
    end subroutine list_material_keys
 
-   !> Checks the keys, finds E* and p*, and sets the hardness of the surface. A hardness of a flat surface is reported,
-   !> and one that is not within `most_hardness` of p*.
+   !> Checks the keys, lays the surface on a layer if there is one, finds E* and p*, and sets the hardness of the
+   !> surface. A hardness of a flat surface is reported, and one that is not within `most_hardness` of p*.
    subroutine check_material_group(values, surface, e_star, p_star)
       type(material_group), intent(inout) :: values
       type(surface_type), allocatable, intent(inout) :: surface   !! not allocated if it could not be made
@@ -50,6 +71,8 @@ contains
       p_star = 0.0_dp
       if (values%problems%number > 0 .or. values%any_bad .or. .not. allocated(surface)) return
       e_star = plane_strain_modulus(values)
+      if (values%layer_thickness%is_given) call lay_on_base(values, e_star, surface)
+      if (values%problems%number > 0) return
       p_star = surface%full_contact_pressure(e_star)
       if (.not. values%hardness%is_given) return
       hardness = values%hardness%number
@@ -64,6 +87,49 @@ contains
          surface%hardness = hardness/p_star
       end if
    end subroutine check_material_group
+
+   !> Puts a layer under the surface, which gets another p*. Reports a layer that lacks a number or contradicts another,
+   !> and surfaces that have none.
+   subroutine lay_on_base(values, e_star, surface)
+      type(material_group), intent(inout) :: values   !! with a layer
+      real(dp), intent(in) :: e_star                  !! of the pair [pressure]
+      type(surface_type), intent(inout) :: surface
+
+      real(dp) :: longest
+      type(elastic_layer) :: layer
+
+      layer%slides = values%layer_base%text == 'smooth'
+      if (.not. (layer%slides .or. values%nu1%is_given .or. values%layer_nu%is_given)) call values%complain( &
+         values%layer_base, "a bonded layer needs layer_nu, Poisson's ratio: its compliance follows from it")
+      longest = maxval(surface%length(:surface%dimension)/surface%maps_in_cell())
+      layer%thickness = values%layer_thickness%number
+      if (surface%has_free_edges) then
+         call values%complain(values%layer_thickness, &
+            'layers are for surfaces that are repeated, and this one has free edges: leave layer_thickness out')
+      else if (surface%amplitude <= 0.0_dp) then
+         call values%complain(values%layer_thickness, &
+            'the surface is flat: its pressure is the mean pressure on any layer. Leave layer_thickness out')
+      else if (layer%thickness > most_of_layer*longest .or. layer%thickness < longest/most_of_layer) then
+         call values%complain(values%layer_thickness, 'layer_thickness = '//short_number(layer%thickness)// &
+            ' is not within a factor of '//short_number(most_of_layer)//' of the side of the cell, '// &
+            short_number(longest)//'. Do the units agree?')
+      end if
+      if (layer%slides .and. values%base_e%is_given) call values%complain(values%base_e, &
+         "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
+      if (values%layer_nu%is_given) layer%nu = values%layer_nu%number
+      if (values%nu1%is_given) layer%nu = values%nu1%number
+      ! Without a second body it is one to the last digit: the rest counts beside the factor of a thin layer.
+      if (values%e2%is_given) layer%share = e_star*(1 - layer%nu**2)/values%e1%number
+      if (values%base_e%is_given) then
+         layer%base_nu = values%base_nu%number
+         layer%shear_ratio = e_star*(1 - layer%nu)*(1 + layer%base_nu)/(layer%share*values%base_e%number)
+         if (abs(log(layer%shear_ratio)) > log(most_of_layer)) call values%complain(values%base_e, &
+            'layer and base differ in stiffness by more than '//short_number(most_of_layer)//'. Do the units agree?')
+      end if
+      if (values%problems%number > 0) return
+      surface%kernel%layer = layer
+      call set_closure(surface)
+   end subroutine lay_on_base
 
    !> The modulus E* of the pair of bodies [pressure]: the deck's e_star, or 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. If
    !> the deck gives no E2 the second body is rigid, and the second term is left out.

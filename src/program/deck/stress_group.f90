@@ -87,6 +87,8 @@ contains
       end if
       call take_ratios(values, 'stress', values%nu, material)
       if (present(surface)) then
+         if (surface%kernel%has_layer()) call values%problems%add(values%position, &
+            'stresses are computed in half-spaces, not in a layer: leave &stress or layer_thickness out')
          if (surface%has_free_edges) then
             if (surface%dimension == 1) call values%problems%add(values%position, &
                'stresses below a profile with free edges are not computed: leave &stress out')

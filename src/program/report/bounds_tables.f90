@@ -9,6 +9,7 @@ module wavycon_bounds_tables
    use wavycon_error, only: error_type
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
    use wavycon_fourier_series, only: fourier_series, weighted
+   use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_output_file, only: output_file
@@ -152,7 +153,8 @@ contains
             p = p(:points(1), :points(2))
             gap = gap(:points(1), :points(2))
          end if
-         if (surface%has_hardness()) call add_overlap(surface, solution%value(approach), p, gap)
+         if (surface%has_hardness()) call add_overlap( &
+            surface, solution%value(approach) - mean_compliance(surface)*solution%pbar_over_pstar, p, gap)
       end associate
    end subroutine fields_of
 
@@ -172,7 +174,7 @@ contains
    !> displacement u of the pressure is computed by Fourier transforms.
    subroutine add_overlap(surface, approach_over_amplitude, p, gap)
       type(surface_type), intent(in) :: surface   !! with a hardness
-      real(dp), intent(in) :: approach_over_amplitude   !! delta/Delta
+      real(dp), intent(in) :: approach_over_amplitude   !! delta/Delta less the mean compression of a layer
       real(dp), intent(in) :: p(:, :)             !! p/p* at the points of the grid, shape (M, N)
       real(dp), intent(inout) :: gap(:, :)        !! gap/Delta there
 

@@ -72,8 +72,8 @@ contains
       self%with_adhesion = .not. self%with_adhesion
    end subroutine swap_contacts
 
-   !> Opens a table <case>.<table_file>.dat, writes the header lines that all tables have and sets the columns. If there is a
-   !> table in memory, its columns are set instead, without a file. `file%finish` reports errors.
+   !> Opens a table <case>.<table_file>.dat, writes the header lines that all tables have and sets the columns. If there
+   !> is a table in memory, its columns are set instead, without a file. `file%finish` reports errors.
    subroutine open_table(self, table_file, columns, file)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: table_file   !! name of the table, such as 'summary'

@@ -129,11 +129,14 @@ contains
       case ('bounds')
          if (surface%has_free_edges) words = &
             'bounds are known for periodic and mirrored surfaces only, and this one has free edges'
+         if (surface%kernel%layer%shear_ratio > 0.0_dp) words = &
+            'bounds are known on half-spaces and on layers whose base is rigid, and this one has base_e'
       case ('theory', 'theory_lines')
          if (is_paper_wave(surface)) return
          words = 'closed forms exist only for the waves of the paper: '//paper_waves
          if (self%file == 'theory_lines') return
          words = words//', and for a ball'
+         if (surface%kernel%has_layer()) words = 'closed forms are those of half-spaces, not of a layer'
          if (surface%has_free_edges .and. all(surface%form%c(:surface%dimension) > 0.0_dp)) words = ''
       end select
       if (lack == '') return

@@ -13,7 +13,7 @@ module wavycon_scene_groups
    end type scene_group
 
    type, extends(key_group), public :: material_group
-      type(key_value) :: e_star, e1, nu1, e2, nu2, hardness
+      type(key_value) :: e_star, e1, nu1, e2, nu2, hardness, layer_thickness, layer_base, layer_nu, base_e, base_nu
    end type material_group
 
    type, extends(key_group), public :: surface_group

@@ -131,6 +131,7 @@ contains
       end select
       if (any(solver == ['fitted     ', 'closed_form']) .and. surface%has_hardness()) &
          words = 'has no solution with a hardness'
+      if (all(solver /= ['grid', 'auto']) .and. surface%kernel%has_layer()) words = 'is for half-spaces alone'
    end function refusal
 
    !> The solvers that can solve a surface and have a trait, such as "'grid' or 'auto'"; empty if there is none.
@@ -247,7 +248,7 @@ contains
       reasons(has_closed_form) = 'the surface is the 1-D wave or a ball, which has a closed form'
       reasons(has_lattice) = 'the surface has a lattice of equal spots; grids solve the loads for which '// &
                                 "'fitted' is not accurate enough"
-      reasons(has_neither) = 'the surface has neither a closed form nor a lattice of equal spots'
+      reasons(has_neither) = 'there is neither a closed form nor a lattice of equal spots on half-spaces'
       reasons(has_a_hardness) = "neither the closed form nor 'fitted' has a hardness"
       reasons(points_are_given) = 'the points of the grid are given'
       reasons(points_are_of_the_map) = 'a height map is solved on its own points unless an accuracy is given'
