@@ -29,6 +29,11 @@ bad_usage() {
    exit 1
 }
 
+# sha256 WORDS...: sha256sum; macOS has shasum instead.
+sha256() {
+   if command -v sha256sum >/dev/null 2>&1; then sha256sum "$@"; else shasum -a 256 "$@"; fi
+}
+
 # cached PATTERN: the values of the entries of CMake's cache whose names match.
 cached() {
    sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"

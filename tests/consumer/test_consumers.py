@@ -181,6 +181,10 @@ class Consumers(unittest.TestCase):
         run(self.prefix/"bin"/"wavycon-plot", self.folder/"deck.summary.dat")
         self.assertTrue((self.folder/"deck.summary.png").is_file())
 
+    def test_tables_are_compared(self):
+        self.assertIn("\nagrees", run(self.prefix/"bin"/"wavycon-verify", "deck.summary.dat", "wave_2d", "--tolerance",
+                                      "1e-4", cwd=self.folder))
+
     def test_fortran_with_the_shared_library(self):
         self.assertEqual(self.expected, numbers(run(self.folder / "project" / "consumer_fortran_shared")))
 
@@ -268,7 +272,7 @@ class Consumers(unittest.TestCase):
     def test_subproject(self):
         options = self.options
         run(options.cmake, "-S", HERE / "subproject", "-B", self.folder / "subproject", "-G", options.generator,
-            "-D", f"WAVYCON_SOURCES={options.sources}", *self.compilers())
+            "-D", f"FETCHCONTENT_SOURCE_DIR_WAVYCON={options.sources}", *self.compilers())
         listed = run(pathlib.Path(options.cmake).with_name("ctest"), "-N", "--test-dir", self.folder / "subproject")
         self.assertIn("Total Tests: 0", listed)
 

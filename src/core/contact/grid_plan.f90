@@ -22,6 +22,7 @@ module wavycon_grid_plan
    type :: grid_plan
       integer, allocatable :: grids(:, :)   !! points along x and y of n grids, the coarsest first, shape (2, n)
       integer :: trusted = 1                !! first grid whose error estimates include the surface's shortest waves
+      logical :: lacks_waves = .false.      !! whether the last grid has no such waves: its errors are unknown
    end type grid_plan
 
 contains
@@ -57,7 +58,11 @@ contains
          plan%grids = reshape([(plan%grids(:, 1) + 1)/2, plan%grids], [2, size(plan%grids, 2) + 1])
       end do
       plan%trusted = size(plan%grids, 2)
-      if (all(points > 0)) return
+      if (all(points > 0)) then
+         ! A wave of less than two points looks like a longer one on all grids, and changes between them do not show it.
+         if (.not. surface%has_free_edges) plan%lacks_waves = any(2*surface%shape%last([1, 2]) > points)
+         return
+      end if
       most = most_points_plane/product(maps_in_cell)
       if (surface%dimension == 1) most = most_points_line/product(maps_in_cell)
       do while (product(int(grid, int64)) <= most)

@@ -130,6 +130,10 @@ contains
       else
          errors = known_errors(errors, surface%full_contact_peak)
       end if
+      if (plan%lacks_waves) then
+         errors = unknown
+         answer%error(area_at_hardness) = unknown
+      end if
       ! No pressure is negative: an error estimate as large as the peak pressure says nothing. With free edges the same
       ! is true of approach and area. Such errors are unknown.
       where ((.not. answer%accurate .and. errors >= max(values, tiny(unit)) .and. &

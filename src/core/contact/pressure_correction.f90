@@ -180,7 +180,7 @@ contains
 
    !> If the expected step would take points out of the contact: replaces the direction by the change of the pressure
    !> that keeps it within its bound and keeps its mean (C7a). The transform that follows is then that of the change
-   !> itself, and (C7) needs no further one. With a hardness (C24) takes the place of (C7), and no step is expected.
+   !> itself, and (C7) needs no further one. If it would take points to a hardness, the step is that of (C6) and (C24).
    subroutine bound_direction(state, expected_step, direction, field, is_bounded)
       type(correction_state), intent(in) :: state
       real(sp), intent(in) :: expected_step                     !! tau_e; 0: unknown
@@ -193,10 +193,11 @@ contains
       integer :: c, n
 
       is_bounded = .false.
-      if (expected_step <= 0.0_sp .or. allocated(state%below_hardness)) return
+      if (expected_step <= 0.0_sp) return
       sums = sums_after(state, direction, expected_step)
-      ! No change is bounded if all points would leave, or if the factor P/(mean of p_e) would be rounded to zero.
-      is_bounded = sums(1) > 0.0_dp .and. sums(1) < state%contact_points .and. sums(3) < sums(2)
+      ! A step after which the sum of the pressures is more than twice the right one is foreseen badly.
+      is_bounded = sums(1) > 0.0_dp .and. sums(1) < state%contact_points .and. sums(3) < 0.5_dp*sums(2) .and. &
+                   sums(4) <= 0.0_dp
       if (.not. is_bounded) return
       excess = real(-sums(3)/sums(2), sp)
       !$omp parallel do num_threads(state%region%threads) private(change, n)
@@ -212,7 +213,7 @@ contains
    end subroutine bound_direction
 
    !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change, and updates the
-   !> contact (C8). With the whole change points leave the contact, with a shorter step none does.
+   !> contact (C8). With the whole change points leave the contact, with a shorter one only points without pressure.
    subroutine take_bounded_step(state, residuals, direction, field, expected_step, descent)
       type(correction_state), intent(inout) :: state
       real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d of (C7a), shape (region%points)

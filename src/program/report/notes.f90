@@ -381,7 +381,8 @@ contains
             end associate
          end do
          if (unknown > 0) call logger%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: '// &
-            'a grid has error estimates from 64 points a side on. Give more grid_points, or an accuracy')
+            'a grid has error estimates from 64 points a side on, if each wave of the surface has two points '// &
+            'or more. Give more grid_points, or an accuracy')
          if (all(coarse == 0)) return
          do i = 1, size(values)
             values(i) = trim(values(i))//' at '//integer_text(coarse(i))

@@ -75,7 +75,8 @@ contains
       call keys%add(values%grid_points, key_type(integer_value, 'grid_points', '', '', &
          'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
          'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated from '// &
-         '64 points a side on; those of coarser grids are unknown.', 8, 1048576, most_values=2, way=11))
+         '64 points a side on; those of coarser grids, and of grids with less than two points to a wave, are '// &
+         'unknown.', 8, 1048576, most_values=2, way=11))
       call keys%add(values%residual, key_type(real_value, 'residual', '', '-', &
          'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
          'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
