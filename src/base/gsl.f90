@@ -84,22 +84,22 @@ module wavycon_gsl
          type(c_ptr), value :: w
       end function gsl_integration_fixed_weights
 
-      !> Allocates an interpolation between `size` points; a null pointer if there is not enough memory.
-      type(c_ptr) function gsl_interp_alloc(t, size) bind(c, name='gsl_interp_alloc')
+      !> Allocates an interpolation between `points` pairs; a null pointer if there is not enough memory.
+      type(c_ptr) function gsl_interp_alloc(t, points) bind(c, name='gsl_interp_alloc')
          import :: c_ptr, c_size_t
          type(c_ptr), value :: t
-         integer(c_size_t), value :: size
+         integer(c_size_t), value :: points
       end function gsl_interp_alloc
 
       !> Computes the interpolation of the points xa, ya; xa must rise. Returns 0 on success.
-      integer(c_int) function gsl_interp_init(interp, xa, ya, size) bind(c, name='gsl_interp_init')
+      integer(c_int) function gsl_interp_init(interp, xa, ya, points) bind(c, name='gsl_interp_init')
          import :: c_double, c_int, c_ptr, c_size_t
          type(c_ptr), value :: interp
          real(c_double), intent(in) :: xa(*), ya(*)
-         integer(c_size_t), value :: size
+         integer(c_size_t), value :: points
       end function gsl_interp_init
 
-      !> The value of the interpolation at x, xa(1) <= x <= xa(size); acc may be a null pointer.
+      !> The value of the interpolation at x, xa(1) <= x <= the last xa; acc may be a null pointer.
       real(c_double) function gsl_interp_eval(interp, xa, ya, x, acc) bind(c, name='gsl_interp_eval')
          import :: c_double, c_ptr
          type(c_ptr), value :: interp, acc

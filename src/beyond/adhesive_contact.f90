@@ -1,8 +1,8 @@
 !> The contact with adhesion, in the limit of Johnson, Kendall & Roberts (JKR), that has a given contact area. Equations
 !> (I..) are those of README.md in this directory.
 !>
-!> The 1-D wave and the round ball have closed forms. Waves on a lattice are solved by expansions with a singular edge,
-!> on two branches: one of separate contact spots and one of separate pools of gap.
+!> The 1-D wave and the round ball have closed forms. Waves on a lattice are solved by fitted functions with a singular
+!> edge, on two branches: one of separate contact spots and one of separate pools of gap.
 module wavycon_adhesive_contact
    use wavycon_ball_source, only: ball_source
    use wavycon_closed_form_contact, only: closed_form_source
@@ -53,7 +53,7 @@ module wavycon_adhesive_contact
       real(dp) :: energy = unknown            !! elastic energy [p* Delta]: the mean of p u/2
       real(dp) :: energy_error = unknown      !! error estimate of the energy [p* Delta]
       integer :: status = converged           !! a status of wavycon_contact_status
-      !> The solution by expansions, from which other points start. Only of waves on a lattice.
+      !> The solution by fitted functions, from which other points start. Only of waves on a lattice.
       type(fitted_answer), allocatable :: answer
    end type adhesive_point
 
@@ -156,7 +156,8 @@ contains
       point%energy_error = 0.0_dp
    end subroutine find_point_of_line_wave
 
-   !> The contact of a wave on a lattice, by expansions with a singular edge: src/core/fitted/README.md, section 15.
+   !> The contact of a wave on a lattice, by fitted functions with a singular edge: src/core/fitted/README.md, section
+   !> 15.
    subroutine find_point_of_lattice(self, point, start)
       class(adhesive_problem), intent(in) :: self
       type(adhesive_point), intent(inout) :: point          !! on entry with its area and branch

@@ -60,8 +60,8 @@ contains
       allocate (slip%approach_change(curve_points), source=0.0_dp)
       associate (change => slip%approach_change)
          do i = 2, curve_points - 1
-            associate (fraction => real(i - 1, dp)/(curve_points - 1))
-               call solver%solve(solution%pbar_over_pstar - fraction*tangential/friction, on_curve)
+            associate (part => real(i - 1, dp)/(curve_points - 1))
+               call solver%solve(solution%pbar_over_pstar - part*tangential/friction, on_curve)
             end associate
             change(i) = solution%value(approach) - approach_of(on_curve)
          end do

@@ -52,8 +52,8 @@ contains
       handle = this%new_object()
    end function read_scene
 
-   integer(c_int) function set_progress(error, scene, callback, data) bind(c, name='wavycon_set_progress')
-      type(c_ptr), value :: error, scene, data
+   integer(c_int) function set_progress(error, scene, callback, user_data) bind(c, name='wavycon_set_progress')
+      type(c_ptr), value :: error, scene, user_data
       type(c_funptr), value :: callback
 
       type(c_call) :: this
@@ -61,7 +61,7 @@ contains
       if (this%begins(error, scene, 'scene')) then
          associate (progress => this%contents%progress, solver => this%contents%scene%results%solver)
             nullify (progress%callback, solver%progress)
-            progress%data = data
+            progress%data = user_data
             if (c_associated(callback)) then
                call c_f_procpointer(callback, progress%callback)
                solver%progress => this%contents%progress

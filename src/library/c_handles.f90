@@ -26,9 +26,9 @@ module wavycon_c_handles
 
    abstract interface
       !> wavycon_progress of wavycon.h.
-      integer(c_int) function progress_callback(data, iterations, residual) bind(c)
+      integer(c_int) function progress_callback(user_data, iterations, residual) bind(c)
          import :: c_double, c_int, c_ptr
-         type(c_ptr), value :: data
+         type(c_ptr), value :: user_data
          integer(c_int), value :: iterations
          real(c_double), value :: residual
       end function progress_callback
@@ -88,18 +88,19 @@ contains
 
    !> Begins a call: waits for the lock and checks the arguments. The result is whether they are right. Errors:
    !> exit_bad_input if `object` is no handle or one of another kind, or if another pointer is null.
-   logical function begins(self, error, object, kind, are_there)
+   logical function begins(self, error, object, object_kind, are_there)
       class(c_call), intent(inout) :: self
-      type(c_ptr), intent(in) :: error                 !! handle of the caller's error object; null: there is none
-      type(c_ptr), intent(in), optional :: object      !! handle of the object that the call works on
-      character(*), intent(in), optional :: kind       !! kind that the object must have; absent: any, also no object
-      logical, intent(in), optional :: are_there(:)    !! whether each other pointer that is needed is not null
+      type(c_ptr), intent(in) :: error                     !! handle of the caller's error object; null: there is none
+      type(c_ptr), intent(in), optional :: object          !! handle of the object that the call works on
+      character(*), intent(in), optional :: object_kind    !! kind that it must have; absent: any, also no object
+      logical, intent(in), optional :: are_there(:)        !! whether each other pointer that is needed is not null
 
       call lock()
       self%error = error
       if (present(object)) self%contents => object_at(object)
-      if (present(kind)) then
-         if (self%contents%kind /= kind) call fatal_error(self%trouble, exit_bad_input, not_a_handle//kind)
+      if (present(object_kind)) then
+         if (self%contents%kind /= object_kind) &
+            call fatal_error(self%trouble, exit_bad_input, not_a_handle//object_kind)
       end if
       if (present(are_there) .and. .not. allocated(self%trouble)) then
          if (.not. all(are_there)) call fatal_error(self%trouble, exit_bad_input, 'an argument is NULL')
@@ -145,14 +146,14 @@ contains
    end function new_object
 
    !> Makes a new object of a kind.
-   function new_handle(kind, owner) result(made)
-      character(*), intent(in) :: kind
+   function new_handle(object_kind, owner) result(made)
+      character(*), intent(in) :: object_kind
       !> The scene of a solution, which must not be deallocated before the solution: it gets one more user.
       type(handle_type), pointer, intent(in), optional :: owner
       type(handle_type), pointer :: made
 
       allocate (made)
-      made%kind = kind
+      made%kind = object_kind
       made%error%message = ''
       if (.not. present(owner)) return
       made%owner => owner

@@ -162,7 +162,7 @@ contains
          return
       end if
       ! The checks skip a group that the deck does not have: mark the group as given.
-      values%place = 1
+      values%position = 1
       call keys(1)%take_value(k, number=value)
       call keys(1)%check_relations()
       call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)
@@ -328,10 +328,10 @@ contains
                              pack(summary%values(:, 1), summary%columns%kind /= of_words), name, value, error)
          end associate
       else
-         associate (surface => self%results%solver%surface, scale => self%scale)
+         associate (surface => self%results%solver%surface, units => self%scale)
             call pick_number([character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', 'points_x', &
-                              'points_y', 'dimension', 'loads'], [scale%e_star, scale%p_star, scale%amplitude, &
-                             scale%sides, real([surface%points/surface%parts(), surface%dimension, &
+                              'points_y', 'dimension', 'loads'], [units%e_star, units%p_star, units%amplitude, &
+                             units%sides, real([surface%points/surface%maps_in_cell(), surface%dimension, &
                                                 size(self%results%order)], dp)], name, value, error)
          end associate
       end if
@@ -362,20 +362,20 @@ contains
       type(solved_load), intent(in), optional :: solved   !! the load; absent: the text is one of the session
 
       integer :: i
-      type(run_log) :: log
+      type(run_log) :: logger
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
       associate (scene => self%results%scene)
          if (name == 'notes') then
-            log = self%log
+            logger = self%log
             if (present(solved)) then
-               call log%start(quiet=.true.)
-               call note_loads(self%results, solved%loads_by, [solved%solution%solution_record], log)
+               call logger%start(quiet=.true.)
+               call note_loads(self%results, solved%loads_by, [solved%solution%solution_record], logger)
             else
-               call note_loads(self%results, scene%loads_by, pack(self%records, self%records%status >= 0), log)
+               call note_loads(self%results, scene%loads_by, pack(self%records, self%records%status >= 0), logger)
             end if
-            words = log%notes
+            words = logger%notes
          else if (present(solved)) then
             associate (summary => solved%summary)
                i = findloc(summary%columns%name == name .and. summary%columns%kind == of_words, .true., dim=1)

@@ -157,14 +157,14 @@ contains
                                                     first=first, error=error)
       if (allocated(error)) return
       trouble = ''
-      associate (scale => session%scale, surface => session%results%solver%surface)
+      associate (units => session%scale, surface => session%results%solver%surface)
          if (surface%has_free_edges) then
             trouble = 'a surface with free edges has no bounds: they are those of a surface that repeats itself'
-         else if (.not. scale%p_star > 0.0_dp) then
+         else if (.not. units%p_star > 0.0_dp) then
             trouble = 'a flat surface has no bounds'
          else if (surface%kernel%layer%shear_ratio > 0.0_dp) then
             trouble = 'a layer whose base is not rigid has no bounds'
-         else if (.not. (mean_pressure > 0.0_dp .and. mean_pressure/scale%p_star < surface%hardness)) then
+         else if (.not. (mean_pressure > 0.0_dp .and. mean_pressure/units%p_star < surface%hardness)) then
             trouble = 'the mean pressure must be above 0 and below the hardness'
          else if (.not. (all(ieee_is_finite(pressure)) .and. all(ieee_is_finite(gap)))) then
             trouble = 'pressures and gaps must be finite numbers'
@@ -182,12 +182,12 @@ contains
             call fatal_error(error, exit_bad_input, trouble)
             return
          end if
-         pbar_over_pstar = mean_pressure/scale%p_star
+         pbar_over_pstar = mean_pressure/units%p_star
          ! Without a hardness only the ratios of pressures matter: dividing by the largest keeps their squares in range.
          unit = maxval(pressure)
-         if (surface%has_hardness()) unit = scale%p_star
-         call grid%bound(surface, pressure/unit, gap/scale%amplitude, pbar_over_pstar, answer)
-         bounds = scale%amplitude*[scale%p_star*scale%nominal_area*answer%energy, answer%approach, answer%mean_gap]
+         if (surface%has_hardness()) unit = units%p_star
+         call grid%bound(surface, pressure/unit, gap/units%amplitude, pbar_over_pstar, answer)
+         bounds = units%amplitude*[units%p_star*units%nominal_area*answer%energy, answer%approach, answer%mean_gap]
       end associate
    end subroutine bounds_from_fields
 

@@ -10,7 +10,7 @@ module wavycon
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_spots, only: contact_region, contact_spots
+   use wavycon_contact_spots, only: connected_region, contact_spots
    use wavycon_contact_status
    use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar

@@ -29,7 +29,7 @@ module wavycon_beale
    public :: solve_by_beale
 
    !> How far a slack may fall below zero in each pass, as a fraction of -b (Q8).
-   integer, parameter :: digits(*) = [2, 4, 7, 10, 3, 6, 9, 12, 4, 8, 11, 13]
+   integer, parameter :: slack_digits(*) = [2, 4, 7, 10, 3, 6, 9, 12, 4, 8, 11, 13]
    !> A slack that falls slower than this fraction of the fastest does not limit a step: its constraint depends on
    !> active ones, and the rate is rounding.
    real(dp), parameter :: pivot_tolerance = 1e-11_dp
@@ -51,25 +51,25 @@ contains
       type(qp_solution), intent(out) :: solution
 
       type(working_set) :: set
-      real(dp) :: scale, x(size(problem%linear)), slacks(size(problem%bounds))
+      real(dp) :: unit, x(size(problem%linear)), slacks(size(problem%bounds))
       integer :: pass, pivots
       logical :: has_ended
 
       call set%start(problem)
       x = 0.0_dp
       pivots = 0
-      do pass = 1, size(digits)
+      do pass = 1, size(slack_digits)
          set%count = 0
-         call descend(problem, 10.0_dp**(-digits(pass)), x, set, pivots, has_ended)
+         call descend(problem, 10.0_dp**(-slack_digits(pass)), x, set, pivots, has_ended)
          call set%refresh(problem)
          call set%check(problem, solution)
          solution%pivots = pivots
          if (solution%status == qp_converged) return
          ! On the way from here to x = 0 the slacks that are below zero rise to it.
          call problem%slacks(solution%x, slacks)
-         scale = 1.0_dp
-         if (any(slacks < 0.0_dp)) scale = minval(problem%bounds/(problem%bounds + slacks), mask=slacks < 0.0_dp)
-         x = scale*solution%x
+         unit = 1.0_dp
+         if (any(slacks < 0.0_dp)) unit = minval(problem%bounds/(problem%bounds + slacks), mask=slacks < 0.0_dp)
+         x = unit*solution%x
       end do
       if (.not. has_ended) solution%status = qp_iteration_limit
    end subroutine solve_by_beale

@@ -171,14 +171,14 @@ contains
       real(dp), intent(in) :: pbar_over_pstar         !! mean pressure [p*]
 
       real(dp), parameter :: pstar_wavelength_over_modulus_amplitude = sqrt2*pi
-      real(dp) :: a_0, a_2, i_0, i_2, scale
+      real(dp) :: a_0, a_2, i_0, i_2, factor
 
       a_0 = 1 - pbar_over_pstar
       a_2 = -2*(pi*radius_over_wavelength)**2
       i_0 = sqrt(max(0.0_dp, (1 - rho)*(1 + rho)))
       i_2 = (i_0 + 2*rho**2*i_0)/3
-      scale = pstar_wavelength_over_modulus_amplitude*2*radius_over_wavelength
-      opening = scale*a_0/sqrt(pi)/gamma(1.5_dp)*i_0 + scale*a_2/sqrt(pi)/gamma(2.5_dp)*i_2
+      factor = pstar_wavelength_over_modulus_amplitude*2*radius_over_wavelength
+      opening = factor*a_0/sqrt(pi)/gamma(1.5_dp)*i_0 + factor*a_2/sqrt(pi)/gamma(2.5_dp)*i_2
    end function penny_crack_opening_over_amplitude
 
    !> Radius of a closed pool, (A7): b/lambda = (3 (1 - pbar/p*))^(1/2)/(2 pi); 0 from pbar = p* on.

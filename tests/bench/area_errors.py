@@ -3,7 +3,7 @@
 
 usage: area_errors.py --program WAVYCON [--quick]
 
-Surfaces whose area is known: the two-dimensional wave, by expansions; a sphere at light load, by Hertz, averaged over
+Surfaces whose area is known: the two-dimensional wave, by the solver 'fitted'; a sphere at light load, by Hertz, averaged over
 places of its centre between the points; self-affine maps of 128 x 128 points, whose shortest wave has 16 to 2 of
 them, by the finest grid, which has its own rows. Errors are root mean squares over the loads of a row, in percent of
 the area or, from half contact on, of the open part, each with the mean in brackets; the last column is the root mean
@@ -73,7 +73,7 @@ def wave(runs, quick):
     for name, loads in WAVE_LOADS.items():
         truth = runs.summary("kind = 'wave_2d'", "solver = 'fitted', accuracy = 1e-8", loads)
         if not (truth["status_code"] < 10).all():
-            sys.exit("area_errors: an expansion is not accurate")
+            sys.exit("area_errors: a fitted solution is not accurate")
         for points in WAVE_POINTS[:3 if quick else None]:
             found = runs.summary("kind = 'wave_2d'", f"solver = 'grid', grid_points = {points}", loads)
             row("wave", points, name, found, truth["contact_area_fraction"])

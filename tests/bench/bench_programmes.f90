@@ -42,7 +42,7 @@ program bench_programmes
       symmetry = symmetry_full
    end select
    call fresh%start(wave_2d(1.0_dp, 1.0_dp, 1.0_dp), qp_options(harmonics, points, &
-      symmetry, by_beale=words(4) == 'beale'))
+      symmetry, uses_beale=words(4) == 'beale'))
    contact = fresh
    write (output_unit, '(i0,1x,i0)') shape(fresh%problem%normals)
    flush (output_unit)

@@ -3,7 +3,7 @@
 
 usage: own_solvers.py BUILD
 
-The program from start to finish, with the deck of the paper's sweep. Expansions: a load of the two-dimensional and of
+The program from start to finish, with the deck of the paper's sweep. 'fitted': a load of the two-dimensional and of
 the hexagonal wave to ever smaller accuracies, and 99 loads, each from the one before. Grids: a load of the 2-D wave to
 three accuracies, and how the errors of the 1-D and the 2-D wave fall with the step. Maps, and stresses, beside the solution that they show: a section of 128 x 64 points, the search for the
 largest stresses, a plane.
@@ -20,7 +20,7 @@ from own import ROOT, Own, middle_and_least, reference_loads, repeated
 
 SQUARE, HEXAGONAL, LINE = "kind = 'wave_2d'", "kind = 'hexagonal'", "kind = 'wave_1d'"
 # P of each surface: away from the loads at which spots merge, 0.2286 and 0.7119, and next to them.
-EXPANDED = {SQUARE: (0.01, 0.05, 0.1, 0.2, 0.228, 0.24, 0.3, 0.5, 0.7, 0.9),
+FITTED = {SQUARE: (0.01, 0.05, 0.1, 0.2, 0.228, 0.24, 0.3, 0.5, 0.7, 0.9),
             HEXAGONAL: (0.01, 0.1, 0.3, 0.5, 0.7, 0.72, 0.8, 0.9)}
 POWERS, FINEST = (2, 3, 4, 5, 6, 8, 10), 12   # powers of ten of the accuracies, and of that of the reference
 SWEEP = 99
@@ -56,12 +56,12 @@ def program(build, runs=20):
     print(middle_and_least(times) + "\n\n", flush=True)
 
 
-def expansions(own):
-    print("# Expansions: a load from nothing. Errors of mean gap, area and peak pressure and their estimates are "
+def fitted_loads(own):
+    print("# Fitted solutions: a load from nothing. Errors of mean gap, area and peak pressure and their estimates are "
           f"relative,\n# against an accuracy of 1e-{FINEST}.")
     print("# surface   accuracy       P steps  time[ms]     least  gap_error  estimate area_error  estimate peak_error  "
           "estimate")
-    for surface, loads in EXPANDED.items():
+    for surface, loads in FITTED.items():
         for load in loads:
             truth, _ = own.values(own.solved(surface, fitted(10.0**-FINEST), load)[0])
             for power in POWERS:
@@ -70,7 +70,7 @@ def expansions(own):
                 print(f"{name_of(surface):>11} {10.0**-power:9.0e}{load:8.3f}{steps:6.0f}"
                       + middle_and_least(times) + pairs(*own.values(solution), truth), flush=True)
     print(f"\n\n# The sweep of {SWEEP} loads, each from the one before\n# surface   accuracy   time[s]")
-    for surface in EXPANDED:
+    for surface in FITTED:
         for accuracy in 1e-6, 1e-10:
             _, times = repeated(lambda: own.scene(surface, fitted(accuracy)),
                                 lambda scene: [own.load(scene, i/(SWEEP + 1)) for i in range(1, SWEEP + 1)], 1)
@@ -78,7 +78,7 @@ def expansions(own):
 
 
 def grids(own):
-    print("\n\n# Grids: a load of the 2-D wave from nothing. Errors are relative, against expansions.")
+    print("\n\n# Grids: a load of the 2-D wave from nothing. Errors are relative, against fitted solutions.")
     print("# accuracy      P iterations  time[ms]     least  gap_error  estimate area_error  estimate "
           "peak_error  estimate")
     for accuracy in 1e-2, 1e-3, 1e-4:
@@ -180,7 +180,7 @@ def main():
         sys.exit(__doc__.split("\n\n")[1])
     program(sys.argv[1])
     own = Own(sys.argv[1])
-    expansions(own)
+    fitted_loads(own)
     grids(own)
     orders(own, LINE, "solver = 'closed_form'", [128*2**k for k in range(5)])
     orders(own, SQUARE, fitted(1e-9), [32*2**k for k in range(5)])

@@ -21,8 +21,8 @@ NONE = 0.0
 # Heights of spread surfaces and their roughness are rounded in another order: some differ in their last digit.
 LAST_DIGIT = 1e-15
 # Loads that are distributed over the ranks are solved in blocks: the first load of each is not started from the one before.
-# The expansions end within some 1e-9 of their limit, the dual method within the rounding of its matrices.
-OTHER_START_OF_EXPANSIONS, OTHER_START_OF_SERIES = 1e-8, 1e-11
+# Fitted solutions end within some 1e-9 of their limit, the dual method within the rounding of its matrices.
+OTHER_START_OF_FITTED, OTHER_START_OF_SERIES = 1e-8, 1e-11
 OF_THE_START = "iterations|residual|.*_error"
 # What the log says of the ranks.
 GRIDS, LOADS, FIRST = "columns of large grids", "loads", "first"
@@ -69,7 +69,7 @@ CASES = {
        for name, loads, output, ranks in (("made", "0.01, 0.1", "contours = t, spots = t, spectrum = t", SEVERAL_RANKS),
                                           ("npy", "0.05", "map_format = 'npy'", SOME_RANKS))},
     # What is not distributed over the ranks.
-    "expansions": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 3 /\n"
+    "fitted": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 3 /\n"
                        f"&method solver = 'fitted' /\n&output {TABLES}, details = t /\n", FIRST),
     "paper": Case(f"{SURFACE}'wave_2d' /\n&load sweep_from = 0.1, sweep_to = 0.9, sweep_steps = 5 /\n"
                   f"&method solver = 'beale' /\n&output {TABLES}, coefficients = t, theory = t /\n", FIRST),
@@ -79,7 +79,7 @@ CASES = {
     **{f"loads_of_{solver}": Case(f"{SURFACE}'wave_2d' /\n&method solver = '{solver}'{keys} /\n"
                                   "&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 37 /\n", LOADS,
                                   SEVERAL_RANKS, rounding, "" if rounding == NONE else OF_THE_START)
-       for solver, keys, rounding in (("beale", "", NONE), ("fitted", "", OTHER_START_OF_EXPANSIONS),
+       for solver, keys, rounding in (("beale", "", NONE), ("fitted", "", OTHER_START_OF_FITTED),
                                       ("series", ", harmonics = 9, constraint_points = 11", OTHER_START_OF_SERIES))},
     "loads_of_grids": Case(f"{SURFACE}'hexagonal' /\n&load sweep_from = 0.05, sweep_to = 0.9, sweep_steps = 20 /\n"
                            "&method solver = 'grid', grid_points = 64 /\n", LOADS, SEVERAL_RANKS),

@@ -11,7 +11,7 @@ ALL = ("lines = t, map = t, contours = t, spots = t, histograms = t, histogram_b
        "map_points = 8")
 HEIGHTS = "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8))
 # Both dimensions, every solver and table, labels of units, loads without numbers, a single load, tables without rows.
-# The histograms of an expansion take seconds; grids have them too.
+# The histograms of a fitted solution take seconds; grids have them too.
 DECKS = {
     "line": f"&surface kind = 'wave_1d' /\n{LOADS}&method solver = 'beale' /\n"
             f"&output {ALL}, coefficients = t, theory = t /\n",

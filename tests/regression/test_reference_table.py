@@ -205,7 +205,7 @@ class Yield(Published):
                     self.assertEqual((0.25, 0.25, 0.0), (x % 0.5, y % 0.5, depth))
 
     def test_recomputed(self):
-        """By expansions of other degrees, and by grids."""
+        """By fitted solutions of other degrees, and by grids."""
         for solver, accuracy, loads, place_error in (("fitted", 1e-7, (0.002, 0.1, 0.5, 0.95), 1e-3),
                                                      ("grid", 1e-3, (0.05, 0.6), 0.02)):
             for surface, keys in self.surfaces.items():

@@ -150,9 +150,9 @@ class Spots(ProgramTest):
                         self.assertEqual(word, moved[name])
 
     def test_spots_of_the_wave_merge_at_the_known_load(self):
-        # P = 0.22861 (outputs/reference/merging.dat). Expansions place it to their accuracy, grids to their step.
+        # P = 0.22861 (outputs/reference/merging.dat). Fitted solutions place it to their accuracy, grids to their step.
         wave = "&surface kind = 'wave_2d', amplitude = 0.1, wavelength = 2 /\n"
-        for name, method, loads in (("expansions", "solver = 'auto', accuracy = 1e-5", (0.2, 0.2285, 0.2287, 0.3)),
+        for name, method, loads in (("fitted", "solver = 'auto', accuracy = 1e-5", (0.2, 0.2285, 0.2287, 0.3)),
                                     ("grids", "solver = 'grid', accuracy = 1e-3", (0.2, 0.224, 0.234, 0.3)),
                                     ("points", "solver = 'grid', grid_points = 256", (0.2, 0.225, 0.232, 0.3)),
                                     ("series", "solver = 'beale'", (0.1, 0.15, 0.4, 0.6))):

@@ -24,7 +24,7 @@ TO_RESUME = {
     "grids": DECK.replace("solver = 'beale'", "solver = 'grid', accuracy = 1e-3").replace(
         "theory = t, coefficients = t,\nspectrum = t, line_points = 64, map_points = 64",
         "line_points = 16, map_points = 16"),
-    "expansions": "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 91 /\n"
+    "fitted": "&surface kind = 'wave_2d' /\n&load sweep_from = 0.05, sweep_to = 0.95, sweep_steps = 91 /\n"
                   "&method solver = 'auto', accuracy = 1e-3 /\n",
     "areas": "&surface kind = 'hexagonal' /\n&load contact_area_fraction = 0.1, 0.3, 0.5, 0.7, 0.9 /\n"
              "&method solver = 'grid', accuracy = 1e-2 /\n&output contours = t /\n",

@@ -7,7 +7,7 @@ from random_scenes import FITTED, KINDS, QUICK, random_loads, random_scene
 from summaries import solve
 
 LARGEST_RATIO = 3.0  # of the solver's own distance from the bounds over its error estimate, as README states of one
-ROUNDING = 1e-9  # of numbers of expansions that are exact to 1e-10
+ROUNDING = 1e-9  # of numbers of fitted solutions that are exact to 1e-10
 
 
 def campaign(settings, work):

@@ -1,4 +1,4 @@
-"""Error estimates of random scenes against true errors, from a much finer solution, a closed form or an expansion."""
+"""Error estimates of random scenes against true errors, from a much finer solution, a closed form or a fitted one."""
 import math
 
 from common import Table
@@ -24,7 +24,7 @@ OF_FREE_EDGES = ("approach", "contact_area", "peak_pressure")
 OF_INTERFACE = ("contact_stiffness_normalised", "contact_area_slope", "mean_gap_curvature")
 LARGEST_RATIO_OF_INTERFACE = 10.0
 FITTED_ACCURACIES = (1e-10, 1e-3)
-FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # ratio of the accuracies of grids, of expansions; finest
+FINER, FITTED_FINER, FINEST_FITTED = 10.0, 100.0, 1e-12  # ratio of the accuracies of grids, of fitted solutions; finest
 
 
 def random_case(stream, kind, solver):

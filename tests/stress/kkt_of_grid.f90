@@ -57,7 +57,7 @@ contains
          allocate (pressure(m, n), gap(m, n))
          do j = 1, n
             do i = 1, m
-               pressure(i, j) = max(field(source%edge%place(i, 1), source%edge%place(j, 2)), 0.0_dp)
+               pressure(i, j) = max(field(source%edge%index_in_grid(i, 1), source%edge%index_in_grid(j, 2)), 0.0_dp)
             end do
          end do
          contact = pressure > 0.0_qp
@@ -83,7 +83,7 @@ contains
          do j = 1, n
             do i = 1, m
                if (contact(i, j)) cycle
-               told = -field(source%edge%place(i, 1), source%edge%place(j, 2))
+               told = -field(source%edge%index_in_grid(i, 1), source%edge%index_in_grid(j, 2))
                kkt%gap = max(kkt%gap, real(abs(told - max(gap(i, j), 0.0_qp)), dp))
             end do
          end do

@@ -168,7 +168,7 @@ def campaign(settings, work):
             _, others, truths, more = solve_by("solver = 'closed_form'" if kind == "wave_1d" else
                                                "solver = 'fitted', accuracy = 1e-8")
             if not all(row.has_numbers for row in others):
-                # Where spots merge there may be no expansion.
+                # Where spots merge there may be no fitted solution.
                 more = [words for words in more if not words.endswith("is NaN")]
             both = [load for load, pair in enumerate(zip(rows, others), 1) if all(row.has_numbers for row in pair)]
             for load in both:

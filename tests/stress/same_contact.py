@@ -87,8 +87,8 @@ def alone_and_again(settings, work):
             single, complaints = solve(settings.program, scene.files([load], method), work)
             if [(it.status, it.solver) for it in single] != [(row.status, row.solver)]:
                 complaints.append(f"not {row.status} by {row.solver} as in a sweep")
-            # An expansion starts from that of the last load.
-            what, most = ("expansions", LARGEST_RATIO) if row.solver == "fitted" else ("grids", SOLVED)
+            # A fitted solution starts from that of the last load.
+            what, most = ("fitted solutions", LARGEST_RATIO) if row.solver == "fitted" else ("grids", SOLVED)
             off = difference([row], single, ROUNDING if row.solver == "grid" else 0.0)
             part.limit(f"{what} alone", off, most, complaints, f"{off:.1e} times the estimates from that of a sweep")
             part.count(f"{name}, alone at P = {load!r}", complaints, files)

@@ -6,7 +6,7 @@ from summaries import Row
 
 OF_AREAS = 1e-11  # differences of areas, over the nominal area
 LARGEST_RATIO = 3.0  # of the error estimate, for contours
-POLYGON = 1e-3  # that of the 256 points of an expansion's edge, over the area or the open part
+POLYGON = 1e-3  # that of the 256 points of a fitted edge, over the area or the open part
 
 
 def area_complaints(results, cell, with_contours):

@@ -17,11 +17,11 @@ module wavycon_system
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, path_unknown = 4
 
    interface
-      !> The kind of file that a path names, one of the values of `path_kind`, and the size of the file [byte].
-      integer(c_int) function c_path_kind(path, size) bind(c, name='wavycon_path_kind')
+      !> The kind of file that a path names, one of the values of `path_kind`, and the file's `bytes`.
+      integer(c_int) function c_path_kind(path, bytes) bind(c, name='wavycon_path_kind')
          import :: c_char, c_int, c_int64_t
          character(kind=c_char), intent(in) :: path(*)
-         integer(c_int64_t), intent(out) :: size
+         integer(c_int64_t), intent(out) :: bytes
       end function c_path_kind
 
       !> Makes a directory. Returns an errno.

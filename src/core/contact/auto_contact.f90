@@ -13,17 +13,17 @@ module wavycon_auto_contact
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: main_quantities
-   use wavycon_solution_record, only: by_choice
+   use wavycon_solution_record, only: by_auto
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
    public :: auto_contact
 
-   !> Reasons for the choice. The surface has a closed form; or collocation (`has_expansions`) is used, with grids where
+   !> Reasons for the choice. The surface has a closed form; or collocation (`has_lattice`) is used, with grids where
    !> collocation is not accurate enough; or grids alone are used, for one of four reasons: the surface has neither, it
    !> has a hardness, the points of the grid are given, or these points are the height map's own ones.
-   integer, parameter, public :: has_closed_form = 1, has_expansions = 2, has_neither = 3, has_a_hardness = 4, &
+   integer, parameter, public :: has_closed_form = 1, has_lattice = 2, has_neither = 3, has_a_hardness = 4, &
       points_are_given = 5, points_are_of_the_map = 6, last_choice = 6
 
    !> The solver on grids, preceded by another solver where the surface allows one.
@@ -67,7 +67,7 @@ contains
       else if (surface%has_hardness()) then
          self%choice = has_a_hardness
       else if (allocated(frame%lattice)) then
-         self%choice = has_expansions
+         self%choice = has_lattice
          allocate (fitted)
          call fitted%start(surface, options%accuracy, keep_fields)
          call move_alloc(fitted, self%preferred)
@@ -113,9 +113,9 @@ contains
       of_grids = self%grid_contact%traits()
       traits = of_grids
       if (allocated(self%preferred)) traits = self%preferred%traits()
-      if (self%choice == has_expansions .or. of_grids%needs_whole_grids) traits%finest_grid = of_grids%finest_grid
+      if (self%choice == has_lattice .or. of_grids%needs_whole_grids) traits%finest_grid = of_grids%finest_grid
       traits%needs_whole_grids = of_grids%needs_whole_grids
-      traits%solver = by_choice
+      traits%solver = by_auto
       traits%has_details = .false.
       traits%choice = self%choice
    end function traits

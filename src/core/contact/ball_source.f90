@@ -22,7 +22,7 @@ module wavycon_ball_source
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
    use wavycon_solution_record, only: by_closed_form
-   use wavycon_stress_fields, only: start_place, stress_fields
+   use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -50,14 +50,14 @@ module wavycon_ball_source
 
    !> Stresses below a ball, computed on a smaller rectangle with the crest at the same angles. Angles X, Y, Z [rad] are
    !> 2 pi times a length over a side of the cell.
-   type, extends(stress_fields) :: ball_stress
+   type, extends(stress_fields) :: ball_stress_fields
       class(stress_fields), allocatable :: own   !! the stresses on the smaller rectangle, in its units
       real(dp) :: angle_ratio(3) = 1.0_dp        !! angles X, Y, Z on the smaller rectangle over those on the surface
       real(dp) :: unit = 1.0_dp                  !! p* of the smaller rectangle over that of the surface
    contains
       procedure :: at => stress_at
-      procedure :: start_places
-   end type ball_stress
+      procedure :: start_points
+   end type ball_stress_fields
 
 contains
 
@@ -127,7 +127,7 @@ contains
       type(surface_type), intent(in) :: surface
       class(contact_fields), allocatable, intent(out) :: answer
 
-      allocate (answer, source=ball_fields(parts=surface%parts(), surface=surface, contact=self%contact))
+      allocate (answer, source=ball_fields(maps_in_cell=surface%maps_in_cell(), surface=surface, contact=self%contact))
    end subroutine fields
 
    !> Hertz's pressure in contact, and the displacement (C31) outside. With adhesion the tension F is that of a flat
@@ -199,7 +199,7 @@ contains
       type(surface_type), intent(in) :: surface
       class(stress_fields), allocatable, intent(out) :: answer
 
-      type(ball_stress), allocatable :: stress
+      type(ball_stress_fields), allocatable :: stress
       type(contact_solution) :: solution
       type(grid_contact) :: solver
       type(surface_type) :: own
@@ -214,43 +214,43 @@ contains
       stress%exist = stress%own%exist
       stress%pbar_over_pstar = stress%own%pbar_over_pstar*stress%unit
       stress%side_ratio = surface%length(2)/surface%length(1)
-      stress%parts = stress%own%parts
+      stress%maps_in_cell = stress%own%maps_in_cell
       call move_alloc(stress, answer)
    end subroutine stresses
 
    !> The stresses at a point, from those at the corresponding point below the smaller rectangle.
-   subroutine stress_at(self, x, y, depth, parts, error)
-      class(ball_stress), intent(inout) :: self
+   subroutine stress_at(self, x, y, depth, nu_terms, error)
+      class(ball_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
       real(dp) :: angles(3)   ! X, Y, Z on the smaller rectangle; the crest has X = Y = pi/2 on both
 
       angles = self%angle_ratio*[x - 0.5_dp*pi, y - 0.5_dp*pi, depth] + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
-      call self%own%at(angles(1), angles(2), angles(3), parts, error)
-      parts = parts*self%unit
+      call self%own%at(angles(1), angles(2), angles(3), nu_terms, error)
+      nu_terms = nu_terms*self%unit
       if (present(error)) error = error*self%unit
    end subroutine stress_at
 
    !> Start points of the search for the largest stress, converted from those on the smaller rectangle.
-   subroutine start_places(self, body, places)
-      class(ball_stress), intent(inout) :: self
+   subroutine start_points(self, body, places)
+      class(ball_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_point), allocatable, intent(out) :: places(:)
 
       integer :: i
 
-      call self%own%start_places(body, places)
+      call self%own%start_points(body, places)
       do i = 1, size(places)
-         associate (here => places(i)%place)
+         associate (here => places(i)%position)
             here = (here - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])/self%angle_ratio + [0.5_dp*pi, 0.5_dp*pi, 0.0_dp]
          end associate
          places(i)%stress = places(i)%stress*self%unit
       end do
       places%width = places%width/maxval(self%angle_ratio)
-   end subroutine start_places
+   end subroutine start_points
 
    !> Derivatives with respect to the load. Approach and area are both proportional to the force to the power 2/3.
    subroutine derivatives(self, surface, answer)

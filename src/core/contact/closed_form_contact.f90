@@ -20,12 +20,12 @@ module wavycon_closed_form_contact
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
    use wavycon_solution_record, only: by_closed_form, no_solution
-   use wavycon_stress_fields, only: start_place, stress_fields
+   use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: closed_form_contact, closed_form_exists, closed_form_source, closed_form_stress
+   public :: closed_form_contact, closed_form_exists, closed_form_source, closed_form_stress_fields
 
    type, extends(contact_solver) :: closed_form_contact
       real(dp) :: accuracy = default_accuracy   !! accuracy of the grids that give the stresses below a ball
@@ -53,11 +53,11 @@ module wavycon_closed_form_contact
       procedure :: at
    end type closed_form_fields
 
-   type, extends(stress_fields) :: closed_form_stress
+   type, extends(stress_fields) :: closed_form_stress_fields
    contains
       procedure :: at => stress_at
-      procedure :: start_places
-   end type closed_form_stress
+      procedure :: start_points
+   end type closed_form_stress_fields
 
 contains
 
@@ -169,31 +169,31 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       associate (unused => surface); end associate
-      allocate (answer, source=closed_form_stress(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1))
+      allocate (answer, source=closed_form_stress_fields(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1))
    end subroutine stresses
 
    !> The stresses below Westergaard's pressure.
-   subroutine stress_at(self, x, y, depth, parts, error)
-      class(closed_form_stress), intent(inout) :: self
+   subroutine stress_at(self, x, y, depth, nu_terms, error)
+      class(closed_form_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
       !> Error of the stresses relative to the peak pressure.
       real(dp), parameter :: rounding = 1e-14_dp
 
       associate (unused => y); end associate
-      call westergaard_stress(x, depth, self%pbar_over_pstar, parts)
+      call westergaard_stress(x, depth, self%pbar_over_pstar, nu_terms)
       if (present(error)) error = rounding*westergaard_peak_pressure_over_pstar(self%pbar_over_pstar)
    end subroutine stress_at
 
    !> Places at which searches for the largest stress start: some across half of the contact and a little beyond it, at
    !> depths from the surface down to 1.2 half widths.
-   subroutine start_places(self, body, places)
-      class(closed_form_stress), intent(inout) :: self
+   subroutine start_points(self, body, places)
+      class(closed_form_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_point), allocatable, intent(out) :: places(:)
 
       !> Distances from the middle of the contact, and depths, over the half width of the contact.
       real(dp), parameter :: across(*) = [0.0_dp, 0.3_dp, 0.6_dp, 0.9_dp, 1.0_dp, 1.1_dp], &
@@ -202,10 +202,10 @@ contains
       integer :: i, k
 
       half_width = pi*westergaard_contact_area_fraction(self%pbar_over_pstar)
-      places = [((start_place(half_width*[across(i), 0.0_dp, below(k)], 0.5_dp*half_width), i=1, size(across)), &
+      places = [((start_point(half_width*[across(i), 0.0_dp, below(k)], 0.5_dp*half_width), i=1, size(across)), &
                  k=1, size(below))]
       call self%set_stresses(body, places)
-   end subroutine start_places
+   end subroutine start_points
 
    !> Derivatives with respect to the load: of the mean gap (20), and of the area A = 2 psi/pi with P = sin^2 psi (7).
    subroutine derivatives(self, surface, answer)

@@ -23,7 +23,7 @@ module wavycon_contact_fields
       type(grid_slab) :: own_slab = grid_slab()
       !> Symmetries of the fields: on_grid evaluates one point of each set of equivalent ones.
       type(equivalent_points) :: symmetry = equivalent_points()
-      integer :: parts(2) = 1               !! parts() of the surface: how often the points of on_grid fit into the cell
+      integer :: maps_in_cell(2) = 1        !! that of the surface: how often the points of on_grid fit into the cell
    contains
       procedure(fields_at_point), deferred :: at
       procedure :: on_grid
@@ -66,7 +66,7 @@ contains
          do k = 1, points(1)
             first = self%symmetry%first_of([k, l] - 1)
             associate (i => first%point(1) + 1, j => first%point(2) + 1, &
-                       angles => 2*pi*(first%point + offset)/(self%parts*points))
+                       angles => 2*pi*(first%point + offset)/(self%maps_in_cell*points))
                if (i == k .and. j == l) &
                   call self%at(angles(1), angles(2), pressure(k, l), displacement(k, l), gap(k, l))
                pressure(k, l) = pressure(i, j)
@@ -86,29 +86,29 @@ contains
    end subroutine prepare_places
 
    !> The fields at many points. An extension may use the surface's shape, which the caller knows; the default does not.
-   subroutine at_points(self, angle, shape, pressure, displacement, gap)
+   subroutine at_points(self, angle, shape_values, pressure, displacement, gap)
       class(contact_fields), intent(inout) :: self
       real(dp), intent(in) :: angle(:, :)            !! X, Y, shape (2, n) [rad]
-      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta at the points, shape (n)
+      real(dp), intent(in) :: shape_values(:)        !! 1 - h/Delta at the points, shape (n)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as in `at`, shape (n)
 
       integer :: k
 
-      associate (unused => shape); end associate
+      associate (unused => shape_values); end associate
       do k = 1, size(gap)
          call self%at(angle(1, k), angle(2, k), pressure(k), displacement(k), gap(k))
       end do
    end subroutine at_points
 
    !> The fields at the points of one column of own_slab. The default, for solutions without a grid, is NaN.
-   subroutine at_own_column(self, column, shape, pressure, displacement, gap)
+   subroutine at_own_column(self, column, shape_values, pressure, displacement, gap)
       class(contact_fields), intent(in) :: self
       integer, intent(in) :: column                  !! number of the column, own_slab%first .. own_slab%last
-      real(dp), intent(in) :: shape(:)               !! 1 - h/Delta at the points, shape (M)
+      real(dp), intent(in) :: shape_values(:)        !! 1 - h/Delta at the points, shape (M)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as in on_grid, shape (M)
 
       associate (unused => self, unused_too => column); end associate
-      pressure = ieee_value(shape, ieee_quiet_nan)
+      pressure = ieee_value(shape_values, ieee_quiet_nan)
       displacement = pressure
       gap = pressure
    end subroutine at_own_column

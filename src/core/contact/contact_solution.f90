@@ -16,8 +16,8 @@ module wavycon_contact_solution
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, peak_pressure, quantities, unknown
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
-   use wavycon_series_stress, only: series_stress, start_series_stress
-   use wavycon_solution_record, only: by_grids, record_words, solution_record
+   use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
+   use wavycon_solution_record, only: by_grid, record_words, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -121,7 +121,7 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fourier_series) :: pressure
-      type(series_stress), allocatable :: own
+      type(series_stress_fields), allocatable :: own
 
       if (allocated(self%source)) then
          call self%source%stresses(surface, answer)
@@ -130,8 +130,8 @@ contains
       else
          call self%coefficients(surface, pressure)
          allocate (own)
-         call start_series_stress(own, surface, pressure, self%pbar_over_pstar, &
-                                  pressure_error=rounding*self%value(peak_pressure), is_sampled=.false.)
+         call start_series_stress_fields(own, surface, pressure, self%pbar_over_pstar, &
+                                         pressure_error=rounding*self%value(peak_pressure), is_sampled=.false.)
          call move_alloc(own, answer)
       end if
    end subroutine stresses
@@ -229,7 +229,7 @@ contains
    pure logical function is_kept(self)
       class(contact_solution), intent(in) :: self
 
-      is_kept = self%solver == by_grids .and. .not. any(self%status == [interrupted, no_memory])
+      is_kept = self%solver == by_grid .and. .not. any(self%status == [interrupted, no_memory])
    end function is_kept
 
    !> Packs a solution into 8-byte words for a checkpoint, so that a resumed run need not compute the solution again:

@@ -1,5 +1,6 @@
-!> The solver 'fitted', for surfaces whose crests form a lattice (`fitted_frame`). The pressure is an expansion fitted
-!> to the edge of contact (src/core/fitted). Its accuracy is limited by rounding, not by the step of a grid.
+!> The solver 'fitted', for surfaces whose crests form a lattice (`fitted_frame`). The pressure, or the
+!> gap, is a sum of polynomials on a disc that is mapped to the spot or pool (src/core/fitted). Its accuracy is limited
+!> by rounding, not by the step of a grid.
 module wavycon_fitted_contact
    use wavycon_assertion, only: assert
    use wavycon_contact_solution, only: contact_solution
@@ -12,7 +13,7 @@ module wavycon_fitted_contact
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: elastic_energy, known_errors, main_quantities, number_of_quantities, peak_pressure, &
       perimeter, scaled
-   use wavycon_solution_record, only: by_expansions, no_solution
+   use wavycon_solution_record, only: by_fitted, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -45,7 +46,7 @@ contains
       self%accuracy = accuracy
       self%keep_fields = keep_fields
       call find_frame(surface, self%frame)
-      ! A flat surface is in full contact at every load: no expansion is needed.
+      ! A flat surface is in full contact at every load: no fitted function is needed.
       self%is_started = (allocated(self%frame%lattice) .or. .not. surface%amplitude > 0.0_dp) &
          .and. .not. surface%has_hardness()
    end subroutine start
@@ -69,12 +70,12 @@ contains
                            self%keep_fields)
       end if
       if (answer%status /= fitted_solved .and. answer%status /= fitted_less_exact) then
-         solution%solution_record = no_solution(pbar_over_pstar, by_expansions, not_found)
+         solution%solution_record = no_solution(pbar_over_pstar, by_fitted, not_found)
          return
       end if
       self%last = answer
       solution%pbar_over_pstar = pbar_over_pstar
-      solution%solver = by_expansions
+      solution%solver = by_fitted
       unit = 1.0_dp
       unit(peak_pressure) = self%frame%pressure_unit
       unit(elastic_energy) = self%frame%pressure_unit/self%frame%lattice%area
@@ -99,7 +100,7 @@ contains
       class(fitted_contact), intent(in) :: self
 
       associate (unused => self); end associate
-      traits = solver_traits(solver=by_expansions, has_details=.true., continues_last_load=.true.)
+      traits = solver_traits(solver=by_fitted, has_details=.true., continues_last_load=.true.)
    end function traits
 
    !> Forgets the last solution; the next one starts without it.

@@ -23,7 +23,7 @@ module wavycon_fitted_frame
       real(dp) :: pressure_unit = 1.0_dp       !! unit of pressure on the lattice, pi E* Delta/s [p*]
       type(wave_lattice), allocatable :: lattice   !! lattice of the crests; not allocated: 'fitted' cannot solve it
    contains
-      procedure :: place
+      procedure :: lattice_position
       procedure :: symmetry
    end type fitted_frame
 
@@ -99,12 +99,12 @@ contains
    end subroutine find_frame
 
    !> The coordinates on the lattice, in units of s, of a point of the surface.
-   pure complex(dp) function place(self, x, y)
+   pure complex(dp) function lattice_position(self, x, y)
       class(fitted_frame), intent(in) :: self
       real(dp), intent(in) :: x, y   !! angles X, Y of the point, measured from a crest [rad]
 
-      place = cmplx(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi), dp)*self%turn/self%side
-   end function place
+      lattice_position = cmplx(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi), dp)*self%turn/self%side
+   end function lattice_position
 
    !> The symmetries of the fields on the surface.
    pure type(equivalent_points) function symmetry(self)

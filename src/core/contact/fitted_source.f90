@@ -8,7 +8,7 @@ module wavycon_fitted_source
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_fields, only: find_fitted_details, fitted_fields, start_fitted_fields
    use wavycon_fitted_frame, only: fitted_frame
-   use wavycon_fitted_stress, only: start_fitted_stress
+   use wavycon_fitted_answer_stress, only: start_fitted_answer_stress
    use wavycon_fitted_stress_fields, only: fitted_stress_fields
    use wavycon_kinds, only: dp
    use wavycon_load_slopes, only: find_load_slopes
@@ -78,7 +78,7 @@ contains
       own%side_ratio = surface%length(2)/surface%length(1)
       own%symmetry = self%frame%symmetry()
       own%frame = self%frame
-      call start_fitted_stress(own%fitted, self%frame%lattice, self%answer, self%accuracy)
+      call start_fitted_answer_stress(own%fitted, self%frame%lattice, self%answer, self%accuracy)
       call move_alloc(own, answer)
    end subroutine stresses
 
@@ -88,7 +88,7 @@ contains
       real(dp), intent(in) :: x, y
       real(dp), intent(out) :: pressure, displacement, gap
 
-      call self%fitted%at(self%frame%place(x, y), pressure, displacement, gap)
+      call self%fitted%at(self%frame%lattice_position(x, y), pressure, displacement, gap)
       pressure = pressure*self%frame%pressure_unit
       ! Without adhesion a negative pressure can only be an error next to the edge.
       if (self%fitted%answer%solution%work <= 0.0_dp) pressure = max(pressure, 0.0_dp)
@@ -115,7 +115,8 @@ contains
       real(dp) :: inside   ! area that the contours enclose over the area of the cell, negative for pools
 
       to_surface = self%frame%side/self%frame%turn
-      edge = self%answer%solution%shape%place([(exp(cmplx(0.0_dp, 2*pi*i/edge_points, dp)), i=0, edge_points - 1)]) &
+      edge = self%answer%solution%shape%position_of([(exp(cmplx(0.0_dp, 2*pi*i/edge_points, dp)), &
+                                                       i=0, edge_points - 1)]) &
          *to_surface
       contours = self%frame%crests
       trough = (0.0_dp, 0.0_dp)
@@ -141,7 +142,8 @@ contains
             curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*rotated*edge(places)%re/length(1)
             curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
-         ! All contours are alike. The area is computed from the expansion; that of the polygon would be less accurate.
+         ! All contours are alike. The area is computed from the fitted function; that of the polygon would be less
+         ! accurate.
          curves(k)%turns = 1
          curves(k)%spot = k
          curves(k)%pool = 1

@@ -19,7 +19,7 @@ module wavycon_grid_contact
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
       min_pressure, unknown
-   use wavycon_solution_record, only: by_grids, no_solution
+   use wavycon_solution_record, only: by_grid, no_solution
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -102,7 +102,7 @@ contains
 
       type(grid_plan) :: plan
 
-      traits = solver_traits(solver=by_grids, coarser_levels=coarser_levels(self))
+      traits = solver_traits(solver=by_grid, coarser_levels=coarser_levels(self))
       if (.not. self%is_started) return
       traits%needs_whole_grids = self%surface%has_free_edges
       plan = plan_grids(self%surface, self%options%points)
@@ -127,12 +127,12 @@ contains
          call solve_cell(self, self%surface, pbar_over_pstar, answer)
       end if
       if (.not. allocated(answer%edge)) then
-         solution%solution_record = no_solution(pbar_over_pstar, by_grids, &
+         solution%solution_record = no_solution(pbar_over_pstar, by_grid, &
                                                 merge(interrupted, no_memory, answer%state%interrupted))
          return
       end if
       solution%pbar_over_pstar = pbar_over_pstar
-      solution%solver = by_grids
+      solution%solver = by_grid
       solution%quantities = answer%quantities
       call measure_edge(self%surface, answer%edge, solution)
       if (self%surface%has_hardness()) then

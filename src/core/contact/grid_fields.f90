@@ -56,23 +56,23 @@ contains
       if (.not. edge%even) return
       ! The points of a quarter, midway between the lines of the grid; in 1-D only along x.
       where (edge%slab%points > 1)
-         fields%own_points = 2*edge%slab%points/surface%parts()
+         fields%own_points = 2*edge%slab%points/surface%maps_in_cell()
          fields%own_offset = 0.5_dp
       end where
    end subroutine start_grid_fields
 
    !> The fields at the points of one own column: the solution's numbers, without interpolation.
-   subroutine at_own_column(self, column, shape, pressure, displacement, gap)
+   subroutine at_own_column(self, column, shape_values, pressure, displacement, gap)
       class(grid_fields), intent(in) :: self
       integer, intent(in) :: column
-      real(dp), intent(in) :: shape(:)
+      real(dp), intent(in) :: shape_values(:)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
 
       associate (values => self%edge%pressure_or_gap(:, column - self%edge%slab%first + 1))
          pressure = max(values, 0.0_dp)
          gap = max(-values, 0.0_dp)
       end associate
-      displacement = gap - (1.0_dp - self%approach) + shape
+      displacement = gap - (1.0_dp - self%approach) + shape_values
    end subroutine at_own_column
 
    !> The fields at one point, interpolated by (C20).
@@ -86,10 +86,10 @@ contains
    end subroutine at
 
    !> The fields at many points, interpolated by (C20), with the surface's shape that the caller knows.
-   subroutine at_points(self, angle, shape, pressure, displacement, gap)
+   subroutine at_points(self, angle, shape_values, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
       real(dp), intent(in) :: angle(:, :)
-      real(dp), intent(in) :: shape(:)
+      real(dp), intent(in) :: shape_values(:)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
 
       integer :: k
@@ -97,7 +97,7 @@ contains
       do k = 1, size(gap)
          call interpolate(self, angle(:, k)/(2*pi), pressure(k), gap(k))
       end do
-      displacement = gap - (1.0_dp - self%approach) + shape
+      displacement = gap - (1.0_dp - self%approach) + shape_values
    end subroutine at_points
 
    !> The fields on a grid of the cell: the solution's numbers if this is its own grid, otherwise interpolated.
@@ -116,11 +116,12 @@ contains
       do l = 1, points(2)
          do k = 1, points(1)
             if (at_own) then
-               value = self%edge%pressure_or_gap(self%edge%place(k, 1), self%edge%place(l, 2))
+               value = self%edge%pressure_or_gap(self%edge%index_in_grid(k, 1), self%edge%index_in_grid(l, 2))
                pressure(k, l) = max(value, 0.0_dp)
                gap(k, l) = max(-value, 0.0_dp)
             else
-               call interpolate(self, ([k, l] - 1 + offset)/(self%surface%parts()*points), pressure(k, l), gap(k, l))
+               call interpolate(self, ([k, l] - 1 + offset)/(self%surface%maps_in_cell()*points), pressure(k, l), &
+                                gap(k, l))
             end if
          end do
       end do
@@ -140,7 +141,7 @@ contains
       allocate (fields%psi(-1:m + 2, -1:n + 2))
       do l = -1, n + 2
          do k = -1, m + 2
-            associate (value => fields%edge%at(k, l))
+            associate (value => fields%edge%value_at(k, l))
                fields%psi(k, l) = value**2
                if (value <= 0.0_dp) fields%psi(k, l) = -abs(value)**(2.0_dp/3)
             end associate

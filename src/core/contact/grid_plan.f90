@@ -38,16 +38,16 @@ contains
       type(surface_type), intent(in) :: surface
       integer, intent(in) :: points(2)   !! points of the last grid on the whole cell; zeros: the accuracy decides
 
-      integer :: grid(2), least(2), most, parts(2)
+      integer :: grid(2), least(2), most, maps_in_cell(2)
 
-      parts = 1
-      if (surface%shape%is_even()) parts(:surface%dimension) = 2
-      least = 2*first_points/parts
+      maps_in_cell = 1
+      if (surface%shape%is_even()) maps_in_cell(:surface%dimension) = 2
+      least = 2*first_points/maps_in_cell
       if (surface%dimension == 1) least(2) = 1
       if (all(points > 0)) then
-         grid = points/parts
+         grid = points/maps_in_cell
       else if (surface%is_height_map()) then
-         grid = surface%points/parts
+         grid = surface%points/maps_in_cell
       else
          grid = least*fast_size(max(1, surface%shape%last([1, 2])))
          if (surface%dimension == 1) grid(2) = 1
@@ -63,8 +63,8 @@ contains
          if (.not. surface%has_free_edges) plan%lacks_waves = any(2*surface%shape%last([1, 2]) > points)
          return
       end if
-      most = most_points_plane/product(parts)
-      if (surface%dimension == 1) most = most_points_line/product(parts)
+      most = most_points_plane/product(maps_in_cell)
+      if (surface%dimension == 1) most = most_points_line/product(maps_in_cell)
       do while (product(int(grid, int64)) <= most)
          ! In 1-D the second number stays 1.
          grid = [2, surface%dimension]*grid

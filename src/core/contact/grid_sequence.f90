@@ -116,7 +116,7 @@ contains
             answer%error(area_at_hardness) <= accuracy*unit(2)
          if (present(progress)) &
             call progress%grid_solved(plan%grids(:, i)*merge(2, 1, surface%shape%is_even() .and. plan%grids(:, i) > 1) &
-                                      /surface%parts(), answer%state%iterations, answer%state%residual)
+                                      /surface%maps_in_cell(), answer%state%iterations, answer%state%residual)
          answer%out_of_memory = answer%out_of_memory .and. .not. answer%accurate
          if (answer%accurate .or. ends) exit
          call answer%state%slab%start(plan%grids(:, i + 1))

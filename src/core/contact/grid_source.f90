@@ -18,7 +18,7 @@ module wavycon_grid_source
    use wavycon_kinds, only: dp
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    use wavycon_rotated_series, only: to_difference_angles
-   use wavycon_series_stress, only: series_stress, start_series_stress
+   use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
    use wavycon_paper_wave, only: smaller_cell
    use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
    use wavycon_stress_fields, only: stress_fields
@@ -139,7 +139,7 @@ contains
 
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
-      type(series_stress), allocatable :: own
+      type(series_stress_fields), allocatable :: own
       !> Real numbers for each point of the whole cell: pressures, series and waves. From a rotated cell the series has
       !> twice as many.
       integer(int64), parameter :: numbers_a_point = 8
@@ -166,8 +166,8 @@ contains
       deallocate (values)
       if (self%rotated) pressure = to_difference_angles(pressure)
       allocate (own)
-      call start_series_stress(own, surface, pressure, self%record%pbar_over_pstar/cells**2, or_nan(error), &
-                               is_sampled=.true.)
+      call start_series_stress_fields(own, surface, pressure, self%record%pbar_over_pstar/cells**2, or_nan(error), &
+                                      is_sampled=.true.)
       if (cells > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses
@@ -256,10 +256,11 @@ contains
       integer :: k, l
 
       allocate (loads(numbers%spots), source=0.0_dp)
-      do l = 0, ubound(numbers%at, 2)
-         do k = 0, ubound(numbers%at, 1)
-            associate (spot => numbers%at(k, l))
-               if (spot > 0) loads(spot) = loads(spot) + edge%pressure_or_gap(edge%place(k, 1), edge%place(l, 2))
+      do l = 0, ubound(numbers%region_at, 2)
+         do k = 0, ubound(numbers%region_at, 1)
+            associate (spot => numbers%region_at(k, l))
+               if (spot > 0) loads(spot) = loads(spot) &
+                                           + edge%pressure_or_gap(edge%index_in_grid(k, 1), edge%index_in_grid(l, 2))
             end associate
          end do
       end do

@@ -28,8 +28,8 @@ module wavycon_series_contact
    use wavycon_quantities, only: approach, elastic_energy, gap_slope, mean_gap, peak_pressure, quantities
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_series_fields, only: series_fields
-   use wavycon_series_stress, only: series_stress, start_series_stress
-   use wavycon_solution_record, only: by_beale, by_dual
+   use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
+   use wavycon_solution_record, only: by_beale, by_series
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_working_set, only: working_set
@@ -52,7 +52,7 @@ module wavycon_series_contact
       integer :: constraint_points = 27            !! number of points on [0, pi] in each direction, >= 2
       integer :: symmetry = symmetry_full          !! symmetry of the series, a name of wavycon_fourier_terms
       real(dp) :: edge_level = 0.1_dp              !! pressure of the isobar that is taken as the edge [p*], > 0
-      logical :: by_beale = .true.                 !! whether Beale's method is used, otherwise the dual method
+      logical :: uses_beale = .true.               !! whether Beale's method is used, otherwise the dual method
    end type qp_options
 
    !> The source of fields, edge and stresses of a pressure that is a truncated Fourier series.
@@ -76,7 +76,7 @@ module wavycon_series_contact
    type, extends(contact_solver) :: series_contact
       type(series_source) :: series                     !! options and terms of the series, without amplitudes
       type(qp_problem) :: problem                       !! the programme, with the bounds of some load
-      integer, private :: solver = by_beale             !! by_beale or by_dual, for the records of solutions
+      integer, private :: solver = by_beale             !! by_beale or by_series, for the records of solutions
       type(dual_solver), allocatable, private :: dual   !! state of the dual method; not allocated before the first load
    contains
       procedure :: start
@@ -112,7 +112,7 @@ contains
       self%surface = surface
       self%is_started = is_paper_wave(surface)
       self%series%options = options
-      if (.not. options%by_beale) self%solver = by_dual
+      if (.not. options%uses_beale) self%solver = by_series
       self%series%rotated = paper_wave(surface) == rotated_paper_wave
       self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
       self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
@@ -180,7 +180,7 @@ contains
       real(dp) :: start
       integer :: pivots
 
-      if (self%series%options%by_beale) then
+      if (self%series%options%uses_beale) then
          self%problem%bounds = bounds_at(self%problem, pbar_over_pstar, self%surface%hardness)
          call solve_by_beale(self%problem, programme)
          return
@@ -205,7 +205,8 @@ contains
       class(series_contact), intent(in) :: self
 
       associate (options => self%series%options)
-         continues = .not. options%by_beale .and. options%constraint_points <= most_points_to_continue*options%harmonics
+         continues = .not. options%uses_beale .and. &
+                     options%constraint_points <= most_points_to_continue*options%harmonics
       end associate
    end function continues
 
@@ -263,12 +264,12 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       type(fourier_series) :: series
-      type(series_stress), allocatable :: own
+      type(series_stress_fields), allocatable :: own
 
       call self%coefficients(series)
       allocate (own)
-      call start_series_stress(own, surface, series, self%record%pbar_over_pstar, &
-                               pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+      call start_series_stress_fields(own, surface, series, self%record%pbar_over_pstar, &
+                                      pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
       call move_alloc(own, answer)
    end subroutine stresses
 

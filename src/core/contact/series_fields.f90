@@ -78,8 +78,8 @@ contains
       real(dp), intent(in) :: offset(2)
       real(dp), allocatable, intent(out) :: pressure(:, :), displacement(:, :), gap(:, :)
 
-      call sample_series(self%pressure, points, offset, pressure, self%surface%parts())
-      call sample_series(self%displacement, points, offset, displacement, self%surface%parts())
+      call sample_series(self%pressure, points, offset, pressure, self%surface%maps_in_cell())
+      call sample_series(self%displacement, points, offset, displacement, self%surface%maps_in_cell())
       call self%surface%sample_shape(points, offset, gap)
       gap = self%mean_gap + displacement - gap
       if (.not. self%is_edgeless) return

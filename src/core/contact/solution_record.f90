@@ -11,8 +11,8 @@ module wavycon_solution_record
    public :: solution_record, no_solution
 
    !> The solver of a solution. `no_solver` is used without load and in full contact, which need no solver.
-   integer, parameter, public :: no_solver = 0, by_beale = 1, by_grids = 2, by_expansions = 3, by_closed_form = 4, &
-      by_choice = 5, by_dual = 6
+   integer, parameter, public :: no_solver = 0, by_beale = 1, by_grid = 2, by_fitted = 3, by_closed_form = 4, &
+      by_auto = 5, by_series = 6
    !> The names of these solvers in decks and tables.
    character(12), parameter, public :: solver_names(0:6) = [character(12) :: 'none', 'beale', 'grid', 'fitted', &
       'closed_form', 'auto', 'series']

@@ -180,7 +180,7 @@ module wavycon_contact_tuning
    !> lattices were 6e-2 and 3e-2 with .1, but 4e-3 and 2e-2 with .2.
    real(dp), parameter, public :: load_difference = 0.2_dp
 
-   ! Expansions fitted to the edge.
+   ! Collocation fitted to the edge.
 
    !> Largest ratio of the sides of a cell that 'fitted' solves: longer spots need polynomials of higher degree.
    real(dp), parameter, public :: largest_aspect_ratio = 3.0_dp

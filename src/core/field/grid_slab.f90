@@ -119,11 +119,11 @@ contains
       class(grid_slab), intent(in) :: self
       integer, allocatable :: blocks(:, :)
 
-      integer :: rank
+      integer :: r
 
       allocate (blocks(2, 0:ranks_at_work() - 1))
-      do rank = 0, ranks_at_work() - 1
-         blocks(:, rank) = [min(rank*self%width, self%points(2)) + 1, min((rank + 1)*self%width, self%points(2))]
+      do r = 0, ranks_at_work() - 1
+         blocks(:, r) = [min(r*self%width, self%points(2)) + 1, min((r + 1)*self%width, self%points(2))]
       end do
    end function blocks
 
@@ -349,7 +349,7 @@ contains
       integer :: column_bytes, j, last
 
       last = ubound(wanted, 2)
-      associate (n => self%points(2), rank => this_rank())
+      associate (n => self%points(2), this => this_rank())
          if (.not. self%is_distributed) then
             do j = first, last
                wanted(:, j) = field(:, image_of_point(j, n, even))
@@ -358,7 +358,7 @@ contains
          end if
          have = self%blocks()
          allocate (every(size(have)), source=0_int64)
-         every(2*rank + 1:2*rank + 2) = [first, last]
+         every(2*this + 1:2*this + 2) = [first, last]
          call add_over_ranks(every)
          bounds = int(reshape(every, shape(have)))
          column_bytes = size(field, 1)*storage_size(field)/8

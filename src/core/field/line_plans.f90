@@ -43,10 +43,10 @@ contains
 
    !> The plan of a transform, which is made if there is none yet. Several threads may execute a plan at the same time.
    !> A plan is never destroyed.
-   type(line_plan) function plan_of_line(transform, length, precision) result(plan)
-      integer, intent(in) :: transform   !! one of the six transforms above
-      integer, intent(in) :: length      !! number of real values, for complex transforms of complex ones, >= 1
-      integer, intent(in) :: precision   !! kind of the numbers: dp or sp
+   type(line_plan) function plan_of_line(transform, length, number_kind) result(plan)
+      integer, intent(in) :: transform     !! one of the six transforms above
+      integer, intent(in) :: length        !! number of real values, for complex transforms of complex ones, >= 1
+      integer, intent(in) :: number_kind   !! kind of the numbers: dp or sp
 
       type(line_plan), allocatable :: more(:)
       integer :: i
@@ -55,12 +55,12 @@ contains
       !$omp critical (wavycon_fftw_planner)
       if (.not. allocated(kept)) allocate (kept(0))
       do i = 1, size(kept)
-         if (all(kept(i)%key == [transform, length, precision])) exit
+         if (all(kept(i)%key == [transform, length, number_kind])) exit
       end do
       if (i > size(kept)) then
          allocate (more(i))
          more(:i - 1) = kept
-         more(i) = new_plan(transform, int(length, c_int), precision)
+         more(i) = new_plan(transform, int(length, c_int), number_kind)
          call move_alloc(more, kept)
       end if
       plan = kept(i)
@@ -68,8 +68,8 @@ contains
    end function plan_of_line
 
    !> Makes a plan.
-   type(line_plan) function new_plan(transform, length, precision) result(new)
-      integer, intent(in) :: transform, precision   !! as in plan_of_line, and `length`
+   type(line_plan) function new_plan(transform, length, number_kind) result(new)
+      integer, intent(in) :: transform, number_kind   !! as in plan_of_line, and `length`
       integer(c_int), intent(in) :: length
 
       integer(c_int), parameter :: flags = ior(FFTW_ESTIMATE, FFTW_DESTROY_INPUT)
@@ -83,7 +83,7 @@ contains
       ! FFTW uses only the alignment of these arrays, not their values.
       allocate (values(length), more_values(length), waves(length), more_waves(length))
       allocate (single_values(length), single_waves(length), more_single_waves(length))
-      new%key = [transform, int(length), precision]
+      new%key = [transform, int(length), number_kind]
       execute = c_null_funptr
       sign_of_waves = FFTW_BACKWARD
       if (transform == waves_forward) sign_of_waves = FFTW_FORWARD
@@ -91,7 +91,7 @@ contains
       if (transform == values_to_cosines) kind_of_cosines = FFTW_REDFT10
       associate (plan => new%plan)
          ! The cases of single precision have negative numbers.
-         select case (merge(transform, -transform, precision == dp))
+         select case (merge(transform, -transform, number_kind == dp))
          case (real_to_waves)
             plan = fftw_plan_dft_r2c_1d(length, values, waves, flags)
             execute = c_funloc(fftw_execute_dft_r2c)

@@ -15,19 +15,19 @@ contains
    !> The values of a series at X = 2 pi (k + offset_x)/(parts_x N_x), k = 0 .. N_x - 1, and the same in Y. The values
    !> are exact for any number of points: a wave that is too short for the points has the same values there as a longer
    !> wave, its alias, and is added to the alias.
-   subroutine sample_series(series, points, offset, values, parts)
+   subroutine sample_series(series, points, offset, values, maps_in_cell)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: points(2)                     !! N_x, N_y >= 1; N_y = 1 in 1-D
       real(dp), intent(in) :: offset(2)                    !! distance of the first point from the origin, in steps
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
-      integer, intent(in) :: parts(2)   !! how often the points fit into the cell along x and y, 1 or 2
+      integer, intent(in) :: maps_in_cell(2)   !! how often the points fit into the cell along x and y, 1 or 2
 
       complex(dp) :: turn_x(0:series%last(1))
       complex(dp), allocatable :: waves(:, :)
       type(grid_transform) :: transform
       integer :: k, l, whole(2)   ! whole: points of the grid on the whole cell
 
-      whole = parts*points
+      whole = maps_in_cell*points
       allocate (values(whole(1), whole(2)))
       call transform%start(whole, even=.false., whole=.true.)
       allocate (waves(whole(1)/2 + 1, whole(2)), source=(0.0_dp, 0.0_dp))
@@ -38,7 +38,7 @@ contains
          end associate
       end do
       call transform%sample_waves(waves, values)
-      if (any(parts > 1)) values = values(:points(1), :points(2))
+      if (any(maps_in_cell > 1)) values = values(:points(1), :points(2))
    end subroutine sample_series
 
 end module wavycon_series_samples

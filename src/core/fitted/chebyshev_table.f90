@@ -106,13 +106,13 @@ contains
       real(dp), intent(out), optional :: slope_x(n), slope_y(n)   !! both or none [1/s]
 
       real(dp), dimension(n) :: u, v, q, dq, du, dv
-      real(dp) :: a, scale(2)
+      real(dp) :: a, factor(2)
       integer :: i, j, k
 
       ! The arguments of square_argument, with fewer divisions.
-      scale = 2/half**2
-      u = scale(1)*x**2 - 1.0_dp
-      v = scale(2)*y**2 - 1.0_dp
+      factor = 2/half**2
+      u = factor(1)*x**2 - 1.0_dp
+      v = factor(2)*y**2 - 1.0_dp
       value = 0.0_dp
       du = 0.0_dp
       dv = 0.0_dp
@@ -137,8 +137,8 @@ contains
          value = value*v + q
       end do
       if (.not. present(slope_x)) return
-      slope_x = 2*scale(1)*x*du
-      slope_y = 2*scale(2)*y*dv
+      slope_x = 2*factor(1)*x*du
+      slope_y = 2*factor(2)*y*dv
    end subroutine evaluate_even
 
    !> The argument u that belongs to x, or v that belongs to y, of an even function.

@@ -57,7 +57,7 @@ contains
    subroutine start_chord_rule(rule, pool, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
       logical, intent(in) :: pool                      !! true: a pool's gap; false: a spot's pressure
-      type(disc_polynomials), intent(in) :: basis      !! its power is `edge_power` of wavycon_expansion
+      type(disc_polynomials), intent(in) :: basis      !! its power is `edge_power` of wavycon_fitted_function
       integer, intent(in) :: shape_terms               !! K >= 1
       integer, intent(in) :: angles                    !! number m of chords, >= 1
       integer, intent(in) :: points                    !! number n of points on a chord, >= 2
@@ -100,10 +100,10 @@ contains
    !> integral of a sum of them with respect to the shape.
    !>
    !> N.B. The derivatives are at fixed w_t: the target z(w_t) moves with the shape.
-   subroutine rows(self, basis, shape, target, c, row, shape_row)
+   subroutine rows(self, basis, map, target, c, row, shape_row)
       class(chord_rule), intent(inout) :: self
       type(disc_polynomials), intent(in) :: basis      !! the one that the rule was prepared for
-      type(shape_map), intent(in) :: shape             !! the map of the disc
+      type(shape_map), intent(in) :: map               !! the map of the disc
       complex(dp), intent(in) :: target                !! w_t, |w_t| <= 1
       real(dp), intent(in) :: c(:)                     !! coefficients of the sum, shape (N)
       real(dp), intent(out) :: row(:)                  !! integrals of the terms, shape (N) [s, 1/s with power 3]
@@ -115,19 +115,19 @@ contains
       integer :: n, terms
 
       n = size(weight)
-      terms = ubound(shape%b, 1)
+      terms = ubound(map%b, 1)
       call self%place_points(target, n, w, weight)
       call basis%evaluate(n, w, self%values)
-      call shape%find_differences(n, target, w, analytic, self%difference)
-      call shape%linearise_slopes(n, w, self%power, step)
-      call dgemv('N', 2*n, terms, 1.0_dp, self%power, 2*n, shape%b(1:), 1, 0.0_dp, slope, 1)
-      call dgemv('N', 2*n, terms, 1.0_dp, self%difference, 2*n, shape%b(1:), 1, 0.0_dp, total, 1)
-      associate (turn => self%turn, tau => (shape%fold + 1)*shape%clustering)
+      call map%find_differences(n, target, w, analytic, self%difference)
+      call map%linearise_slopes(n, w, self%power, step)
+      call dgemv('N', 2*n, terms, 1.0_dp, self%power, 2*n, map%b(1:), 1, 0.0_dp, slope, 1)
+      call dgemv('N', 2*n, terms, 1.0_dp, self%difference, 2*n, map%b(1:), 1, 0.0_dp, total, 1)
+      associate (turn => self%turn, tau => (map%fold + 1)*map%clustering)
          ! As only |Q| is used, the factor e^(i phi) of Q does not matter, and this is its conjugate.
-         q(:, 1) = shape%b(0)*analytic(:, 1) + turn(:, 1)*total(:, 1) - turn(:, 2)*total(:, 2)
-         q(:, 2) = -shape%b(0)*analytic(:, 2) + turn(:, 1)*total(:, 2) + turn(:, 2)*total(:, 1)
+         q(:, 1) = map%b(0)*analytic(:, 1) + turn(:, 1)*total(:, 1) - turn(:, 2)*total(:, 2)
+         q(:, 2) = -map%b(0)*analytic(:, 2) + turn(:, 1)*total(:, 2) + turn(:, 2)*total(:, 1)
          analytic_square = (1.0_dp - tau*step(:, 1))**2 + (tau*step(:, 2))**2
-         jacobian = shape%b(0)**2*analytic_square - (slope(:, 1)**2 + slope(:, 2)**2)
+         jacobian = map%b(0)**2*analytic_square - (slope(:, 1)**2 + slope(:, 2)**2)
          ! density = weight/|Q|^p, f = density J and, for d|Q|^-p, f_slope = p J/|Q|^2.
          f_slope = 1.0_dp/(q(:, 1)**2 + q(:, 2)**2)
          density = weight*sqrt(f_slope)
@@ -139,7 +139,7 @@ contains
          call dgemv('N', n, basis%terms, 1.0_dp, self%values, n, c, 1, 0.0_dp, f, 1)
          density = density*f
          f_slope = density*f_slope
-         shape_row(0) = 2*shape%b(0)*dot_product(density, analytic_square) &
+         shape_row(0) = 2*map%b(0)*dot_product(density, analytic_square) &
             - dot_product(f_slope, q(:, 1)*analytic(:, 1) - q(:, 2)*analytic(:, 2))
          slope(:, 1) = density*slope(:, 1)
          slope(:, 2) = density*slope(:, 2)

@@ -13,14 +13,14 @@
 !> The solution for a wrong edge has a singular term at the edge, which the weight (1 - |w|^2)^power excludes. So the
 !> equations can only be met with the right edge. With adhesion the weight includes this term, and the equations of the
 !> edge (F67) give the term the strength that the work of adhesion requires. The unknowns are the coefficients of the
-!> expansion, the approach of a spot or, with adhesion, the load of a pool, and the coefficients of the shape. There are
-!> more equations than unknowns, which are met in the sense of least squares.
+!> fitted function, the approach of a spot or, with adhesion, the load of a pool, and the coefficients of the shape.
+!> There are more equations than unknowns, which are met in the sense of least squares.
 module wavycon_contact_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
       pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
       sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
@@ -60,12 +60,12 @@ module wavycon_contact_equations
 
 contains
 
-   !> Chooses points of collocation and rules for expansions of the same degree, number of shape terms and symmetry as a
-   !> given one.
+   !> Chooses points of collocation and rules for fitted functions of the same degree, number of shape terms and
+   !> symmetry as a given one.
    subroutine start_equations(equations, like, merging_ratio)
       type(contact_equations), intent(inout) :: equations
-      type(expansion), intent(in) :: like     !! the given expansion
-      real(dp), intent(in) :: merging_ratio   !! merging ratio of the shape: 0 for a point, 1 where neighbours touch
+      type(fitted_function), intent(in) :: like   !! the given fitted function
+      real(dp), intent(in) :: merging_ratio       !! merging ratio of the shape: 0 for a point, 1 where neighbours touch
 
       type(contact_equations) :: new
       real(dp) :: phi
@@ -125,7 +125,7 @@ contains
    subroutine linearise(self, lattice, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now      !! the approximation, of the kind that the equations were started for
+      type(fitted_function), intent(in) :: now!! the approximation, of the kind that the equations were started for
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
       real(dp) :: known, shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
@@ -149,10 +149,10 @@ contains
          if (now%pool) known = now%load - lattice%closing_pressure
          if (self%constraints == 1) self%matrix(:m, self%before_shape) = -1.0_dp
          do i = 1, m
-            z = now%shape%place(self%target(i))
+            z = now%shape%position_of(self%target(i))
             self%residual(i) = self%residual(i) + lattice%rise(now%pool, z) + known
             slope = -lattice%rise_slope(now%pool, z)
-            call now%shape%linearise_place(self%target(i), place_slope)
+            call now%shape%linearise_position(self%target(i), place_slope)
             self%matrix(i, first:) = self%matrix(i, first:) + slope%re*place_slope%re + slope%im*place_slope%im
          end do
       end associate
@@ -164,13 +164,13 @@ contains
    !> the size of the others.
    subroutine linearise_edge(self, now)
       class(contact_equations), intent(inout) :: self
-      type(expansion), intent(in) :: now   !! as of `linearise`
+      type(fitted_function), intent(in) :: now   !! as of `linearise`
 
-      real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, scale, strength
+      real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, row_factor, strength
       integer :: i, row
 
-      scale = pi**2*now%shape%b(0)
-      if (now%pool) scale = 0.25_dp/now%shape%b(0)
+      row_factor = pi**2*now%shape%b(0)
+      if (now%pool) row_factor = 0.25_dp/now%shape%b(0)
       do i = 1, size(self%edge)
          row = size(self%target) + i
          call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
@@ -185,23 +185,23 @@ contains
             strength = -sqrt(now%work*ratio)/pi
             log_slope = 0.5_dp*log_slope
          end if
-         self%matrix(row, :self%before_shape) = [scale*self%edge_values(i, :), 0.0_dp]
-         self%matrix(row, self%before_shape + 1:) = -scale*strength*log_slope
-         self%residual(row) = scale*(strength - dot_product(self%edge_values(i, :), now%c))
+         self%matrix(row, :self%before_shape) = [row_factor*self%edge_values(i, :), 0.0_dp]
+         self%matrix(row, self%before_shape + 1:) = -row_factor*strength*log_slope
+         self%residual(row) = row_factor*(strength - dot_product(self%edge_values(i, :), now%c))
       end do
    end subroutine linearise_edge
 
-   !> The integral over the spot or pool of the expansion, p or g, times a function of the position.
+   !> The integral over the spot or pool of the fitted function, p or g, times a function of the position.
    real(dp) function integral(self, now, factor)
       class(contact_equations), intent(in) :: self
-      type(expansion), intent(in) :: now            !! of the kind that the equations were started for
+      type(fitted_function), intent(in) :: now      !! of the kind that the equations were started for
       real(dp), intent(in), optional :: factor(:)   !! the function at the rule's points, shape (n); 1 if absent
 
-      real(dp) :: product(size(self%rule%point))
+      real(dp) :: at_points(size(self%rule%point))
 
-      product = self%rule%weight*now%shape%jacobian(self%rule%point)*matmul(self%values, now%c)
-      if (present(factor)) product = product*factor
-      integral = sum(product)
+      at_points = self%rule%weight*now%shape%jacobian(self%rule%point)*matmul(self%values, now%c)
+      if (present(factor)) at_points = at_points*factor
+      integral = sum(at_points)
    end function integral
 
 end module wavycon_contact_equations

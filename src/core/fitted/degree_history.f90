@@ -1,8 +1,8 @@
 !> The solutions of one load with rising degrees: estimates of their errors from their differences, and which solution
 !> is the best one.
 module wavycon_degree_history
-   use wavycon_expansion, only: expansion
    use wavycon_fitted_answer, only: most_previous
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_measures, only: all_measures, centre_measure, energy_measure, load_measure, perimeter_measure
    use wavycon_fitted_tuning, only: error_safety, fastest_decay, fastest_decay_at_point, first_error_factor, &
       least_relative_share, previous_difference_share
@@ -21,7 +21,7 @@ module wavycon_degree_history
       logical :: newest_is_best = .false.                          !! whether the newest solution is the best one
       real(dp) :: decay(2) = 1.0_dp                                !! chi_n and chi_(n-1): misfit over the one before
       real(dp), private :: misfit = huge(1.0_dp)                   !! misfit of the newest solution
-      type(expansion) :: newest(0:most_previous)                   !! the last solutions, the newest first
+      type(fitted_function) :: newest(0:most_previous)             !! the last solutions, the newest first
    contains
       procedure :: push
       procedure :: best_meets
@@ -36,11 +36,11 @@ module wavycon_degree_history
 contains
 
    !> Adds the solution of the next degree, and estimates its errors if it is not the first one.
-   pure subroutine push(self, now, measures, scale, misfit, remaining)
+   pure subroutine push(self, now, measures, reference, misfit, remaining)
       class(degree_history), intent(inout) :: self
-      type(expansion), intent(in) :: now
+      type(fitted_function), intent(in) :: now
       real(dp), intent(in) :: measures(all_measures)   !! measures of the solution
-      real(dp), intent(in) :: scale(all_measures)      !! what errors of the measures are relative to, > 0
+      real(dp), intent(in) :: reference(all_measures)  !! what errors of the measures are relative to, > 0
       real(dp), intent(in) :: misfit                   !! >= 0, mean residual of the equations, as of least_squares_step
       real(dp), intent(in) :: remaining                !! relative error of the shape that Newton's method leaves
 
@@ -49,7 +49,7 @@ contains
       self%solutions = self%solutions + 1
       self%measures(:, 1:) = self%measures(:, :most_previous - 1)
       self%measures(:, 0) = measures
-      self%scale = scale
+      self%scale = reference
       self%newest_is_best = self%solutions == least_solutions
       if (self%solutions >= least_solutions) then
          self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
@@ -57,20 +57,20 @@ contains
          ! rest. The gap is a value at a point, which converges more slowly than integrals. Energy and perimeter
          ! converge at rates of their own.
          associate (values => self%measures(:, :min(self%solutions - 1, most_previous)), error => self%error)
-            error = [error_estimate(values(:load_measure, :), self%decay, scale(:load_measure)), &
+            error = [error_estimate(values(:load_measure, :), self%decay, reference(:load_measure)), &
                      error_estimate(values([centre_measure], :), max(self%decay, fastest_decay_at_point), &
-                                    scale([centre_measure])), &
-                     error_estimate(values(energy_measure:, :), self%decay, scale(energy_measure:))]
+                                    reference([centre_measure])), &
+                     error_estimate(values(energy_measure:, :), self%decay, reference(energy_measure:))]
             ! The perimeter converges no faster than the area, but its differences are small by chance more often. So
             ! its relative error is at least the largest one of the first measures.
             error(perimeter_measure) = max(error(perimeter_measure), measures(perimeter_measure) &
-                                           *maxval(error(:load_measure)/scale(:load_measure)))
+                                           *maxval(error(:load_measure)/reference(:load_measure)))
             ! The last term of README.md (F44).
-            error = max(error, error_per_remainder*remaining*scale)
+            error = max(error, error_per_remainder*remaining*reference)
          end associate
          ! Close to merging a higher degree may be less accurate than a lower one.
-         if (.not. self%newest_is_best) self%newest_is_best = sum(self%error(:load_measure)/scale(:load_measure)) &
-            < sum(self%best_error(:load_measure)/scale(:load_measure))
+         if (.not. self%newest_is_best) self%newest_is_best = sum(self%error(:load_measure)/reference(:load_measure)) &
+            < sum(self%best_error(:load_measure)/reference(:load_measure))
          if (self%newest_is_best) self%best_error = self%error
       end if
       self%misfit = misfit
@@ -101,11 +101,11 @@ contains
    !>
    !> N.B. These are estimates, not bounds. They hold for thousands of loads; those of the perimeter of spots on a
    !> rhombic lattice are too small now and then.
-   pure function error_estimate(values, decay, scale) result(error)
+   pure function error_estimate(values, decay, reference) result(error)
       real(dp), intent(in) :: values(:, 0:)   !! n values at the last 2 or 3 degrees, the highest first, shape (n, 0:.)
       real(dp), intent(in) :: decay(2)        !! decay of the misfit, chi_n and chi_(n-1) <= 1
-      real(dp), intent(in) :: scale(:)        !! what relative errors are relative to, > 0, shape (n)
-      real(dp) :: error(size(scale))
+      real(dp), intent(in) :: reference(:)    !! what relative errors are relative to, > 0, shape (n)
+      real(dp) :: error(size(reference))
 
       real(dp), parameter :: rounding = 64*epsilon(1.0_dp)   !! relative
 
@@ -115,8 +115,8 @@ contains
          error = decay(1)*max(abs(values(:, 0) - values(:, 1)), &
                               previous_difference_share*decay(2)*abs(values(:, 1) - values(:, 2)))
       end if
-      error = max(error_safety*error, rounding*scale)
-      error = max(error, least_relative_share*scale*maxval(error/scale))
+      error = max(error_safety*error, rounding*reference)
+      error = max(error, least_relative_share*reference*maxval(error/reference))
    end function error_estimate
 
 end module wavycon_degree_history

@@ -3,10 +3,10 @@
 module wavycon_disc_sources
    use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
-   use wavycon_stress_kernel, only: add_sources, of_gap, of_gradient, of_pressure, stress_fields
+   use wavycon_stress_kernel, only: add_sources, of_gap, of_gradient, of_pressure, stress_field_count
    implicit none (type, external)
    private
 
@@ -27,7 +27,7 @@ contains
    !> Makes the sources of a solution at the points of a rule over the whole disc.
    subroutine start_disc_sources(sources, solution, gradient, radii, angles)
       type(disc_sources), intent(out) :: sources
-      type(expansion), intent(in) :: solution
+      type(fitted_function), intent(in) :: solution
       logical, intent(in) :: gradient      !! whether the sources are the gradient of a pool's gap; false for a spot
       integer, intent(in) :: radii         !! number of points on a radius, >= 1
       integer, intent(in) :: angles        !! number of points in a full turn, rounded up to a multiple of 2 fold
@@ -44,7 +44,7 @@ contains
          call find_density(solution, gradient, size(density), rule%point, &
                            (1.0_dp - abs(rule%point))*(1.0_dp + abs(rule%point)), density)
          density = density*rule%weight/(2*fold)
-         z = copies(fold, solution%shape%place(rule%point))
+         z = copies(fold, solution%shape%position_of(rule%point))
          ! A gradient is a vector: it is rotated and mirrored with its position.
          if (gradient) strength = copies(fold, density)
          if (.not. gradient) strength = reshape(density, [size(z)], pad=density)
@@ -59,7 +59,7 @@ contains
    !> edge. Without adhesion this power is 1/2 both for a pressure and for the gradient of a gap, so that one rule
    !> serves both: README.md, section 13.
    subroutine find_density(solution, gradient, n, w, inside, density)
-      type(expansion), intent(in) :: solution
+      type(fitted_function), intent(in) :: solution
       logical, intent(in) :: gradient              !! whether the source is the gradient of the gap
       integer, intent(in) :: n
       complex(dp), intent(in) :: w(n)              !! points of the disc
@@ -88,7 +88,7 @@ contains
       integer, intent(in) :: kernel                     !! as of add_sources
       complex(dp), intent(in) :: place                  !! x + i y of the point from the centre [s]
       real(dp), intent(in) :: depth                     !! >= 0 [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_field_count)
 
       call add_sources(kernel, self%source, size(self%x), place%re - self%x, place%im - self%y, depth, &
                        self%strength(:, 1), self%strength(:, 2), fields)
@@ -96,10 +96,10 @@ contains
 
    !> All copies of n positions or vectors by the symmetry. For each rotation by 2 pi g/fold, g = 0, .., fold-1, the n
    !> rotated ones come first, and then those that are mirrored at the x axis before the rotation.
-   pure function copies(fold, z) result(all)
+   pure function copies(fold, z) result(copied)
       integer, intent(in) :: fold                  !! order of the rotational symmetry
       complex(dp), intent(in) :: z(:)              !! x + i y, shape (n)
-      complex(dp) :: all(2*fold*size(z))
+      complex(dp) :: copied(2*fold*size(z))
 
       complex(dp) :: turn
       integer :: g, n
@@ -107,40 +107,40 @@ contains
       n = size(z)
       do g = 0, fold - 1
          turn = exp(cmplx(0.0_dp, 2*pi*g/fold, dp))
-         all(2*n*g + 1:2*n*g + n) = turn*z
-         all(2*n*g + n + 1:2*n*(g + 1)) = turn*conjg(z)
+         copied(2*n*g + 1:2*n*g + n) = turn*z
+         copied(2*n*g + n + 1:2*n*(g + 1)) = turn*conjg(z)
       end do
    end function copies
 
-   !> The strengths of the sources of one sector, which are the terms of an expansion times weight and area, and the
-   !> derivatives of strengths and positions with respect to the shape.
-   pure subroutine linearise_sources(shape, rule, values, c, weighted, strength_slope, moment_x, moment_y)
-      type(shape_map), intent(in) :: shape
-      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the expansion
+   !> The strengths of the sources of one sector, which are the terms of a fitted function times weight and area, and
+   !> the derivatives of strengths and positions with respect to the shape.
+   pure subroutine linearise_sources(map, rule, values, c, weighted, strength_slope, moment_x, moment_y)
+      type(shape_map), intent(in) :: map
+      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the fitted function
       real(dp), intent(in) :: values(:, :)             !! the basis at the rule's points, shape (n, N)
-      real(dp), intent(in) :: c(:)                     !! coefficients of the expansion, shape (N)
+      real(dp), intent(in) :: c(:)                     !! coefficients of the fitted function, shape (N)
       real(dp), intent(out) :: weighted(:, :)          !! strength of each term, shape (n, N) [s^2]
-      real(dp), intent(out) :: strength_slope(:, 0:)   !! d(strength of the expansion)/d b_k, shape (n, 0:K) [s]
+      real(dp), intent(out) :: strength_slope(:, 0:)   !! d(strength of the fitted function)/d b_k, shape (n, 0:K) [s]
       real(dp), intent(out), dimension(:, 0:) :: moment_x, moment_y
-         !! strength of the expansion times dz/d b_k, real and imaginary part, shape (n, 0:K) [s^2]
+         !! strength of the fitted function times dz/d b_k, real and imaginary part, shape (n, 0:K) [s^2]
 
       complex(dp), dimension(size(rule%point)) :: conjugate_slope, slope
-      complex(dp) :: place_slope(0:ubound(shape%b, 1))
+      complex(dp) :: place_slope(0:ubound(map%b, 1))
       real(dp), dimension(size(rule%point)) :: density, jacobian
-      real(dp) :: power(size(rule%point), 2, ubound(shape%b, 1)), step(size(rule%point), 2)
+      real(dp) :: power(size(rule%point), 2, ubound(map%b, 1)), step(size(rule%point), 2)
       integer :: i, k, n
 
       n = size(rule%point)
       density = rule%weight*matmul(values, c)
-      call shape%slopes(n, rule%point, slope, conjugate_slope)
-      call shape%linearise_slopes(n, rule%point, power, step)
+      call map%slopes(n, rule%point, slope, conjugate_slope)
+      call map%linearise_slopes(n, rule%point, power, step)
       jacobian = slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2)
-      strength_slope(:, 0) = 2*density*(slope%re**2 + slope%im**2)/shape%b(0)
-      do k = 1, ubound(shape%b, 1)
+      strength_slope(:, 0) = 2*density*(slope%re**2 + slope%im**2)/map%b(0)
+      do k = 1, ubound(map%b, 1)
          strength_slope(:, k) = -2*density*(conjugate_slope%re*power(:, 1, k) - conjugate_slope%im*power(:, 2, k))
       end do
       do i = 1, n
-         call shape%linearise_place(rule%point(i), place_slope)
+         call map%linearise_position(rule%point(i), place_slope)
          weighted(i, :) = rule%weight(i)*jacobian(i)*values(i, :)
          moment_x(i, :) = density(i)*jacobian(i)*place_slope%re
          moment_y(i, :) = density(i)*jacobian(i)*place_slope%im

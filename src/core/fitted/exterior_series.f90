@@ -9,9 +9,9 @@
 module wavycon_exterior_series
    use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_table
    use wavycon_constants, only: pi
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp
-   use wavycon_stress_kernel, only: stress_fields, surface_field
+   use wavycon_stress_kernel, only: stress_field_count, surface_field
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)
    private
@@ -41,10 +41,10 @@ contains
    !> Makes the series. The number of terms is raised until the last ones are below the accuracy.
    subroutine start_exterior_series(series, solution, accuracy, most_places, found)
       type(exterior_series), intent(out) :: series
-      type(expansion), intent(in) :: solution       !! the spot or pool
-      real(dp), intent(in) :: accuracy              !! error of the series over its largest coefficient, > 0
-      integer, intent(in) :: most_places            !! largest number of points at which the field may be integrated
-      logical, intent(out) :: found                 !! whether this number was enough; if not there is no series
+      type(fitted_function), intent(in) :: solution       !! the spot or pool
+      real(dp), intent(in) :: accuracy                    !! error of the series over its largest coefficient, > 0
+      integer, intent(in) :: most_places                  !! most points at which the field may be integrated
+      logical, intent(out) :: found                       !! whether this number was enough; if not there is no series
 
       type(stress_rays) :: rays
       integer :: places, terms(2)
@@ -73,15 +73,15 @@ contains
       !> Determines the terms from as many values. Points with the same arg v share the rays from the edge.
       subroutine fit_terms()
          complex(dp) :: edge, v(terms(2))
-         real(dp) :: fields(stress_fields, terms(2)), values(terms(1), terms(2), 1)
+         real(dp) :: fields(stress_field_count, terms(2)), values(terms(1), terms(2), 1)
          integer :: i, j
 
          do i = 1, terms(1)
             edge = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(terms(1)*solution%shape%fold), dp))
             v = edge/(1.0_dp - (0.5_dp*(1.0_dp + chebyshev_nodes(terms(2))))**2)
             fields = 0.0_dp
-            call rays%add_at(solution, edge, [(solution%shape%place_outside(v(j)), j=1, terms(2))] &
-                             - solution%shape%place(edge), spread(0.0_dp, 1, terms(2)), fields)
+            call rays%add_at(solution, edge, [(solution%shape%position_outside(v(j)), j=1, terms(2))] &
+                             - solution%shape%position_of(edge), spread(0.0_dp, 1, terms(2)), fields)
             values(i, :, 1) = fields(1, :)
             if (series%is_singular) values(i, :, 1) = fields(1, :)*sqrt(1.0_dp - 1.0_dp/abs(v))
          end do

@@ -10,7 +10,7 @@ module wavycon_far_stress
    use wavycon_fitted_tuning, only: far_bottom, far_top, near_clearance
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgels
-   use wavycon_stress_kernel, only: stress_fields
+   use wavycon_stress_kernel, only: stress_field_count
    implicit none (type, external)
    private
 
@@ -29,30 +29,30 @@ module wavycon_far_stress
    end type far_stress
 
    !> The powers a and b of each field, and the power c below spots and below pools.
-   integer, parameter :: power_x(stress_fields) = [0, 0, 0, 1, 0, 1, 1, 0], power_y(stress_fields) = &
-      [0, 0, 0, 1, 0, 1, 0, 1], power_z(stress_fields, 2) = &
-      reshape([1, 1, 1, 1, 1, 1, 2, 2, 0, 2, 0, 0, 2, 2, 1, 1], [stress_fields, 2])
+   integer, parameter :: power_x(stress_field_count) = [0, 0, 0, 1, 0, 1, 1, 0], power_y(stress_field_count) = &
+      [0, 0, 0, 1, 0, 1, 0, 1], power_z(stress_field_count, 2) = &
+      reshape([1, 1, 1, 1, 1, 1, 2, 2, 0, 2, 0, 0, 2, 2, 1, 1], [stress_field_count, 2])
    !> Whether a field has the constant: H and D^2 L below spots do.
-   logical, parameter :: has_constant(stress_fields, 2) = &
-      reshape([.true., .false., .true., .true., spread(.false., 1, 12)], [stress_fields, 2])
+   logical, parameter :: has_constant(stress_field_count, 2) = &
+      reshape([.true., .false., .true., .true., spread(.false., 1, 12)], [stress_field_count, 2])
 
 contains
 
    !> Chooses the numbers of terms and the nodes. The nearest singularities of the fields are at the distance
    !> `near_clearance` from the rectangle, and as far above the surface.
-   subroutine start_far_stress(table, sides, pool, digits)
+   subroutine start_far_stress(table, sides, pool, e_folds)
       type(far_stress), intent(out) :: table
       real(dp), intent(in) :: sides(2)         !! half the sides of the rectangle about a crest, along x and y [s]
       logical, intent(in) :: pool              !! true: below pools; false: below spots
-      real(dp), intent(in) :: digits           !! natural logarithm of 1/accuracy
+      real(dp), intent(in) :: e_folds     !! natural logarithm of 1/accuracy
 
       real(dp), parameter :: middle = 0.5_dp*(far_bottom**2 + far_top**2), half = 0.5_dp*(far_bottom**2 - far_top**2)
 
       table%sides = sides
       table%regime = merge(2, 1, pool)
-      table%n(:2) = ceiling(digits/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
+      table%n(:2) = ceiling(e_folds/log(ellipse(2*((sides + near_clearance)/sides)**2 - 1.0_dp)))
       ! The nodes are below the surface. At the surface the polynomials have grown by the factor in the denominator.
-      table%n(3) = ceiling(digits/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
+      table%n(3) = ceiling(e_folds/log(ellipse((near_clearance**2 + middle)/half)/ellipse(middle/half)))
       table%n = max(table%n, 4)
       table%node_x = square_nodes(table%n(1), sides(1))
       table%node_y = square_nodes(table%n(2), sides(2))
@@ -73,11 +73,12 @@ contains
       real(dp), intent(in) :: values(:, :, :, :)   !! the eight fields at the nodes, shape (n_x, n_y, n_z+1, 8)
 
       real(dp) :: of_nodes(size(table%node_z), 0:table%n(3)), right(size(table%node_z), product(table%n(:2))), &
-                  planes(table%n(1), table%n(2), 0:table%n(3), stress_fields), work(64*size(of_nodes) + size(right))
+                  planes(table%n(1), table%n(2), 0:table%n(3), stress_field_count), &
+                  work(64*size(of_nodes) + size(right))
       integer :: f, info, k, terms
 
       associate (n => table%n, x => table%node_x, y => table%node_y, z => table%node_z, nodes => size(table%node_z))
-         do f = 1, stress_fields
+         do f = 1, stress_field_count
             do k = 1, nodes
                of_nodes(k, :) = [z(k)**power_z(f, table%regime)*chebyshev_polynomials(depth_argument(z(k)), n(3)), &
                                  1.0_dp]
@@ -91,7 +92,7 @@ contains
                                                                             *spread(y**power_y(f), 1, n(1)))
             end do
          end do
-         call table%planes%set(reshape(planes, [n(1), n(2), (n(3) + 1)*stress_fields]))
+         call table%planes%set(reshape(planes, [n(1), n(2), (n(3) + 1)*stress_field_count]))
       end associate
    end subroutine set_far_values
 
@@ -107,9 +108,9 @@ contains
       class(far_stress), intent(in) :: self
       real(dp), intent(in) :: x, y                        !! position from a crest, in the rectangle about the crest [s]
       real(dp), intent(in) :: depth                       !! between 0 and the lowest node [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_field_count)
 
-      real(dp) :: of_z(0:self%n(3) - 1), planes(0:self%n(3), stress_fields)
+      real(dp) :: of_z(0:self%n(3) - 1), planes(0:self%n(3), stress_field_count)
 
       of_z = chebyshev_polynomials(depth_argument(depth), self%n(3))
       planes = reshape(self%planes%at(square_argument(x, self%sides(1)), square_argument(y, self%sides(2))), &

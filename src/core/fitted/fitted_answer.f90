@@ -1,6 +1,6 @@
 !> The solution of one load by collocation fitted to the edge.
 module wavycon_fitted_answer
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: quantities
    implicit none (type, external)
@@ -20,7 +20,7 @@ module wavycon_fitted_answer
    integer, parameter, public :: fitted_failed = 4
       !! No solution was found: only load and status are set.
 
-   !> The largest number of expansions of lower degrees that are kept.
+   !> The largest number of fitted functions of lower degrees that are kept.
    integer, parameter, public :: most_previous = 2
 
    !> The quantities that are set are mean gap, approach, area fraction, peak pressure, energy, perimeter and degree.
@@ -39,9 +39,9 @@ module wavycon_fitted_answer
       real(dp) :: merging_ratio = 0.0_dp              !! merging ratio: 0 for a point, 1 where neighbours touch
       integer :: iterations = 0                       !! number of Gauss-Newton steps of all degrees
       logical :: pool = .false.                       !! true: the solution is a pool's gap; false: a spot's pressure
-      type(expansion) :: solution
+      type(fitted_function) :: solution
       !> Solutions of lower degrees, from which errors are estimated, the last one first, shape (1..most_previous).
-      type(expansion), allocatable :: previous(:)
+      type(fitted_function), allocatable :: previous(:)
    end type fitted_answer
 
 end module wavycon_fitted_answer

@@ -1,9 +1,9 @@
-!> Pressure, displacement and gap anywhere on the surface, from an expansion and without a grid.
+!> Pressure, displacement and gap anywhere on the surface, from a fitted function and without a grid.
 !>
-!> Positions are measured from a crest, in s. Inside the spot or pool the fields follow from the expansion and the
-!> condition of contact. Elsewhere they are integrals over the expansion and all its images: README.md (F2) and (F10).
-!> The integrals over near images are computed by fine rules or along rays, the others by one coarse rule: README.md,
-!> section 12.
+!> Positions are measured from a crest, in s. Inside the spot or pool the fields follow from the fitted function and the
+!> condition of contact. Elsewhere they are integrals over the fitted function and all its images: README.md (F2) and
+!> (F10). The integrals over near images are computed by fine rules or along rays, the others by one coarse rule:
+!> README.md, section 12.
 module wavycon_fitted_fields
    use wavycon_chebyshev_table, only: chebyshev_table, square_argument, square_nodes
    use wavycon_constants, only: pi
@@ -16,7 +16,7 @@ module wavycon_fitted_fields
    use wavycon_quantities, only: contact_area, mean_gap, peak_pressure
    use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: stress_fields, surface_field
+   use wavycon_stress_kernel, only: stress_field_count, surface_field
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -159,7 +159,7 @@ contains
       complex(dp), intent(in) :: z      !! position from the centre, reduced to the rectangle [s]
       integer, intent(in) :: centre     !! number of the centre, for which find_preimages was called with z
 
-      real(dp) :: exact(stress_fields), half(2)
+      real(dp) :: exact(stress_field_count), half(2)
       logical :: far(size(self%image))
       integer :: k
 
@@ -190,7 +190,7 @@ contains
       complex(dp), intent(in) :: z                           !! position from the centre, reduced to the rectangle [s]
       complex(dp), intent(in) :: near(:)                     !! centres of the images that are left out [s]
 
-      real(dp) :: of_centre(stress_fields), removed(stress_fields), value(size(self%sources%x))
+      real(dp) :: of_centre(stress_field_count), removed(stress_field_count), value(size(self%sources%x))
       integer :: k
 
       associate (x => z%re - self%sources%x, y => z%im - self%sources%y)
@@ -278,8 +278,8 @@ contains
 
    !> The values of `fitted_separations` and estimates of their errors.
    !>
-   !> The error of the expansion is estimated from the values of lower degrees at the same positions. The error of the
-   !> integrals over near images is estimated from a second evaluation by finer rules.
+   !> The error of the fitted function is estimated from the values of lower degrees at the same positions. The error of
+   !> the integrals over near images is estimated from a second evaluation by finer rules.
    subroutine find_fitted_details(lattice, answer, values, error)
       type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
       type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
@@ -288,28 +288,29 @@ contains
 
       !> Accuracy of the second evaluation.
       real(dp), parameter :: finer = 1e-15_dp
-      real(dp) :: at(3, 0:size(answer%previous)), decay(2), scale(3)
+      real(dp) :: of_degree(3, 0:size(answer%previous)), decay(2), reference(3)
       type(fitted_answer) :: older
       integer :: i, k
 
       values = fitted_separations(lattice, answer)
-      at(:, 0) = values
+      of_degree(:, 0) = values
       older = answer
       do k = 1, size(answer%previous)
          older%solution = answer%previous(k)
          if (.not. answer%pool) older%value(mean_gap) = 1.0_dp - older%solution%approach
-         at(:, k) = fitted_separations(lattice, older)
+         of_degree(:, k) = fitted_separations(lattice, older)
       end do
       ! All values except the gap inside a pool are differences of numbers of order 1, so that their rounding is
       ! absolute.
-      scale = 1.0_dp
-      if (answer%pool) scale(1) = at(1, 0)
+      reference = 1.0_dp
+      if (answer%pool) reference(1) = of_degree(1, 0)
       ! The errors are estimated separately: the saddle may be nearly closed while the trough is wide open.
       do i = 1, size(values)
          decay = answer%misfit_decay
-         ! The gap inside a pool is a value of the expansion, while the others are integrals of the expansion.
+         ! The gap inside a pool is a value of the fitted function, while the others are integrals of the fitted
+         ! function.
          if (answer%pool .and. i == 1) decay = max(decay, fastest_decay_at_point)
-         error(i:i) = error_estimate(at(i:i, :), decay, scale(i:i))
+         error(i:i) = error_estimate(of_degree(i:i, :), decay, reference(i:i))
       end do
       ! The approach of a spot is part of both gaps, so its error is part of theirs.
       if (.not. answer%pool) error(:2) = max(error(:2), answer%error(mean_gap))

@@ -3,14 +3,14 @@ module wavycon_fitted_measures
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations
    use wavycon_disc_sources, only: copies
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp
    use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: measure_expansion
+   public :: measure_fitted_function
 
    !> The order of the measures in an array, and their number.
    integer, parameter, public :: gap_measure = 1        !! mean gap G [Delta]
@@ -25,12 +25,12 @@ module wavycon_fitted_measures
 contains
 
    !> Computes all measures of a solution.
-   subroutine measure_expansion(equations, lattice, now, measures, scale)
-      type(contact_equations), intent(in) :: equations     !! started for expansions like `now`
+   subroutine measure_fitted_function(equations, lattice, now, measures, reference)
+      type(contact_equations), intent(in) :: equations     !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(inout) :: now                !! the solution; the load of an adhesive spot is set
+      type(fitted_function), intent(inout) :: now          !! the solution; the load of an adhesive spot is set
       real(dp), intent(out) :: measures(all_measures)
-      real(dp), intent(out) :: scale(all_measures)
+      real(dp), intent(out) :: reference(all_measures)
          !! what errors are relative to: the measure; for loads and pressures with adhesion plus the tension at the edge
 
       real(dp) :: at_edge
@@ -46,12 +46,12 @@ contains
       measures(energy_measure) = strain_energy(measures(gap_measure))
       measures(perimeter_measure) = now%shape%perimeter()
       measures(load_measure) = now%load
-      scale = measures
+      reference = measures
       if (now%work > 0.0_dp) then
          ! The tensions of (F71) and (F72).
          at_edge = sqrt(now%work/(2*sqrt(now%area/pi)))
          associate (of_load => merge(at_edge, 4*at_edge*now%area/(pi*lattice%area), now%pool))
-            scale([peak_measure, load_measure, centre_measure]) = abs(measures([peak_measure, load_measure, &
+            reference([peak_measure, load_measure, centre_measure]) = abs(measures([peak_measure, load_measure, &
                centre_measure])) + [at_edge, of_load, at_edge]
          end associate
       end if
@@ -68,7 +68,7 @@ contains
 
          kernel = lattice%kernel(2)
          kernel%whole = .true.
-         from_crest = lattice%trough + copies(now%basis%fold, now%shape%place(equations%rule%point))
+         from_crest = lattice%trough + copies(now%basis%fold, now%shape%position_of(equations%rule%point))
          call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
          ! The points of the rule lie in one sector. So the mean of the kernel over their copies is taken.
          mean = sum(reshape(value, [size(mean), 2*now%basis%fold]), 2)/(2*now%basis%fold)
@@ -85,7 +85,7 @@ contains
 
          complex(dp) :: z(size(equations%rule%point))
 
-         z = now%shape%place(equations%rule%point)
+         z = now%shape%position_of(equations%rule%point)
          if (now%pool) then
             associate (rise => lattice%rise(.true., z) - lattice%closing_pressure, &
                        full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
@@ -96,6 +96,6 @@ contains
          end if
       end function strain_energy
 
-   end subroutine measure_expansion
+   end subroutine measure_fitted_function
 
 end module wavycon_fitted_measures

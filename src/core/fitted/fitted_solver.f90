@@ -2,12 +2,12 @@
 module wavycon_fitted_solver
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: degree_history
-   use wavycon_expansion, only: expansion
-   use wavycon_expansion_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
       fitted_solved, most_previous
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
-      load_measure, measure_expansion, peak_measure, perimeter_measure
+      load_measure, measure_fitted_function, peak_measure, perimeter_measure
+   use wavycon_fitted_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_tuning, only: degree_step, error_safety, first_degree, last_degree, previous_difference_share, &
       round_shape_ratio, series_growth
    use wavycon_gauss_newton, only: change_with_area, newton_steps
@@ -37,7 +37,7 @@ contains
    !> one is tried.
    !>
    !> The accuracy is relative to the mean gap, to the area of the spot or of the pool, and to the peak pressure. The
-   !> degree of the expansion is raised until the estimated errors of all three are within the accuracy.
+   !> degree of the fitted function is raised until the estimated errors of all three are within the accuracy.
    !>
    !> Status: fitted_solved, fitted_less_exact, fitted_merged, fitted_bad_input or fitted_failed.
    subroutine solve_fitted(lattice, pbar_over_pstar, accuracy, answer, start, fields)
@@ -83,7 +83,7 @@ contains
       type(fitted_answer), intent(in), optional :: start   !! as of solve_fitted
       logical, intent(in), optional :: fields              !! as of solve_fitted
 
-      type(expansion) :: now
+      type(fitted_function) :: now
       integer :: degree, required
       logical :: merged, valid
 
@@ -112,7 +112,7 @@ contains
       type(fitted_answer), intent(in), optional :: start
          !! solution of another area of the same lattice and work, which saves time; not the variable `answer`
 
-      type(expansion) :: now
+      type(fitted_function) :: now
       integer :: degree
       logical :: valid
 
@@ -126,7 +126,7 @@ contains
    subroutine raise_degree(lattice, accuracy, now, first, required, answer)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: accuracy               !! largest allowed relative error
-      type(expansion), intent(inout) :: now          !! on entry the approximation, on exit the last solution
+      type(fitted_function), intent(inout) :: now    !! on entry the approximation, on exit the last solution
       integer, intent(in) :: first                   !! degree to start with
       integer, intent(in) :: required                !! the measures 1 to `required` have to be so accurate
       type(fitted_answer), intent(inout) :: answer   !! on entry without a solution
@@ -136,7 +136,7 @@ contains
       type(newton_steps) :: newton
       real(dp), allocatable :: area_change(:)
       real(dp) :: area_slopes(2, 0:2)   ! derivatives by the area of the newest solution and the two before
-      real(dp) :: clustering, measures(all_measures), ratio, scale(all_measures), tolerance
+      real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
       integer :: degree, failed, k
       logical :: merged
 
@@ -169,15 +169,15 @@ contains
          failed = failed + 1
          if (newton%change <= 1e-4_dp .or. newton%remaining <= tolerance) then
             failed = 0
-            call measure_expansion(equations, lattice, now, measures, scale)
-            if (.not. all(scale(:load_measure) > 0.0_dp)) exit
+            call measure_fitted_function(equations, lattice, now, measures, reference)
+            if (.not. all(reference(:load_measure) > 0.0_dp)) exit
             if (now%work > 0.0_dp) then
                area_slopes(:, 1:) = area_slopes(:, :1)
                area_change = [(0.0_dp, k=1, equations%unknowns)]
                call change_with_area(equations, now, area_change)
                area_slopes(:, 0) = slopes_of(equations, lattice, now, area_change)
             end if
-            call history%push(now, measures, scale, newton%misfit, newton%remaining)
+            call history%push(now, measures, reference, newton%misfit, newton%remaining)
             if (history%newest_is_best) then
                call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
                answer%area_slopes = area_slopes(:, 0)
@@ -203,7 +203,7 @@ contains
    pure function slopes_of(equations, lattice, now, area_change) result(slopes)
       type(contact_equations), intent(in) :: equations         !! linearised at the solution
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now                       !! the solution, with adhesion
+      type(fitted_function), intent(in) :: now                 !! the solution, with adhesion
       real(dp), intent(in) :: area_change(:)                   !! derivatives of the unknowns, shape (unknowns)
       real(dp) :: slopes(2)
 
@@ -219,7 +219,7 @@ contains
       type(fitted_answer), intent(inout) :: answer
       type(wave_lattice), intent(in) :: lattice
       type(degree_history), intent(in) :: history
-      type(expansion), intent(in) :: now
+      type(fitted_function), intent(in) :: now
       real(dp), intent(in) :: residual, ratio      !! largest residual; merging ratio
       real(dp), intent(in) :: images_tolerance     !! relative error of the images' kernel
 

@@ -1,8 +1,8 @@
-!> Gauss-Newton's method for the coefficients and the shape of an expansion.
+!> Gauss-Newton's method for the coefficients and the shape of a fitted function.
 module wavycon_gauss_newton
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: longest_shape_change
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgglse
@@ -50,9 +50,9 @@ contains
    !> at least that of quadratic convergence.
    subroutine solve(self, equations, lattice, now, tolerance)
       class(newton_steps), intent(inout) :: self
-      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(contact_equations), intent(inout) :: equations  !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(inout) :: now                !! on entry an approximation, on exit the last iterate
+      type(fitted_function), intent(inout) :: now          !! on entry an approximation, on exit the last iterate
       real(dp), intent(in) :: tolerance                    !! largest allowed relative error of the shape, > 0
 
       real(dp) :: change_before
@@ -78,9 +78,9 @@ contains
    !> is larger than `longest_shape_change` is shortened to this change.
    subroutine step(self, equations, lattice, now)
       class(newton_steps), intent(inout) :: self
-      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(contact_equations), intent(inout) :: equations  !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(inout) :: now                !! the iterate; unchanged if the step is not finite
+      type(fitted_function), intent(inout) :: now          !! the iterate; unchanged if the step is not finite
 
       real(dp) :: missing, whole(equations%unknowns)
       logical :: finite
@@ -108,9 +108,9 @@ contains
 
    !> The first and second derivatives of the unknowns by the load, at a solution: (I7a), (I7b) of src/beyond/README.md.
    subroutine changes_with_load(equations, lattice, now, change, change_of_change, load_change, finite)
-      type(contact_equations), intent(inout) :: equations  !! started for expansions like `now`
+      type(contact_equations), intent(inout) :: equations  !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now                   !! the solution, without adhesion
+      type(fitted_function), intent(in) :: now             !! the solution, without adhesion
       real(dp), intent(out) :: change(:), change_of_change(:)   !! x' and x'', shape (unknowns)
       real(dp), intent(out) :: load_change(2)   !! first and second derivative of the integral of p or g
       logical, intent(out) :: finite            !! whether the derivatives are finite; if not they are of no use
@@ -156,7 +156,7 @@ contains
       subroutine linearise_at(steps)
          integer, intent(in) :: steps
 
-         type(expansion) :: other
+         type(fitted_function) :: other
 
          other = now
          if (steps /= 0) call add_step(other, steps*step*change)
@@ -169,7 +169,7 @@ contains
    !> last step.
    subroutine change_with_area(equations, now, change)
       type(contact_equations), intent(in) :: equations     !! as the last step left them
-      type(expansion), intent(in) :: now                   !! the solution, with adhesion
+      type(fitted_function), intent(in) :: now             !! the solution, with adhesion
       real(dp), intent(out) :: change(:)                   !! shape (unknowns)
 
       logical :: finite   ! not used: the last step was finite
@@ -178,9 +178,9 @@ contains
       call least_squares_step(equations, now, 0*equations%residual, 1.0_dp, change, misfit, finite)
    end subroutine change_with_area
 
-   !> Adds a step to the unknowns of an expansion: coefficients, approach or load, and shape.
+   !> Adds a step to the unknowns of a fitted function: coefficients, approach or load, and shape.
    pure subroutine add_step(now, step)
-      type(expansion), intent(inout) :: now
+      type(fitted_function), intent(inout) :: now
       real(dp), intent(in) :: step(:)                      !! shape (unknowns of its equations)
 
       associate (terms => now%basis%terms, first => size(step) - size(now%shape%b) + 1)
@@ -194,7 +194,7 @@ contains
    !> Solves the linear least-squares problem of a step, with the constraint of load or area, by LAPACK's DGGLSE.
    subroutine least_squares_step(equations, now, right_sides, missing, step, misfit, finite)
       type(contact_equations), intent(in) :: equations
-      type(expansion), intent(in) :: now
+      type(fitted_function), intent(in) :: now
       real(dp), intent(in) :: right_sides(:)     !! changes of the left sides that the step shall make, shape (m + e)
       real(dp), intent(in) :: missing
          !! the constraint's right side: change of a spot's load times the cell's area, or, with adhesion, of the area

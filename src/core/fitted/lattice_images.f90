@@ -15,7 +15,7 @@ module wavycon_lattice_images
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: copies, linearise_sources
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: most_near_points, series_clearance
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
@@ -47,14 +47,14 @@ contains
    subroutine prepare(self, lattice, now, growth, tolerance)
       class(lattice_images), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
+      type(fitted_function), intent(in) :: now
       real(dp), intent(in) :: growth        !! the series shall hold up to this multiple of the shape's size, >= 1
       real(dp), intent(in) :: tolerance
          !! error of F relative to its largest value, > 0; that of the Laplacian, whose weight in the equations is a few
          !! hundredths, may be 20 times as large
 
       complex(dp), allocatable :: point(:)
-      real(dp) :: clearance, digits, distance, radius
+      real(dp) :: clearance, e_folds, distance, radius
       integer :: degree
 
       radius = now%shape%radius()
@@ -72,9 +72,9 @@ contains
       ! of F. Then terms that vary with the angle fall as powers of this lattice point's distance from the source, and
       ! axisymmetric terms as in a Chebyshev series.
       distance = minval(abs(point), abs(point) >= clearance)/radius - 1.0_dp
-      digits = -log(tolerance)
+      e_folds = -log(tolerance)
       associate (fold => now%basis%fold)
-         degree = max(fold*(ceiling(digits/(fold*log(distance))) - 1), 2*(ceiling(digits/(2*acosh(distance))) - 1))
+         degree = max(fold*(ceiling(e_folds/(fold*log(distance))) - 1), 2*(ceiling(e_folds/(2*acosh(distance))) - 1))
       end associate
       point = pack(point, abs(point) < clearance .and. abs(point) > 0.0_dp)
       if (size(point) > most_near_points) return
@@ -120,16 +120,16 @@ contains
       end associate
    end subroutine find_coefficients
 
-   !> Adds, for several targets, the integrals over all images of each term of an expansion, and the derivatives of the
-   !> integral of their sum by the shape. Also sets the integrals without a kernel, and their derivatives: those of the
-   !> load.
+   !> Adds, for several targets, the integrals over all images of each term of a fitted function, and the derivatives of
+   !> the integral of their sum by the shape. Also sets the integrals without a kernel, and their derivatives: those of
+   !> the load.
    !>
    !> N.B. The derivatives are at fixed w_t: the targets z(w_t) move with the shape.
    subroutine add_rows(self, lattice, now, rule, values, target, rows, shape_rows, load_row, load_slope)
       class(lattice_images), intent(in) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now
-      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the expansion
+      type(fitted_function), intent(in) :: now
+      type(disc_rule), intent(in) :: rule              !! a rule for the weight of the fitted function
       real(dp), intent(in) :: values(:, :)             !! the basis at the rule's points, shape (n, N)
       complex(dp), intent(in) :: target(:)             !! w_t, |w_t| <= 1, shape (m)
       real(dp), intent(inout) :: rows(:, :)            !! integrals, shape (m, N)
@@ -150,8 +150,8 @@ contains
       m = size(target)
       n = size(rule%point)
       columns = size(now%shape%b)
-      place = now%shape%place(target)
-      source = now%shape%place(rule%point)
+      place = now%shape%position_of(target)
+      source = now%shape%position_of(rule%point)
       call linearise_sources(now%shape, rule, values, now%c, weighted, strength_slope, moment_x, moment_y)
       load_row = sum(weighted, 1)
       load_slope = sum(strength_slope, 1)
@@ -178,7 +178,7 @@ contains
       call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_x, n, moment_x, n, 1.0_dp, shape_rows, m)
       call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_y, n, moment_y, n, 1.0_dp, shape_rows, m)
       do t = 1, m
-         call now%shape%linearise_place(target(t), place_slope)
+         call now%shape%linearise_position(target(t), place_slope)
          shape_rows(t, :) = shape_rows(t, :) + target_gradient(t)%re*place_slope%re &
             + target_gradient(t)%im*place_slope%im
       end do
@@ -191,15 +191,15 @@ contains
          integer, intent(in) :: direction          !! 1, or -1 if the sources are rotated by half a turn
          complex(dp), intent(in) :: to_centre      !! the targets' centre less the sources' centre [s]
 
-         complex(dp) :: all(2*now%shape%fold*n), turn, z(2*now%shape%fold*n)
-         real(dp), dimension(size(all)) :: slope_x, slope_y, value
+         complex(dp) :: copied(2*now%shape%fold*n), turn, z(2*now%shape%fold*n)
+         real(dp), dimension(size(copied)) :: slope_x, slope_y, value
          real(dp) :: total_x(n), total_y(n)
          integer :: copy, mirror
 
-         all = direction*copies(now%shape%fold, source) - to_centre
+         copied = direction*copies(now%shape%fold, source) - to_centre
          associate (mean => 1.0_dp/(2*now%shape%fold))
             do t = 1, m
-               z = place(t) - all
+               z = place(t) - copied
                call kernel%evaluate(size(z), z%re, z%im, value, slope_x, slope_y)
                total_x = 0.0_dp
                total_y = 0.0_dp

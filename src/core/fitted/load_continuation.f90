@@ -5,13 +5,13 @@ module wavycon_load_continuation
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_disc_polynomials, only: start_disc_polynomials
-   use wavycon_expansion, only: edge_power, expansion
+   use wavycon_fitted_function, only: edge_power, fitted_function
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
    use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, start_degree
    use wavycon_gauss_newton, only: add_step, change_per_square, newton_steps
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_kinds, only: dp
-   use wavycon_expansion_size, only: merging_ratio
+   use wavycon_fitted_size, only: merging_ratio
    use wavycon_quantities, only: polynomial_degree
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -36,7 +36,7 @@ contains
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: load                    !! mean pressure P
       logical, intent(in) :: pool                     !! true: for a pool; false: for a spot
-      type(expansion), intent(out) :: now             !! the approximation
+      type(fitted_function), intent(out) :: now       !! the approximation
       integer, intent(out) :: degree                  !! degree of the first solution
       integer, intent(inout) :: iterations            !! the number of Gauss-Newton steps is added
       logical, intent(out) :: found                   !! whether there is an approximation
@@ -45,7 +45,7 @@ contains
 
       type(contact_equations) :: equations
       type(newton_steps) :: newton
-      real(dp) :: at, next
+      real(dp) :: reached, next
       integer :: steps
 
       degree = first_degree
@@ -61,9 +61,9 @@ contains
          end if
       end if
       ! At heavier loads the asymptote of a spot is too far from the solution for Newton's method.
-      at = min(load, 0.06_dp)
-      if (pool) at = max(load, heavy_load_start*lattice%closing_pressure)
-      now = asymptote(lattice, at, pool)
+      reached = min(load, 0.06_dp)
+      if (pool) reached = max(load, heavy_load_start*lattice%closing_pressure)
+      now = asymptote(lattice, reached, pool)
       do
          call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp)
@@ -74,15 +74,15 @@ contains
          ! In many loads next to merging that were solved the merging ratio of the start was 0.92 at most.
          merged = merging_ratio(lattice, now) >= 1.0_dp
          found = .not. merged
-         steps = load_steps(lattice, at, load, pool)
+         steps = load_steps(lattice, reached, load, pool)
          if (merged .or. steps == 0) exit
          next = load
          if (steps > 1) then
-            next = load_step_ratio*at
-            if (pool) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - at)
+            next = load_step_ratio*reached
+            if (pool) next = lattice%closing_pressure - load_step_ratio*(lattice%closing_pressure - reached)
          end if
-         now = scaled_to_load(lattice, now, at, next)
-         at = next
+         now = scaled_to_load(lattice, now, reached, next)
+         reached = next
       end do
       iterations = iterations + newton%iterations
    end subroutine start_at_load
@@ -96,7 +96,7 @@ contains
       logical, intent(in) :: pool                     !! true: for a pool; false: for a spot
       real(dp), intent(in) :: work                    !! work of adhesion W > 0 [pi E* Delta^2/s]
       real(dp), intent(in) :: area                    !! area of the spot or pool [s^2]
-      type(expansion), intent(out) :: now             !! the approximation
+      type(fitted_function), intent(out) :: now       !! the approximation
       integer, intent(out) :: degree                  !! degree of the first solution
       integer, intent(inout) :: iterations            !! the number of Gauss-Newton steps is added
       logical, intent(out) :: found                   !! whether there is an approximation
@@ -104,7 +104,7 @@ contains
 
       type(contact_equations) :: equations
       type(newton_steps) :: newton
-      real(dp) :: at
+      real(dp) :: reached
 
       degree = first_degree
       found = present(start)
@@ -118,26 +118,26 @@ contains
          degree = max(first_degree, nint(start%value(polynomial_degree)) - 2*degree_step)
          return
       end if
-      at = min(area, small_area*lattice%area)
-      now = asymptote(lattice, 0.0_dp, pool, work, at)
+      reached = min(area, small_area*lattice%area)
+      now = asymptote(lattice, 0.0_dp, pool, work, reached)
       do
          call equations%images%prepare(lattice, now, 1.1_dp, start_shape_change**2)
          call start_equations(equations, now, 0.0_dp)
          newton%contraction = 0.0_dp
          call newton%solve(equations, lattice, now, change_per_square*start_shape_change**2)
          found = newton%valid
-         if (.not. found .or. at >= area) exit
-         at = min(load_step_ratio*at, area)
-         now = scaled_to_area(now, at)
+         if (.not. found .or. reached >= area) exit
+         reached = min(load_step_ratio*reached, area)
+         now = scaled_to_area(now, reached)
       end do
       iterations = iterations + newton%iterations
    end subroutine start_at_area
 
    !> A spot or pool with adhesion, scaled to another area without a change of pressures and gaps.
    pure function scaled_to_area(from, area) result(scaled)
-      type(expansion), intent(in) :: from
+      type(fitted_function), intent(in) :: from
       real(dp), intent(in) :: area      !! the other area [s^2]
-      type(expansion) :: scaled
+      type(fitted_function) :: scaled
 
       scaled = from
       scaled%shape%b = from%shape%b*sqrt(area/from%shape%area())
@@ -172,7 +172,7 @@ contains
       steps = ceiling(abs(log(ratio))/log(load_step_ratio))
    end function load_steps
 
-   !> The asymptote of small spots or pools, as an expansion of low degree over a circle.
+   !> The asymptote of small spots or pools, as a fitted function of low degree over a circle.
    !>
    !> A spot is a Hertzian contact at a crest: README.md (F41) and (23) of the paper. A pool is the opening of a
    !> penny-shaped crack at a trough: (F42), and (24), (A4)-(A8) of the paper. With adhesion at a given area they are
@@ -183,7 +183,7 @@ contains
       real(dp), intent(in) :: load   !! P > 0, for a pool < closing pressure; not used with adhesion
       logical, intent(in) :: pool    !! true: a pool; false: a spot
       real(dp), intent(in), optional :: work, area   !! with adhesion: W > 0, and the area of the spot or pool [s^2]
-      type(expansion) :: now
+      type(fitted_function) :: now
 
       real(dp), allocatable :: inside(:), values(:, :)
       real(dp) :: curvature(2), mean, missing, radius, ratio   ! ratio: of the axes along y and x
@@ -242,9 +242,9 @@ contains
    !> asymptotes.
    function scaled_to_load(lattice, from, old_load, new_load) result(scaled)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: from
+      type(fitted_function), intent(in) :: from
       real(dp), intent(in) :: old_load, new_load  !! mean pressures P
-      type(expansion) :: scaled
+      type(fitted_function) :: scaled
 
       real(dp) :: factor
 

@@ -1,15 +1,15 @@
-!> The derivatives of mean gap and contact area by the load, from an expansion. Equations (I..) are those of
+!> The derivatives of mean gap and contact area by the load, from a fitted function. Equations (I..) are those of
 !> src/beyond/README.md.
 module wavycon_load_slopes
    use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: error_estimate
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
    use wavycon_gauss_newton, only: changes_with_load
    use wavycon_kinds, only: dp
-   use wavycon_expansion_size, only: merging_ratio
+   use wavycon_fitted_size, only: merging_ratio
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -35,25 +35,25 @@ contains
 
       !> Relative error of G'' by the finite differences of Newton's matrix.
       real(dp), parameter :: of_differences = 1e-10_dp
-      real(dp) :: at(number_of_slopes, 0:size(answer%previous))
+      real(dp) :: of_degree(number_of_slopes, 0:size(answer%previous))
       logical :: found_too
       integer :: k
 
       call slopes_of(lattice, answer%solution, slopes, found)
-      at(:, 0) = slopes
+      of_degree(:, 0) = slopes
       do k = 1, size(answer%previous)
-         call slopes_of(lattice, answer%previous(k), at(:, k), found_too)
+         call slopes_of(lattice, answer%previous(k), of_degree(:, k), found_too)
          found = found .and. found_too
       end do
       if (.not. found) return
-      errors = error_estimate(at, answer%misfit_decay, abs(slopes))
+      errors = error_estimate(of_degree, answer%misfit_decay, abs(slopes))
       errors(3) = max(errors(3), of_differences*abs(slopes(3)))
    end subroutine find_load_slopes
 
-   !> The derivatives of one expansion by the load: (I4) to (I7b).
+   !> The derivatives of one fitted function by the load: (I4) to (I7b).
    subroutine slopes_of(lattice, now, slopes, found)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now                   !! the expansion, a solution without adhesion
+      type(fitted_function), intent(in) :: now             !! the fitted function, a solution without adhesion
       real(dp), intent(out) :: slopes(number_of_slopes)    !! as of find_load_slopes
       logical, intent(out) :: found                        !! as of find_load_slopes
 
@@ -74,7 +74,7 @@ contains
       do i = 1, n
          w = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(now%basis%fold*n), dp))
          normal = now%shape%tangent(w)
-         call now%shape%linearise_place(w, place_change)
+         call now%shape%linearise_position(w, place_change)
          total = total + real(conjg(normal)*dot_product(change(equations%before_shape + 1:), place_change), dp)
       end do
       slopes(2) = 2*pi/n*total/lattice%area

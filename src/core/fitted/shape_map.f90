@@ -29,8 +29,8 @@ module wavycon_shape_map
       real(dp) :: clustering = 0.0_dp   !! tau, 0 <= tau < 1/(fold+1)
       real(dp), allocatable :: b(:)     !! coefficients b_k [s], shape (0:K)
    contains
-      procedure :: place
-      procedure :: linearise_place
+      procedure :: position_of
+      procedure :: linearise_position
       procedure :: find_differences
       procedure :: linearise_slopes
       procedure :: analytic_part
@@ -41,7 +41,7 @@ module wavycon_shape_map
       procedure :: area
       procedure :: linearise_area
       procedure :: radius
-      procedure :: place_outside
+      procedure :: position_outside
       procedure :: linearise_outside
       procedure :: perimeter
    end type shape_map
@@ -49,7 +49,7 @@ module wavycon_shape_map
 contains
 
    !> The image z(w) of a point of the disc [s], README.md (F15).
-   elemental complex(dp) function place(self, w) result(z)
+   elemental complex(dp) function position_of(self, w) result(z)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
 
@@ -63,10 +63,10 @@ contains
          z = z + self%b(k)*power
          power = power*step
       end do
-   end function place
+   end function position_of
 
    !> The derivatives of z(w) by the coefficients.
-   pure subroutine linearise_place(self, w, derivative)
+   pure subroutine linearise_position(self, w, derivative)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: w
       complex(dp), intent(out) :: derivative(0:)   !! dz/d b_k, shape (0:K)
@@ -81,7 +81,7 @@ contains
          derivative(k) = power
          power = power*step
       end do
-   end subroutine linearise_place
+   end subroutine linearise_position
 
    !> The divided differences of the map between a point v and n points w, without cancellation where w is close to v:
    !>
@@ -258,14 +258,14 @@ contains
    !> The map z(v) outside of the disc [s], README.md (F48):
    !>
    !>     z(v) = b_0 v (1 - tau/conj(v)^fold) + sum over k = 1..K of b_k v^(1 - fold k),   |v| >= 1.
-   pure complex(dp) function place_outside(self, v) result(z)
+   pure complex(dp) function position_outside(self, v) result(z)
       class(shape_map), intent(in) :: self
       complex(dp), intent(in) :: v         !! |v| >= 1
 
       complex(dp) :: slope, conjugate_slope
 
       call self%linearise_outside(v, z, slope, conjugate_slope)
-   end function place_outside
+   end function position_outside
 
    !> The map z(v) outside of the disc and its derivatives dz/dv and dz/d conj(v) [s].
    pure subroutine linearise_outside(self, v, z, slope, conjugate_slope)
@@ -327,7 +327,8 @@ contains
 
       integer :: i
 
-      radius = maxval(abs(self%place([(exp(cmplx(0.0_dp, pi*i/(self%fold*radius_points), dp)), i=0, radius_points)])))
+      radius = maxval(abs(self%position_of([(exp(cmplx(0.0_dp, pi*i/(self%fold*radius_points), dp)), &
+                                              i=0, radius_points)])))
    end function radius
 
    !> The length of the edge [s], by the midpoint rule in the angle, which converges exponentially: README.md, section

@@ -27,8 +27,8 @@ contains
    !> The iteration starts from the preimage of another position if that is given and close. If not, it starts in the
    !> direction of the preimage of the edge's point that lies in the direction of z. There is one such point, because
    !> the shapes are star-shaped. Far outside it starts from z/b_0.
-   pure subroutine find_preimage(shape, z, v, found, near)
-      type(shape_map), intent(in) :: shape
+   pure subroutine find_preimage(map, z, v, found, near)
+      type(shape_map), intent(in) :: map
       complex(dp), intent(in) :: z                !! position x + i y from the centre [s]
       complex(dp), intent(out) :: v               !! its preimage; |v| <= 1 inside the edge
       logical, intent(out) :: found               !! false if Newton's method fails, next to a sharp tip
@@ -52,22 +52,22 @@ contains
       if (found) return
       if (present(near)) v = near
       from_near = .true.
-      least = least_inverse_jacobian*shape%b(0)**2
+      least = least_inverse_jacobian*map%b(0)**2
       do i = 1, most_inverse_steps
          if (abs(v%re) + abs(v%im) <= 0.0_dp) then
             from_near = .false.
-            v = z/shape%b(0)
-            if (abs(z) < far*sum(abs(shape%b))) then
-               call find_edge_in_direction(shape, z, v, edge)
+            v = z/map%b(0)
+            if (abs(z) < far*sum(abs(map%b))) then
+               call find_edge_in_direction(map, z, v, edge)
                v = v*(abs(z)/abs(edge))
             end if
          end if
          square = v%re**2 + v%im**2
          if (square > 1.0_dp) then
-            call shape%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
+            call map%linearise_outside(v, at_v, slope(1), conjugate_slope(1))
          else
-            at_v = shape%place(v)
-            call shape%slopes(1, [v], slope, conjugate_slope)
+            at_v = map%position_of(v)
+            call map%slopes(1, [v], slope, conjugate_slope)
          end if
          left = z - at_v
          jacobian = slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2)
@@ -87,8 +87,8 @@ contains
    !> Finds the point of the edge that lies in the direction of z from the centre, by Newton's method for the angle of
    !> w. A step that would leave the sector between two axes of symmetry is replaced by bisection, as at sharp tips and
    !> on long flat sides.
-   pure subroutine find_edge_in_direction(shape, z, w, edge)
-      type(shape_map), intent(in) :: shape
+   pure subroutine find_edge_in_direction(map, z, w, edge)
+      type(shape_map), intent(in) :: map
       complex(dp), intent(in) :: z         !! a position x + i y, not the centre
       complex(dp), intent(out) :: w        !! preimage of the point, |w| = 1
       complex(dp), intent(out) :: edge     !! the point z(w) [s]
@@ -99,12 +99,12 @@ contains
       integer :: i
 
       direction = atan2(z%im, z%re)
-      below = pi/shape%fold*floor(direction*shape%fold/pi)
-      above = below + pi/shape%fold
+      below = pi/map%fold*floor(direction*map%fold/pi)
+      above = below + pi/map%fold
       angle = direction
       do i = 1, most_inverse_steps
          w = exp(cmplx(0.0_dp, angle, dp))
-         edge = shape%place(w)
+         edge = map%position_of(w)
          missing = direction - atan2(edge%im, edge%re)
          missing = missing - 2*pi*anint(missing/(2*pi))
          if (abs(missing) < angle_tolerance) exit
@@ -114,25 +114,25 @@ contains
             above = angle
          end if
          ! The step divides by the derivative of the polar angle, which is small at tips.
-         angle = angle + missing/max(real(shape%tangent(w)/edge, dp), tiny(1.0_dp))
+         angle = angle + missing/max(real(map%tangent(w)/edge, dp), tiny(1.0_dp))
          if (.not. (angle > below .and. angle < above)) angle = 0.5_dp*(below + above)
       end do
    end subroutine find_edge_in_direction
 
    !> Points of the edge, as `distance_from_edge` takes them.
-   pure function edge_points(shape) result(edge)
-      type(shape_map), intent(in) :: shape
+   pure function edge_points(map) result(edge)
+      type(shape_map), intent(in) :: map
       complex(dp) :: edge(distance_points)   !! points once around the edge [s]
 
       integer :: i
 
-      edge = shape%place([(exp(cmplx(0.0_dp, 2*pi*i/distance_points, dp)), i=1, distance_points)])
+      edge = map%position_of([(exp(cmplx(0.0_dp, 2*pi*i/distance_points, dp)), i=1, distance_points)])
    end function edge_points
 
    !> The distance of a position from the edge, negative inside [s]. The search starts at the nearest of some points of
    !> the edge, and halves the step of the angle.
-   pure real(dp) function distance_from_edge(shape, points, z) result(distance)
-      type(shape_map), intent(in) :: shape
+   pure real(dp) function distance_from_edge(map, points, z) result(distance)
+      type(shape_map), intent(in) :: map
       complex(dp), intent(in) :: points(distance_points)   !! edge_points of the shape
       complex(dp), intent(in) :: z                         !! position x + i y from the centre [s]
 
@@ -141,17 +141,17 @@ contains
       integer, parameter :: distance_halvings = 30
       complex(dp) :: edge(-1:1), outwards
       real(dp) :: angle, step
-      integer :: i, nearest
+      integer :: i, closest
 
       angle = 2*pi*minloc(abs(z - points), 1)/distance_points
       step = 2*pi/distance_points
       do i = 1, distance_halvings
          step = 0.5_dp*step
-         edge = shape%place(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
-         nearest = minloc(abs(z - edge), 1) - 2
-         angle = angle + nearest*step
+         edge = map%position_of(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
+         closest = minloc(abs(z - edge), 1) - 2
+         angle = angle + closest*step
       end do
-      edge = shape%place(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
+      edge = map%position_of(exp(cmplx(0.0_dp, angle + [-step, 0.0_dp, step], dp)))
       outwards = (0.0_dp, -1.0_dp)*(edge(1) - edge(-1))
       distance = sign(abs(z - edge(0)), real((z - edge(0))*conjg(outwards), dp))
    end function distance_from_edge

@@ -4,12 +4,12 @@
 !> or pool, where none does, the integration is along rays.
 module wavycon_spot_integral
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: rule_angles_factor, rule_angles_per_degree, rule_fineness, rule_radii_factor, &
       rule_radii_per_degree
    use wavycon_kinds, only: dp
    use wavycon_shape_search, only: find_edge_in_direction, find_preimage
-   use wavycon_stress_kernel, only: all_fields, stress_fields
+   use wavycon_stress_kernel, only: all_fields, stress_field_count
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)
    private
@@ -23,7 +23,7 @@ module wavycon_spot_integral
    integer, parameter, public :: far_level = 2
 
    type :: spot_integral
-      type(expansion) :: solution                            !! the spot or pool
+      type(fitted_function) :: solution                      !! the spot or pool
       real(dp) :: radius = 0.0_dp                            !! radius of a circle around the shape [s]
       real(dp) :: digits = 0.0_dp                            !! natural logarithm of 1/accuracy
       integer, private :: kernel = 1                         !! all_fields or surface_field of wavycon_stress_kernel
@@ -43,9 +43,9 @@ contains
    !> Prepares the integrals over a spot or pool, and chooses the numbers of points of the rules.
    subroutine start_spot_integral(spot, solution, accuracy, kernel)
       type(spot_integral), intent(out) :: spot
-      type(expansion), intent(in) :: solution      !! the spot or pool
-      real(dp), intent(in) :: accuracy             !! error of the integrals over the peak of pressure or displacement
-      integer, intent(in) :: kernel                !! all_fields or surface_field
+      type(fitted_function), intent(in) :: solution    !! the spot or pool
+      real(dp), intent(in) :: accuracy                 !! error of the integrals over the peak pressure or displacement
+      integer, intent(in) :: kernel                    !! all_fields or surface_field
 
       !> Factor on the radius of the shape, which is known from some points only and may be too small.
       real(dp), parameter :: radius_margin = 1.05_dp
@@ -71,9 +71,9 @@ contains
    !> Adds the fields of the spot or pool at a point.
    subroutine add_at(self, z, depth, fields)
       class(spot_integral), intent(inout) :: self
-      complex(dp), intent(in) :: z                        !! x + i y of the point from the centre [s]
-      real(dp), intent(in) :: depth                       !! depth >= 0; 0 for the surface field [s]
-      real(dp), intent(inout) :: fields(stress_fields)    !! for the surface field only the first one is changed
+      complex(dp), intent(in) :: z                             !! x + i y of the point from the centre [s]
+      real(dp), intent(in) :: depth                            !! depth >= 0; 0 for the surface field [s]
+      real(dp), intent(inout) :: fields(stress_field_count)    !! for the surface field only the first one is changed
 
       complex(dp) :: offset, origin
       integer :: level
@@ -117,7 +117,7 @@ contains
 
       real(dp), parameter :: far_from_disc = 1.5_dp
       complex(dp) :: edge, pole, v
-      real(dp) :: angular, below, distance, nearest, radial
+      real(dp) :: angular, below, distance, closest, radial
       logical :: found
 
       offset = 0.0_dp
@@ -131,7 +131,7 @@ contains
          origin = v
          if (.not. found .or. abs(v) > 1.0_dp) then
             origin = v/abs(v)
-            offset = z - self%solution%shape%place(origin)
+            offset = z - self%solution%shape%position_of(origin)
          end if
          distance = abs(v)
          below = depth/self%stretch
@@ -139,8 +139,8 @@ contains
       ! How fast the errors of rules over a round disc of radius 1 fall, for a point at a distance from its axis,
       ! README.md (F57): as exp(-angular) with each angle, and as exp(-radial) with each radius, where `radial` is twice
       ! the logarithm of the sum of an ellipse's half axes.
-      nearest = min(hypot(distance, below), 1.0_dp)
-      angular = 1.0_dp + ((distance - nearest)**2 + below**2)/(2*max(distance*nearest, 1e-12_dp))
+      closest = min(hypot(distance, below), 1.0_dp)
+      angular = 1.0_dp + ((distance - closest)**2 + below**2)/(2*max(distance*closest, 1e-12_dp))
       angular = acosh(min(angular, 1e6_dp))
       ! Bernstein's ellipse through the nearest singularity of the integrand in |w|^2, which goes from 0 to 1.
       pole = 2*cmplx(distance, below, dp)**2 - 1.0_dp

@@ -7,13 +7,13 @@
 module wavycon_stress_rays
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: find_density
-   use wavycon_expansion, only: expansion
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: ray_angles_of_strain, ray_angles_per_unit, ray_points, ray_points_per_degree, &
       ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
    use wavycon_kinds, only: dp
    use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, of_gap, of_gradient, of_pressure, &
-      stress_fields
+      stress_field_count
    implicit none (type, external)
    private
 
@@ -42,14 +42,14 @@ module wavycon_stress_rays
 contains
 
    !> Chooses the numbers of rays and points for a degree and an accuracy.
-   subroutine start_stress_rays(rays, degree, digits, kernel)
+   subroutine start_stress_rays(rays, degree, e_folds, kernel)
       type(stress_rays), intent(out) :: rays
-      integer, intent(in) :: degree              !! degree of the expansion
-      real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
+      integer, intent(in) :: degree              !! degree of the fitted function
+      real(dp), intent(in) :: e_folds       !! natural logarithm of 1/accuracy
       integer, intent(in) :: kernel              !! all_fields, or surface_field for positions outside
 
       rays%kernel = kernel
-      associate (share => digits/27.0_dp)
+      associate (share => e_folds/27.0_dp)
          rays%least_points = share*(ray_points + ray_points_per_degree*degree)
          rays%angles_per_unit = share*ray_angles_per_unit
          rays%points_per_unit = share*(ray_points_per_unit + ray_points_per_unit_and_degree*degree)
@@ -60,21 +60,21 @@ contains
    !> point closest to z(w_0), with more points on each ray if n > 1.
    subroutine add_at(self, solution, origin, offset, depth, fields)
       class(stress_rays), intent(inout) :: self
-      type(expansion), intent(in) :: solution             !! the spot or pool
+      type(fitted_function), intent(in) :: solution       !! the spot or pool
       complex(dp), intent(in) :: origin                   !! w_0, |w_0| <= 1
       complex(dp), intent(in) :: offset(:)                !! x + i y of the points less z(w_0), shape (n) [s]
       real(dp), intent(in) :: depth(:)                    !! depths >= 0, shape (n) [s]
-      real(dp), intent(inout) :: fields(stress_fields, size(offset))
+      real(dp), intent(inout) :: fields(stress_field_count, size(offset))
 
       complex(dp) :: conjugate_slope(1), density_at_origin(1), normal, slope(1)
-      real(dp) :: cosine, distance, edge, kappa, last, scale, sine, width, x
+      real(dp) :: cosine, distance, edge, kappa, last, factor, sine, width, x
       logical :: on_surface
-      integer :: i, nearest, quarter, rule
+      integer :: i, closest, quarter, rule
 
-      scale = solution%shape%b(0)
-      nearest = minloc(hypot(abs(offset), depth), 1)
-      distance = hypot(abs(offset(nearest)), depth(nearest))
-      on_surface = self%kernel == all_fields .and. distance <= epsilon(1.0_dp)**2*scale
+      factor = solution%shape%b(0)
+      closest = minloc(hypot(abs(offset), depth), 1)
+      distance = hypot(abs(offset(closest)), depth(closest))
+      on_surface = self%kernel == all_fields .and. distance <= epsilon(1.0_dp)**2*factor
       edge = max((1.0_dp - abs(origin))*(1.0_dp + abs(origin)), at_edge)
       call solution%shape%slopes(1, [origin], slope, conjugate_slope)
       ! For a point outside the integrand varies along the edge over its distance from the edge.
@@ -144,7 +144,7 @@ contains
             r = 0.0_dp
             width = alpha
          else
-            associate (offset => offset(nearest), depth => depth(nearest))
+            associate (offset => offset(closest), depth => depth(closest))
                middle = (offset%re*stretch%re + offset%im*stretch%im)/squared
                pole = cmplx(middle, sqrt(max((offset%re**2 + offset%im**2 + depth**2)/squared - middle**2, 0.0_dp)), dp)
             end associate

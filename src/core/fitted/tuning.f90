@@ -150,7 +150,7 @@ module wavycon_fitted_tuning
       !! Largest depth of the table's nodes [s]. Smaller: rounding grows more towards the surface. Larger: more terms.
    real(dp), parameter, public :: rule_angles_per_degree = 2.0_dp
       !! Number of angles of the coarsest rule over the disc, over the degree. Smaller: near merging the rule does not
-      !! resolve the expansion.
+      !! resolve the fitted function.
    real(dp), parameter, public :: rule_radii_per_degree = 0.5_dp
       !! The same for the radii of the rule.
    real(dp), parameter, public :: rule_fineness = 1.6_dp

@@ -49,7 +49,7 @@ contains
       type(wave_stiffness), intent(in) :: kernel   !! half-spaces, or a layer on a rigid base
 
       integer :: a, b, l
-      real(dp) :: far(1), nearest   ! stiffness and frequency of the longest alias that is not summed alone
+      real(dp) :: far(1), closest   ! stiffness and frequency of the longest alias that is not summed alone
       real(dp), allocatable :: stiffness(:), weight(:)
       type(alias_line) :: x, y
 
@@ -57,14 +57,14 @@ contains
       y = line_of(points(2), length(2), last(2))
       allocate (self%frequency(0:last(1), 0:last(2)), source=0.0_dp)
       allocate (self%weight, self%compliance, self%stiffness, mold=self%frequency)
-      nearest = (aliases + 0.5_dp)*minval(points/length, points > 1 .or. [.true., .false.])
-      far = nearest**2
+      closest = (aliases + 0.5_dp)*minval(points/length, points > 1 .or. [.true., .false.])
+      far = closest**2
       call kernel%of(far)
       !$omp parallel do schedule(static) private(a, b, stiffness, weight)
       do l = 0, last(2)
          self%compliance(:, l) = x%far_compliance*y%all_weight(l) + x%all_weight*y%far_compliance(l)
          ! On a layer shorter waves are less compliant, and no stiffer over their frequency (E32).
-         self%stiffness(:, l) = far(1)/nearest*( &
+         self%stiffness(:, l) = far(1)/closest*( &
             x%far_stiffness*y%all_weight(l) + x%far_weight*y%all_stiffness(l) &
             + x%all_stiffness*y%far_weight(l) + x%all_weight*y%far_stiffness(l))
          do b = -aliases, aliases

@@ -25,7 +25,7 @@ contains
       real(dp), allocatable, intent(out) :: kernel(:, :)   !! [length], shape (0:M, 0:N), (0:M, 0:0) in 1-D
 
       integer :: i, j
-      real(dp) :: c2, mean(2), nearest, r2, s2, x, y   ! r2, c2, s2: squares of r and of its cosines with x and y
+      real(dp) :: c2, mean(2), closest, r2, s2, x, y   ! r2, c2, s2: squares of r and of its cosines with x and y
 
       if (points(2) == 1) then
          allocate (kernel(0:points(1), 0:0))
@@ -35,7 +35,7 @@ contains
          return
       end if
       allocate (kernel(0:points(1), 0:points(2)))
-      nearest = (far*maxval(step))**2
+      closest = (far*maxval(step))**2
       ! a and b of (E15a): mean squares of x and y in a cell, measured from its centre.
       mean = step**2/12
       do j = 0, points(2)
@@ -43,7 +43,7 @@ contains
          do i = 0, points(1)
             x = i*step(1)
             r2 = x**2 + y**2
-            if (r2 > nearest) then
+            if (r2 > closest) then
                c2 = x**2/r2
                s2 = y**2/r2
                kernel(i, j) = product(step)/sqrt(r2)*( &

@@ -30,10 +30,10 @@ contains
 
    !> Reads a map. All processes of the parallel program call this together, and an error of one is reported to all.
    !> Errors: exit_file_trouble if the file cannot be read, exit_bad_input if the file is not a map.
-   subroutine read_height_map(path, format, map, error, missing_value, in_slabs)
+   subroutine read_height_map(path, given_format, map, error, missing_value, in_slabs)
       character(*), intent(in) :: path
       !> 'matrix', 'xyz' or 'xz' for a text, 'npy', 'gsf', or 'auto': the format follows from the content and the name.
-      character(*), intent(in) :: format
+      character(*), intent(in) :: given_format
       type(measured_map), intent(out) :: map
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: missing_value   !! a number of the file that stands for a missing height
@@ -60,8 +60,8 @@ contains
       if (present(in_slabs)) file%in_slabs = in_slabs
       call share_error(error)
       if (.not. allocated(error)) then
-         map%format = format
-         if (format == 'auto') then
+         map%format = given_format
+         if (given_format == 'auto') then
             ! Recognise the format by the first bytes or, if these are those of no format, by the ending of the name.
             ending = lower_case(path(index(path, '.', back=.true.) + 1:))
             if (index(file%head, gsf_magic) == 1 .or. ending == 'gsf') map%format = 'gsf'

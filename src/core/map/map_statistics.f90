@@ -36,18 +36,18 @@ contains
 
    !> Computes the statistics of a map, the moments by eq. (M20). The last digit of largest_step(1) may depend on how
    !> the map is distributed over processes.
-   type(map_statistics) function statistics_of(height, format, points, step, repeats) result(statistics)
-      real(dp), intent(in) :: height(:, :)   !! less the mean [length], shape (M, N) or (M, columns of the grid's slab)
-      character(*), intent(in) :: format     !! component of the same name of measured_map
-      integer, intent(in) :: points(2)       !! M, N of the map, which may be distributed
-      real(dp), intent(in) :: step(2)        !! steps between the points along x and y [length]
-      logical, intent(in) :: repeats         !! whether opposite borders are neighbours, as in a periodic map
+   type(map_statistics) function statistics_of(height, file_format, points, step, repeats) result(statistics)
+      real(dp), intent(in) :: height(:, :)      !! less the mean [length], shape (M, N) or (M, columns of the slab)
+      character(*), intent(in) :: file_format   !! component `format` of measured_map
+      integer, intent(in) :: points(2)          !! M, N of the map, which may be distributed
+      real(dp), intent(in) :: step(2)           !! steps between the points along x and y [length]
+      logical, intent(in) :: repeats            !! whether opposite borders are neighbours, as in a periodic map
 
       type(grid_slab) :: slab
       real(dp) :: extremes(2), unit
 
       statistics%points = points
-      statistics%format = format
+      statistics%format = file_format
       statistics%path = ''
       statistics%assumed_sides = ''
       call slab%start(points)

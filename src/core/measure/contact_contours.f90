@@ -55,11 +55,11 @@ contains
          do k = 0, points(1) - 1
             ! The edge does not pass through most grid cells: all their corners belong to the same region.
             if (k < points(1) - 1 .and. l < points(2) - 1) then
-               if (all(regions%at(k:k + 1, l:l + 1) == regions%at(k, l))) cycle
+               if (all(regions%region_at(k:k + 1, l:l + 1) == regions%region_at(k, l))) cycle
             end if
             do number = 1, 5
                point = regions%wrap(k + corner(1, number), l + corner(2, number))
-               at_corner(number) = regions%at(point(1), point(2))
+               at_corner(number) = regions%region_at(point(1), point(2))
             end do
             do number = 1, 4
                ! Follow the boundary of the grid cell counter-clockwise. A curve with the contact on its left enters the

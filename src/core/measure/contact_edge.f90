@@ -27,7 +27,7 @@ module wavycon_contact_edge
       real(dp) :: origin(2) = 0.0_dp   !! the numbers k and l, not always integers, of phi = 0 and theta = 0
    contains
       procedure(point_in_contact), deferred :: in_contact
-      procedure(edge_between_points), deferred :: place_edge
+      procedure(edge_between_points), deferred :: set_edge_point
       procedure :: angles
       procedure :: side
       procedure :: cell_area
@@ -81,7 +81,7 @@ contains
       point%number = number
       point%inner = merge(first, last, inside)
       point%outer = merge(last, first, inside)
-      call self%place_edge(point)
+      call self%set_edge_point(point)
    end function side
 
    !> The area in contact within one grid cell that the edge crosses [rad^2].

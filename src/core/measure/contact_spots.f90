@@ -10,10 +10,10 @@ module wavycon_contact_spots
    implicit none (type, external)
    private
 
-   public :: contact_region, contact_spots, find_spots, in_cell, one_region
+   public :: connected_region, contact_spots, find_spots, in_cell, one_region
 
    !> A connected part of the contact or of the gap.
-   type :: contact_region
+   type :: connected_region
       real(dp) :: area_fraction = 0.0_dp   !! area of the region over the nominal area
       real(dp) :: perimeter = 0.0_dp       !! length of all its edges, also those of its holes [length]; NaN in 1-D
       real(dp) :: load_fraction = 0.0_dp   !! part of the load that a spot carries; NaN if not known, and for pools
@@ -24,12 +24,12 @@ module wavycon_contact_spots
       logical :: percolates(2) = .false.   !! whether the region continues from cell to cell along x, and along y
    contains
       procedure :: is_closed
-   end type contact_region
+   end type connected_region
 
    !> All regions of one solution. If the load has no solution, the components are not allocated.
    type :: contact_spots
-      type(contact_region), allocatable :: spots(:)          !! regions of contact, the largest first
-      type(contact_region), allocatable :: pools(:)          !! regions of gap, the largest first
+      type(connected_region), allocatable :: spots(:)        !! regions of contact, the largest first
+      type(connected_region), allocatable :: pools(:)        !! regions of gap, the largest first
    contains
       procedure :: perimeter => total_perimeter
    end type contact_spots
@@ -40,7 +40,7 @@ contains
 
    !> Whether a region is bounded along both x and y.
    elemental logical function is_closed(self)
-      class(contact_region), intent(in) :: self
+      class(connected_region), intent(in) :: self
 
       is_closed = .not. any(self%percolates)
    end function is_closed
@@ -66,7 +66,7 @@ contains
       logical, intent(in) :: is_map
       type(contact_spots), intent(out) :: answer
 
-      type(contact_region), allocatable :: spots(:), pools(:)
+      type(connected_region), allocatable :: spots(:), pools(:)
 
       if (dimension == 1) then
          call find_strips(curves, loads, is_map, spots, pools)
@@ -89,7 +89,7 @@ contains
       integer, intent(in) :: dimension         !! of the contact, 1 or 2
       type(contact_spots), intent(out) :: answer
 
-      type(contact_region) :: region
+      type(connected_region) :: region
 
       region%area_fraction = 1.0_dp
       region%perimeter = merge(0.0_dp, or_nan(unknown), dimension == 2)
@@ -109,7 +109,7 @@ contains
       real(dp), intent(in) :: total       !! area of all regions of this kind over the nominal area
       real(dp), intent(in) :: length(2)   !! L_x, L_y [length]
       logical, intent(in) :: is_map       !! whether a region and its mirror images have the same number
-      type(contact_region), allocatable, intent(out) :: regions(:)
+      type(connected_region), allocatable, intent(out) :: regions(:)
 
       integer :: excess, i, k   ! excess: whole cells by which the sum of the areas is too large
       logical :: has_outer(maxval(number)), goes_around(maxval(number)), is_counted(maxval(other))
@@ -164,7 +164,7 @@ contains
    !> hardness.
    pure subroutine add_up_to(total, regions)
       real(dp), intent(in) :: total   !! area of all regions over the nominal area
-      type(contact_region), intent(inout) :: regions(:)
+      type(connected_region), intent(inout) :: regions(:)
 
       if (sum(regions%area_fraction) > 0.0_dp) &
          regions%area_fraction = regions%area_fraction*(total/sum(regions%area_fraction))
@@ -176,7 +176,7 @@ contains
       type(contact_contour), intent(in) :: strips(:)   !! all strips of the cell, ascending, at least one
       real(dp), intent(in) :: loads(:)                 !! as of find_spots
       logical, intent(in) :: is_map                    !! whether the cell consists of a map and its mirror image
-      type(contact_region), allocatable, intent(out) :: spots(:), pools(:)
+      type(connected_region), allocatable, intent(out) :: spots(:), pools(:)
 
       real(dp) :: gap(2), load
       integer :: i, n
@@ -207,7 +207,7 @@ contains
    contains
 
       !> The region of one strip or gap of the cell; if the cell is a map and its image, of its part within the map.
-      pure type(contact_region) function strip(ends, load)
+      pure type(connected_region) function strip(ends, load)
          real(dp), intent(in) :: ends(2)   !! first and last angle [rad]
          real(dp), intent(in) :: load      !! load of the strip over that of the cell
 
@@ -313,8 +313,8 @@ contains
 
    !> Sorts regions by their areas.
    subroutine sort_by_area(regions, sorted)
-      type(contact_region), intent(in) :: regions(:)
-      type(contact_region), allocatable, intent(out) :: sorted(:)   !! the largest first
+      type(connected_region), intent(in) :: regions(:)
+      type(connected_region), allocatable, intent(out) :: sorted(:)   !! the largest first
 
       integer(c_size_t) :: order(size(regions))
 

@@ -54,10 +54,10 @@ module wavycon_grid_edge
       type(edge_rule) :: rule             !! the constants for this kind of pressures
    contains
       procedure :: in_contact
-      procedure :: place_edge
+      procedure :: set_edge_point
       procedure :: beside_chord
-      procedure :: place
-      procedure :: at
+      procedure :: index_in_grid
+      procedure :: value_at
       procedure :: column
       procedure :: may_touch
       procedure :: marks
@@ -148,43 +148,43 @@ contains
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
 
-      in_contact = self%at(k, l) > 0.0_dp
+      in_contact = self%value_at(k, l) > 0.0_dp
    end function in_contact
 
    !> Pressure, or minus the gap, at any point of the plane. If the grid is distributed, only at points of the own
    !> columns and of `reach` columns on either side.
-   pure real(dp) function at(self, k, l)
+   pure real(dp) function value_at(self, k, l)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k, l
 
       integer :: row
 
       row = k
-      if (k < 1 .or. k > self%slab%points(1)) row = self%place(k, 1)
+      if (k < 1 .or. k > self%slab%points(1)) row = self%index_in_grid(k, 1)
       if (l >= self%slab%first .and. l <= self%slab%last) then
-         at = self%pressure_or_gap(row, l - self%slab%first + 1)
+         value_at = self%pressure_or_gap(row, l - self%slab%first + 1)
       else if (.not. self%slab%is_distributed) then
-         at = self%pressure_or_gap(row, self%place(l, 2))
+         value_at = self%pressure_or_gap(row, self%index_in_grid(l, 2))
       else if (l < self%slab%first) then
-         at = self%low(row, reach + 1 - (self%slab%first - l))
+         value_at = self%low(row, reach + 1 - (self%slab%first - l))
       else
-         at = self%high(row, l - self%slab%last)
+         value_at = self%high(row, l - self%slab%last)
       end if
-   end function at
+   end function value_at
 
    !> Pressure, or minus the gap, at the points 1 .. M of a column, and at the two points 0 and M + 1 beyond its ends,
    !> which are images of others.
    pure function column(self, l) result(values)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l   !! any column that `at` may be called for
+      integer, intent(in) :: l   !! any column that `value_at` may be called for
       real(dp) :: values(0:self%slab%points(1) + 1)
 
       integer :: m
 
-      ! Whole columns are copied: calls of `at` for each point would take a tenth of the time of a solution.
+      ! Whole columns are copied: calls of `value_at` for each point would take a tenth of the time of a solution.
       m = self%slab%points(1)
       if (.not. self%slab%is_distributed) then
-         values(1:m) = self%pressure_or_gap(:, self%place(l, 2))
+         values(1:m) = self%pressure_or_gap(:, self%index_in_grid(l, 2))
       else if (l < self%slab%first) then
          values(1:m) = self%low(:, reach + 1 - (self%slab%first - l))
       else if (l > self%slab%last) then
@@ -192,18 +192,18 @@ contains
       else
          values(1:m) = self%pressure_or_gap(:, l - self%slab%first + 1)
       end if
-      values(0) = values(self%place(0, 1))
-      values(m + 1) = values(self%place(m + 1, 1))
+      values(0) = values(self%index_in_grid(0, 1))
+      values(m + 1) = values(self%index_in_grid(m + 1, 1))
    end function column
 
    !> Whether a column has points in contact. If the grid is distributed the result is .true., as this is not known for
    !> columns of other processes.
    pure logical function may_touch(self, l)
       class(grid_edge), intent(in) :: self
-      integer, intent(in) :: l   !! any column that `at` may be called for
+      integer, intent(in) :: l   !! any column that `value_at` may be called for
 
       may_touch = self%slab%is_distributed
-      if (.not. may_touch) may_touch = self%touched(self%place(l, 2))
+      if (.not. may_touch) may_touch = self%touched(self%index_in_grid(l, 2))
    end function may_touch
 
    !> At the points of `column`: 1 in contact, 0 elsewhere.
@@ -218,22 +218,22 @@ contains
    end function marks
 
    !> The number, along one direction, of the grid's point of which a point of the plane is an image.
-   elemental integer function place(self, k, direction)
+   elemental integer function index_in_grid(self, k, direction)
       class(grid_edge), intent(in) :: self
       integer, intent(in) :: k           !! number of the point of the plane along this direction, any integer
       integer, intent(in) :: direction   !! 1: phi, 2: theta
 
-      place = image_of_point(k, self%slab%points(direction), self%even)
-   end function place
+      index_in_grid = image_of_point(k, self%slab%points(direction), self%even)
+   end function index_in_grid
 
    !> Sets the angles of the point where pressure and weighted gap balance. The edge itself lies rule%offset steps
    !> farther inside the contact, which `beside_chord` takes into account.
-   pure subroutine place_edge(self, point)
+   pure subroutine set_edge_point(self, point)
       class(grid_edge), intent(in) :: self
       type(edge_point), intent(inout) :: point   !! on entry `inner` and `outer` are set
 
       point%angle = self%angles(point%inner + balance(self, point, self%rule%gap_weight)*(point%outer - point%inner))
-   end subroutine place_edge
+   end subroutine set_edge_point
 
    !> The distance of the point where pressure and weighted gap balance from the grid's point in contact, in grid steps,
    !> 0 to 1: p/(p + w s g), with the pressure p at the point in contact, the gap g at the point outside, the weight w
@@ -257,7 +257,8 @@ contains
          end associate
          stiffness = norm2(slope*edge%stiffness(1 + across))/norm2(slope)
       end if
-      associate (pressure => edge%at(point%inner(1), point%inner(2)), gap => -edge%at(point%outer(1), point%outer(2)))
+      associate (pressure => edge%value_at(point%inner(1), point%inner(2)), &
+                 gap => -edge%value_at(point%outer(1), point%outer(2)))
          balance = pressure/(pressure + weight*stiffness*gap)
       end associate
 
@@ -267,7 +268,7 @@ contains
       pure real(dp) function height(node)
          integer, intent(in) :: node(2)   !! (k, l)
 
-         height = edge%at(node(1), node(2))
+         height = edge%value_at(node(1), node(2))
          if (height <= 0.0_dp) height = height*weight*edge%stiffness(1)
       end function height
 

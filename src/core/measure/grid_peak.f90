@@ -64,12 +64,12 @@ contains
       ! Along each direction the middle step of the polynomial goes from the largest pressure to the larger one of its
       ! two neighbours. So a solution and its mirror image have the same peak.
       base = best
-      if (edge%at(best(1) - 1, best(2)) > edge%at(best(1) + 1, best(2))) base(1) = best(1) - 1
-      if (edge%at(best(1), best(2) - 1) > edge%at(best(1), best(2) + 1)) base(2) = best(2) - 1
+      if (edge%value_at(best(1) - 1, best(2)) > edge%value_at(best(1) + 1, best(2))) base(1) = best(1) - 1
+      if (edge%value_at(best(1), best(2) - 1) > edge%value_at(best(1), best(2) + 1)) base(2) = best(2) - 1
       field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=edge%slab%points(2) > 1)
       do j = first, last
          do i = first, last
-            field%values(i, j) = edge%at(base(1) + i, base(2) + j)
+            field%values(i, j) = edge%value_at(base(1) + i, base(2) + j)
          end do
       end do
       peak = max(maxval(field%values), 0.0_dp)
@@ -79,8 +79,8 @@ contains
          call field%maximise(position, height)
          peak = max(peak, height)
       else
-         beside = [edge%at(best(1) - 1, best(2)), edge%at(best(1) + 1, best(2)), edge%at(best(1), best(2) - 1), &
-                   edge%at(best(1), best(2) + 1)]
+         beside = [edge%value_at(best(1) - 1, best(2)), edge%value_at(best(1) + 1, best(2)), &
+                   edge%value_at(best(1), best(2) - 1), edge%value_at(best(1), best(2) + 1)]
          bend = unknown
          if (all(beside > 0.0_dp)) bend = 0.5_dp*sum(peak - beside)
       end if

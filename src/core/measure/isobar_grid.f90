@@ -25,7 +25,7 @@ module wavycon_isobar_grid
       real(dp), allocatable :: along(:, :, :), across(:, :, :)
    contains
       procedure :: in_contact
-      procedure :: place_edge
+      procedure :: set_edge_point
       procedure :: area_fraction
       procedure, private :: node
    end type isobar_grid
@@ -79,7 +79,7 @@ contains
    end function node
 
    !> Sets the point between two nodes where p = level, and the gradient of the pressure there.
-   pure subroutine place_edge(self, point)
+   pure subroutine set_edge_point(self, point)
       class(isobar_grid), intent(in) :: self
       type(edge_point), intent(inout) :: point   !! on entry `inner` and `outer` are set
 
@@ -97,7 +97,7 @@ contains
       call evaluate_line(self%across(:, line, along), point%angle(along), point%slope(across), unused)
       ! A line beyond pi is the mirror image of the line that `folded` gives: the derivative across it changes its sign.
       if (modulo(low(across), self%period(1)) > self%intervals) point%slope(across) = -point%slope(across)
-   end subroutine place_edge
+   end subroutine set_edge_point
 
    !> The fraction of the surface with p >= level.
    pure real(dp) function area_fraction(self)

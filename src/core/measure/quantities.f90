@@ -157,10 +157,10 @@ contains
    end function are_resolved
 
    !> Finds the quantity that stands in a column of tables.
-   pure subroutine find_quantity(name, quantity, kind, is_error, in_unit)
+   pure subroutine find_quantity(name, quantity, quantity_kind, is_error, in_unit)
       character(*), intent(in) :: name        !! name of the column, which must be that of a quantity or of its error
       integer, intent(out) :: quantity        !! one of the numbers above
-      integer, intent(out) :: kind            !! kind of the quantity, one of the kinds above
+      integer, intent(out) :: quantity_kind   !! kind of the quantity, one of the kinds above
       logical, intent(out) :: is_error        !! whether the column has the error of the quantity
       logical, intent(out) :: in_unit         !! whether the column is in the deck's units
 
@@ -179,7 +179,7 @@ contains
          in_unit = of_value(length + 1:) == ''
          if (.not. in_unit .and. of_value(length + 1:) /= behind_name(listed%kind)) cycle
          quantity = listed%number
-         kind = listed%kind
+         quantity_kind = listed%kind
          exit
       end do
       call assert(quantity > 0, 'a column of the list: '//name)

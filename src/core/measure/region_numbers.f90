@@ -13,7 +13,7 @@ module wavycon_region_numbers
    type :: region_numbers
       !> For each point of one periodic cell the number of its spot, from 1, or minus the number of its pool; shape
       !> (0:cell_k - 1, 0:cell_l - 1).
-      integer, allocatable :: at(:, :)
+      integer, allocatable :: region_at(:, :)
       integer :: spots = 0, pools = 0   !! numbers of spots and of pools
       integer :: skew = 0               !! steps along k by which a row of cells is shifted against the row below
    contains
@@ -36,7 +36,7 @@ contains
       logical :: is_contact, last, with_mirrored
       integer :: k, l, root, runs
 
-      allocate (numbers%at(0:cell(1) - 1, 0:cell(2) - 1))
+      allocate (numbers%region_at(0:cell(1) - 1, 0:cell(2) - 1))
       numbers%skew = skew
       ! Number the runs of points of one kind along the rows: positive in contact, negative elsewhere.
       runs = 0
@@ -45,7 +45,7 @@ contains
          do k = 0, cell(1) - 1
             is_contact = edge%in_contact(k, l)
             if (k == 0 .or. (is_contact .neqv. last)) runs = runs + 1
-            numbers%at(k, l) = merge(runs, -runs, is_contact)
+            numbers%region_at(k, l) = merge(runs, -runs, is_contact)
             last = is_contact
          end do
       end do
@@ -59,7 +59,7 @@ contains
       allocate (number_of(runs), source=0)
       do l = 0, cell(2) - 1
          do k = 0, cell(1) - 1
-            associate (run => numbers%at(k, l))
+            associate (run => numbers%region_at(k, l))
                call find_root(parent, abs(run), root)
                if (number_of(root) == 0) then
                   if (run > 0) then
@@ -84,36 +84,36 @@ contains
 
       integer :: rows
 
-      rows = size(self%at, 2)
+      rows = size(self%region_at, 2)
       point(2) = modulo(l, rows)
-      point(1) = modulo(k - self%skew*((l - point(2))/rows), size(self%at, 1))
+      point(1) = modulo(k - self%skew*((l - point(2))/rows), size(self%region_at, 1))
    end function wrap
 
    !> Joins the runs of a row with the runs that they touch: across the side of the cell in the same row, and in the
    !> next row.
    subroutine join_row(numbers, l, with_images, parent)
-      type(region_numbers), intent(in) :: numbers   !! numbers%at has the numbers of the runs with their signs
+      type(region_numbers), intent(in) :: numbers   !! numbers%region_at has the numbers of the runs with their signs
       integer, intent(in) :: l                      !! the row, from 0
       logical, intent(in) :: with_images            !! whether runs are joined with their mirror images as well
       integer, intent(inout) :: parent(:)           !! the forest of joined runs: each run's parent, a root's is itself
 
-      integer :: above(-1:size(numbers%at, 1)), k
+      integer :: above(-1:size(numbers%region_at, 1)), k
 
-      associate (last => ubound(numbers%at, 1), rows => size(numbers%at, 2))
-         call join(parent, numbers%at(0, l), numbers%at(last, l))
-         above(0:last) = numbers%at(:, modulo(l + 1, rows))
+      associate (last => ubound(numbers%region_at, 1), rows => size(numbers%region_at, 2))
+         call join(parent, numbers%region_at(0, l), numbers%region_at(last, l))
+         above(0:last) = numbers%region_at(:, modulo(l + 1, rows))
          if (l + 1 == rows) above(0:last) = cshift(above(0:last), -numbers%skew)
          above(-1) = above(last)
          above(last + 1) = above(0)
          do k = 0, last
-            call join(parent, numbers%at(k, l), above(k))
+            call join(parent, numbers%region_at(k, l), above(k))
             if (with_images) then
-               call join(parent, numbers%at(k, l), numbers%at(modulo(1 - k, last + 1), l))
-               call join(parent, numbers%at(k, l), numbers%at(k, modulo(1 - l, rows)))
+               call join(parent, numbers%region_at(k, l), numbers%region_at(modulo(1 - k, last + 1), l))
+               call join(parent, numbers%region_at(k, l), numbers%region_at(k, modulo(1 - l, rows)))
             end if
-            if (numbers%at(k, l) < 0) cycle
-            call join(parent, numbers%at(k, l), above(k - 1))
-            call join(parent, numbers%at(k, l), above(k + 1))
+            if (numbers%region_at(k, l) < 0) cycle
+            call join(parent, numbers%region_at(k, l), above(k - 1))
+            call join(parent, numbers%region_at(k, l), above(k + 1))
          end do
       end associate
    end subroutine join_row

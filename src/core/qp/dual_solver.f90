@@ -108,13 +108,13 @@ contains
       real(dp) :: slack, slack_terms, kept_slack
       real(dp), allocatable :: normals(:, :)       ! those of the candidates
       integer :: candidates(size(problem%bounds))
-      integer :: count, i, n, place, violated, small_steps
+      integer :: listed, i, n, place, violated, small_steps
       logical :: is_active
 
       n = size(x)
       allocate (normals(n, 0))
       small_steps = 0
-      count = 0
+      listed = 0
       kept_slack = 0.0_dp
       multipliers = 0.0_dp
       call release_negative(problem, set, x, multipliers, pivots)
@@ -122,17 +122,17 @@ contains
          ! The most violated constraint of the candidates, or of all if none of these is violated by much.
          slack = 0.0_dp
          place = 0
-         if (count > 0) then
-            slacks(:count) = -problem%bounds(candidates(:count))
-            call dgemv('T', n, count, 1.0_dp, normals, n, x, 1, 1.0_dp, slacks, 1)
-            place = minloc(slacks(:count), dim=1)
+         if (listed > 0) then
+            slacks(:listed) = -problem%bounds(candidates(:listed))
+            call dgemv('T', n, listed, 1.0_dp, normals, n, x, 1, 1.0_dp, slacks, 1)
+            place = minloc(slacks(:listed), dim=1)
             slack = slacks(place)
          end if
          if (slack < kept_slack) then
             violated = candidates(place)
-            candidates(place) = candidates(count)
-            normals(:, place) = normals(:, count)
-            count = count - 1
+            candidates(place) = candidates(listed)
+            normals(:, place) = normals(:, listed)
+            listed = listed - 1
          else
             call problem%slacks(x, slacks)
             slacks(set%active(:set%count)) = 0.0_dp
@@ -140,13 +140,13 @@ contains
             if (violated == 0) return
             slack = slacks(violated)
             kept_slack = candidate_part*slack
-            count = 0
+            listed = 0
             do i = 1, size(slacks)
                if (slacks(i) > kept_slack .or. i == violated) cycle
-               count = count + 1
-               candidates(count) = i
+               listed = listed + 1
+               candidates(listed) = i
             end do
-            normals = problem%normals(:, candidates(:count))
+            normals = problem%normals(:, candidates(:listed))
          end if
          slack_terms = abs(problem%bounds(violated)) + maxval(abs(x))*maxval(abs(problem%normals(:, violated)))
          if (slack >= -zero_slack*slack_terms) return

@@ -36,7 +36,7 @@ contains
       real(dp), intent(out) :: multipliers(:)               !! > 0 if there are steps, shape (m)
       integer, intent(out) :: steps
 
-      real(dp), dimension(size(multipliers)) :: slack, slack_change, change, product
+      real(dp), dimension(size(multipliers)) :: slack, slack_change, change, products
       real(dp), dimension(size(problem%linear)) :: x, x_change
       real(dp), allocatable :: matrix(:, :)
       integer(c_size_t) :: order(size(multipliers))
@@ -63,18 +63,18 @@ contains
             end do
             call dpotrf('L', n, matrix, n, info)
             if (info /= 0) exit
-            product = slack*multipliers
-            mean = sum(product)/m
+            products = slack*multipliers
+            mean = sum(products)/m
             ! First towards products of 0; then, with what that says of their curvature, towards equal ones.
             do pass = 1, 2
                x_change = problem%linear - problem%hessian*x
-               call dgemv('N', n, m, 1.0_dp, problem%normals, n, multipliers - product/slack, 1, 1.0_dp, x_change, 1)
+               call dgemv('N', n, m, 1.0_dp, problem%normals, n, multipliers - products/slack, 1, 1.0_dp, x_change, 1)
                call dtrsv('L', 'N', 'N', n, matrix, n, x_change, 1)
                call dtrsv('L', 'T', 'N', n, matrix, n, x_change, 1)
                call rows%of(x_change, slack_change)
-               change = -(product + multipliers*slack_change)/slack
+               change = -(products + multipliers*slack_change)/slack
                step = 1.0_dp/max(1.0_dp, maxval(-slack_change/slack), maxval(-change/multipliers))
-               if (pass == 1) product = product + slack_change*change - mean* &
+               if (pass == 1) products = products + slack_change*change - mean* &
                   (dot_product(slack + step*slack_change, multipliers + step*change)/(m*mean))**3
             end do
             step = step_share*step

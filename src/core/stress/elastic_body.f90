@@ -12,7 +12,8 @@ module wavycon_elastic_body
    !> is no lateral strain. `laterally_free`: none. `hydrostatic`: -pbar.
    integer, parameter, public :: laterally_constrained = 1, laterally_free = 2, hydrostatic = 3
 
-   !> The argument `parts` of `stress` where the pressure has no waves: `stress` then returns that of the mean pressure.
+   !> The argument `nu_terms` of `stress` where the pressure has no waves: `stress` then returns that of the mean
+   !> pressure.
    real(dp), parameter, public :: no_waves(6, 2) = 0.0_dp
 
    type :: elastic_body
@@ -26,17 +27,17 @@ contains
 
    !> The stress at a point, tension positive: the sum of that of the pressure's waves, (S1), and that of the mean
    !> pressure, (S2).
-   pure function stress(self, parts, pbar)
+   pure function stress(self, nu_terms, pbar)
       class(elastic_body), intent(in) :: self
-      !> The stress of the waves is parts(:, 1) + nu*parts(:, 2): see `at` of wavycon_stress_fields.
-      real(dp), intent(in) :: parts(6, 2)
-      real(dp), intent(in) :: pbar          !! mean pressure, in the unit of `parts`
+      !> The stress of the waves is nu_terms(:, 1) + nu*nu_terms(:, 2): see `at` of wavycon_stress_fields.
+      real(dp), intent(in) :: nu_terms(6, 2)
+      real(dp), intent(in) :: pbar          !! mean pressure, in the unit of `nu_terms`
       real(dp) :: stress(6)                 !! xx, yy, zz, xy, xz, yz, in the same unit
 
       real(dp) :: lateral(3)   ! lateral stress over -pbar for each choice of `lateral`
 
       lateral = [self%nu/(1.0_dp - self%nu), 0.0_dp, 1.0_dp]
-      stress = parts(:, 1) + self%nu*parts(:, 2)
+      stress = nu_terms(:, 1) + self%nu*nu_terms(:, 2)
       stress([xx, yy]) = stress([xx, yy]) - lateral(self%lateral)*pbar
       stress(zz) = stress(zz) - pbar
    end function stress

@@ -10,7 +10,7 @@ module wavycon_largest_stress
    use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dsyev
-   use wavycon_stress_fields, only: start_place, stress_fields
+   use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_stress_tensor, only: largest_shear, von_mises
    use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, likely_gain, &
       most_models, search_accuracy, reach_factor, refined_places
@@ -22,9 +22,9 @@ module wavycon_largest_stress
    type :: largest_stress
       real(dp) :: value = 0.0_dp        !! [p*]
       real(dp) :: error = 0.0_dp        !! estimate of its error [p*]; NaN if there is none
-      real(dp) :: place(3) = 0.0_dp     !! X, Y, Z [rad]
+      real(dp) :: position(3) = 0.0_dp  !! X, Y, Z [rad]
    contains
-      procedure :: place_in_cell
+      procedure :: position_in_cell
    end type largest_stress
 
 contains
@@ -37,13 +37,13 @@ contains
       type(largest_stress), intent(out), optional :: yielding, shear   !! von Mises stress; shear stress
 
       real(dp) :: unknown
-      type(start_place), allocatable :: places(:)
+      type(start_point), allocatable :: places(:)
 
       unknown = ieee_value(unknown, ieee_quiet_nan)
       if (present(yielding)) yielding = largest_stress(unknown, unknown, unknown)
       if (present(shear)) shear = largest_stress(unknown, unknown, unknown)
       if (.not. fields%exist) return
-      call fields%start_places(body, places)
+      call fields%start_points(body, places)
       if (present(yielding)) call search(fields, body, .false., places, yielding)
       if (present(shear)) call search(fields, body, .true., places, shear)
    end subroutine find_largest_stresses
@@ -51,23 +51,23 @@ contains
    !> The position of the largest stress as parts of the cell: x/L_x and y/L_y, from 0 to 1, and z/L_x. In a cell of a
    !> height map and its mirror images the position is moved to the equivalent one in the map itself. NaN if the load
    !> has no solution.
-   pure function place_in_cell(self, parts) result(place)
+   pure function position_in_cell(self, maps_in_cell) result(place)
       class(largest_stress), intent(in) :: self
-      integer, intent(in) :: parts(2)   !! maps along x and y in the cell: 2 if mirrored, otherwise 1 (surface%parts())
-      real(dp) :: place(3)              !! [-]
+      integer, intent(in) :: maps_in_cell(2)   !! maps along x and y in the cell: 2 if mirrored, otherwise 1
+      real(dp) :: place(3)                     !! [-]
 
       !> An angle between -1e-6 and 0 is 0 but for rounding. Without this tolerance the position would be reported on
       !> the far side of the cell.
       real(dp), parameter :: rounding = 1e-6_dp   ! [rad]
 
-      place = self%place
+      place = self%position
       ! Comparisons with NaN raise an exception, which Debug builds trap.
       if (ieee_is_nan(self%value)) return
       place(:2) = modulo(place(:2) + rounding, 2*pi) - rounding
       where (abs(place(:2)) <= rounding) place(:2) = 0.0_dp
       place = place/(2*pi)
-      where (parts > 1) place(:2) = abs(place(:2) - anint(place(:2)))
-   end function place_in_cell
+      where (maps_in_cell > 1) place(:2) = abs(place(:2) - anint(place(:2)))
+   end function position_in_cell
 
    !> Refines the places with the largest stresses, at most `refined_places` of them, and returns the largest refined
    !> stress.
@@ -81,13 +81,13 @@ contains
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
       logical, intent(in) :: by_shear   !! true: the shear stress is searched for; false: the von Mises stress
-      type(start_place), intent(in) :: places(:)   !! at least one
+      type(start_point), intent(in) :: places(:)   !! at least one
       type(largest_stress), intent(out) :: answer
 
       !> Sizes of stresses [p*]: at the start places, -1 where a place is not to be refined; the least one that is
       !> refined; the answer less its error if it is doubtful; the largest one plus its error.
       real(dp) :: values(size(places)), threshold, certain, lower, highest
-      real(dp) :: component_error, least_gain, gain, parts(6, 2), uncertainty
+      real(dp) :: component_error, least_gain, gain, nu_terms(6, 2), uncertainty
       logical :: is_doubtful, is_larger
       type(largest_stress) :: other
       integer :: best, i, k
@@ -95,8 +95,8 @@ contains
       values = [(size_of(by_shear, places(i)%stress), i=1, size(places))]
       best = maxloc(values, dim=1)
       least_gain = search_accuracy*values(best)
-      associate (here => places(best)%place)
-         call fields%at(here(1), here(2), here(3), parts, component_error)
+      associate (here => places(best)%position)
+         call fields%at(here(1), here(2), here(3), nu_terms, component_error)
       end associate
       if (.not. ieee_is_nan(component_error)) least_gain = min(gain_part*component_error, least_gain)
       answer%value = -1.0_dp
@@ -107,11 +107,11 @@ contains
          best = maxloc(values, dim=1)
          if (values(best) < threshold) exit
          other%value = values(best)
-         other%place = places(best)%place
+         other%position = places(best)%position
          call refine(fields, body, by_shear, places(best)%width, least_gain, answer%value, other, gain)
-         if (fields%dimension == 1) other%place(2) = 0.0_dp
-         call fields%at(other%place(1), other%place(2), other%place(3), parts, component_error)
-         other%value = size_of(by_shear, body%stress(parts, fields%pbar_over_pstar))
+         if (fields%dimension == 1) other%position(2) = 0.0_dp
+         call fields%at(other%position(1), other%position(2), other%position(3), nu_terms, component_error)
+         other%value = size_of(by_shear, body%stress(nu_terms, fields%pbar_over_pstar))
          ! (S7).
          other%error = error_of_invariant*component_error + gain
          uncertainty = 0.0_dp
@@ -129,14 +129,14 @@ contains
          ! Errors fall with depth. So where a stress is doubtful, the stresses at all places that are no deeper are
          ! doubtful too. These places are given up, and the next deeper ones are refined.
          if (is_doubtful) then
-            associate (no_deeper => places%place(3) <= places(best)%place(3))
+            associate (no_deeper => places%position(3) <= places(best)%position(3))
                highest = max(highest, maxval(values, mask=no_deeper) + uncertainty)
                where (no_deeper) values = -1.0_dp
             end associate
          else
             threshold = max(threshold, close_to_largest*values(best))
          end if
-         associate (distances => [(norm2(places(k)%place - places(best)%place), k=1, size(places))])
+         associate (distances => [(norm2(places(k)%position - places(best)%position), k=1, size(places))])
             where (distances <= 2*places(best)%width) values = -1.0_dp
          end associate
       end do
@@ -168,12 +168,12 @@ contains
       reach = first_reach*width
       do i = 1, most_models
          last_value = best%value
-         start = best%place
+         start = best%position
          call fields%expand(start, width, reach, noise)
          if (noise > 0.0_dp) best%value = size_near(start)
          noise = max(noise, rounding)*best%value
          call improve(promise)
-         step = maxval(abs(best%place - start))
+         step = maxval(abs(best%position - start))
          ! A model that is so large that the stress is not quadratic over it may promise much and gain nothing. The
          ! promise then keeps the search going, with a smaller model.
          gain = max(best%value - last_value, promise)
@@ -247,7 +247,7 @@ contains
          value = size_near(position)
          if (value > best%value + noise) then
             best%value = value
-            best%place = position
+            best%position = position
          end if
       end subroutine try
 
@@ -255,10 +255,10 @@ contains
       real(dp) function size_near(position)
          real(dp), intent(in) :: position(3)   !! X, Y, Z [rad]
 
-         real(dp) :: parts(6, 2)
+         real(dp) :: nu_terms(6, 2)
 
-         call fields%near(position, parts)
-         size_near = size_of(by_shear, body%stress(parts, fields%pbar_over_pstar))
+         call fields%near(position, nu_terms)
+         size_near = size_of(by_shear, body%stress(nu_terms, fields%pbar_over_pstar))
       end function size_near
 
    end subroutine refine

@@ -6,7 +6,7 @@
 !> covers two blocks of the level below.
 module wavycon_load_tree
    use wavycon_kinds, only: dp
-   use wavycon_stress_kernel, only: add_sources, all_fields, of_pressure, stress_fields
+   use wavycon_stress_kernel, only: add_sources, all_fields, of_pressure, stress_field_count
    use wavycon_stress_tuning, only: nodes, smooth_places, whole_from
    implicit none (type, external)
    private
@@ -105,7 +105,7 @@ contains
    pure function sums(self, place)
       class(load_tree), intent(in) :: self
       real(dp), intent(in) :: place(3)   !! x, y, Z [rad of x]
-      real(dp) :: sums(stress_fields)
+      real(dp) :: sums(stress_field_count)
 
       sums = 0.0_dp
       call add_block(self, size(self%levels), [0, 0], place, sums)
@@ -170,9 +170,9 @@ contains
       integer, intent(in) :: number     !! of the block's level
       integer, intent(in) :: block(2)   !! number of the block along x and y, from 0
       real(dp), intent(in) :: place(3)  !! x, y, Z of the point [rad of x]
-      real(dp), intent(inout) :: sums(stress_fields)
+      real(dp), intent(inout) :: sums(stress_field_count)
 
-      real(dp) :: depth, distance, fields(stress_fields), from_corner(2)
+      real(dp) :: depth, distance, fields(stress_field_count), from_corner(2)
       real(dp), dimension(nodes, nodes) :: x, y
       integer :: i, lower(2)
 

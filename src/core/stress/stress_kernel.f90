@@ -14,11 +14,11 @@ module wavycon_stress_kernel
    implicit none (type, external)
    private
 
-   public :: add_sources, stress_parts
+   public :: add_sources, nu_terms_of
 
    !> The number of fields, and the position of each one: H, z H_z, then the real and the imaginary part of D^2 L, of
    !> z D^2 V and of z D H.
-   integer, parameter, public :: stress_fields = 8
+   integer, parameter, public :: stress_field_count = 8
    integer, parameter, public :: h_field = 1, hz_field = 2, l_field = 3, v_field = 5, dh_field = 7
 
    !> The kinds of sources: a pressure; a gap; a gap that is given by its gradient.
@@ -43,10 +43,10 @@ contains
       !> Strengths of the sources. A pressure or a gap: strength_x is its value times the source's area, and strength_y
       !> is not used. A gradient: strength_x and strength_y are its components times the area.
       real(dp), intent(in) :: strength_x(n), strength_y(n)
-      real(dp), intent(inout) :: fields(stress_fields)        !! for surface_field only the first one is changed
+      real(dp), intent(inout) :: fields(stress_field_count)   !! for surface_field only the first one is changed
 
       real(dp), dimension(n) :: inverse, r
-      real(dp) :: along, cross, difference, fifth, im, l, of_dh, re, seventh, third, total(stress_fields)
+      real(dp) :: along, cross, difference, fifth, im, l, of_dh, re, seventh, third, total(stress_field_count)
       integer :: i
 
       ! Roots and quotients are taken of whole arrays, because compilers vectorise them so.
@@ -101,19 +101,19 @@ contains
       fields = fields + total
    end subroutine add_sources
 
-   !> The stresses from the fields, (F51). For Poisson's ratio nu they are parts(:, 1) + nu*parts(:, 2).
-   pure function stress_parts(fields) result(parts)
-      real(dp), intent(in) :: fields(stress_fields)   !! in the order of the names above
-      real(dp) :: parts(6, 2)                         !! xx, yy, zz, xy, xz, yz, in the unit of the fields
+   !> The stresses from the fields, (F51). For Poisson's ratio nu they are nu_terms(:, 1) + nu*nu_terms(:, 2).
+   pure function nu_terms_of(fields) result(nu_terms)
+      real(dp), intent(in) :: fields(stress_field_count)   !! in the order of the names above
+      real(dp) :: nu_terms(6, 2)                           !! xx, yy, zz, xy, xz, yz, in the unit of the fields
 
       associate (h => fields(1), zhz => fields(2), l => fields(3:4), v => fields(5:6), dh => fields(7:8))
-         parts(1, :) = [0.5_dp*(-h - zhz + l(1) - v(1)), -h - l(1)]
-         parts(2, :) = [0.5_dp*(-h - zhz - l(1) + v(1)), -h + l(1)]
-         parts(3, :) = [-h + zhz, 0.0_dp]
-         parts(4, :) = [0.5_dp*(l(2) - v(2)), -l(2)]
-         parts(5, :) = [dh(1), 0.0_dp]
-         parts(6, :) = [dh(2), 0.0_dp]
+         nu_terms(1, :) = [0.5_dp*(-h - zhz + l(1) - v(1)), -h - l(1)]
+         nu_terms(2, :) = [0.5_dp*(-h - zhz - l(1) + v(1)), -h + l(1)]
+         nu_terms(3, :) = [-h + zhz, 0.0_dp]
+         nu_terms(4, :) = [0.5_dp*(l(2) - v(2)), -l(2)]
+         nu_terms(5, :) = [dh(1), 0.0_dp]
+         nu_terms(6, :) = [dh(2), 0.0_dp]
       end associate
-   end function stress_parts
+   end function nu_terms_of
 
 end module wavycon_stress_kernel

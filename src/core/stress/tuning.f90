@@ -42,7 +42,7 @@ module wavycon_stress_tuning
       !! a quarter of the cell. Larger: windows are used where they are many. Smaller: planes of the whole cell where
       !! windows would take less time.
 
-   ! Start places of the search below expansions. Fewer: a maximum may be missed. More: each one is evaluated.
+   ! Start places of the search below fitted functions. Fewer: a maximum may be missed. More: each one is evaluated.
 
    real(dp), parameter, public :: edge_ratios(*) = [0.5_dp, 0.9_dp, 1.0_dp, 1.1_dp, 1.4_dp]
       !! Distances of start places from the centre of a spot or pool, over the distance of its edge from the centre.
@@ -95,7 +95,7 @@ module wavycon_stress_tuning
       !! Most models of one search. Smaller: searches that do not reach their maximum. Larger: searches that go on
       !! though the gains are rounding.
 
-   integer, parameter, public :: expansion_order = 8
+   integer, parameter, public :: taylor_order = 8
       !! Order N of the Taylor series (S9), which replaces the sum over waves near a place. Smaller: the search follows
       !! errors of the series. Larger: more moments are added up for each wave.
    real(dp), parameter, public :: noise_part = 1e-3_dp

@@ -32,12 +32,12 @@ contains
    !>
    !> with R^2 = P - sin^2(X/2) + cos X sinh^2(Z/2) - (i/2) sin X sinh Z. Each function of w is computed with the factor
    !> exp(-Z/2), so that none overflows at large depths.
-   pure subroutine westergaard_stress(x, z, pbar_over_pstar, parts)
+   pure subroutine westergaard_stress(x, z, pbar_over_pstar, nu_terms)
       real(dp), intent(in) :: x                !! 2 pi x/lambda, from a crest [rad]
       real(dp), intent(in) :: z                !! 2 pi z/lambda, depth, >= 0 [rad]
       real(dp), intent(in) :: pbar_over_pstar  !! mean pressure [p*]
-      real(dp), intent(out) :: parts(6, 2)
-         !! parts(:, 1): stresses xx, yy, zz, xy, xz, yz for nu = 0; parts(:, 2): their derivatives by nu [p*]
+      real(dp), intent(out) :: nu_terms(6, 2)
+         !! nu_terms(:, 1): stresses xx, yy, zz, xy, xz, yz for nu = 0; nu_terms(:, 2): their derivatives by nu [p*]
 
       complex(dp) :: change  !! F - P
       complex(dp) :: slope   !! Z times the derivative of F with respect to X + i Z
@@ -52,11 +52,11 @@ contains
          slope = 0
       end if
 
-      parts = 0
-      parts(xx, 1) = -change%re + slope%im
-      parts(zz, 1) = -change%re - slope%im
-      parts(xz, 1) = slope%re
-      parts(yy, 2) = -2*change%re
+      nu_terms = 0
+      nu_terms(xx, 1) = -change%re + slope%im
+      nu_terms(zz, 1) = -change%re - slope%im
+      nu_terms(xz, 1) = slope%re
+      nu_terms(yy, 2) = -2*change%re
    end subroutine westergaard_stress
 
    !> F - P and Z dF/d(X + i Z) in partial contact, 0 < P < 1.

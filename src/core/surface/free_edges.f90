@@ -19,7 +19,7 @@ contains
 
       surface%mirrored = .true.
       surface%has_free_edges = .true.
-      surface%length = surface%parts()*sides
+      surface%length = surface%maps_in_cell()*sides
       allocate (surface%shape%c(0:0, 0:0), source=0.0_dp)
       surface%form = form_of_radii(surface, radii)
       surface%amplitude = sum(surface%form%c)*pi**2/12

@@ -65,7 +65,7 @@ contains
 
       pressure = weighted(surface%shape, surface%length, surface%kernel)
       if (surface%is_height_map()) then
-         call transform%start(surface%points/surface%parts(), even=surface%mirrored)
+         call transform%start(surface%points/surface%maps_in_cell(), even=surface%mirrored)
          allocate (values(transform%points(1), transform%slab%columns()))
          call transform%sample(pressure, values)
          largest = transform%slab%extremes(values)

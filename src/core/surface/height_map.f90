@@ -22,10 +22,10 @@ contains
    !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing heights that
    !> are not to be filled, and for too few heights to determine the trend; exit_file_trouble if there is not enough
    !> memory.
-   subroutine surface_of_map(source, preparation, scale, sides, map, surface, statistics, error, radii)
+   subroutine surface_of_map(source, preparation, unit, sides, map, surface, statistics, error, radii)
       character(*), intent(in) :: source            !! name of the map, for messages
       type(map_preparation), intent(in) :: preparation
-      real(dp), intent(in) :: scale                 !! length of one unit of the heights, > 0
+      real(dp), intent(in) :: unit                  !! length of one unit of the heights, > 0
       real(dp), intent(in) :: sides(2)              !! sides of the map along x and y [length], > 0
       !> On entry heights that rise towards the other body. On exit the heights of the surface less their mean [length],
       !> without holes.
@@ -66,8 +66,8 @@ contains
          largest = 0.0_dp
       else
          mean = slab%column_totals(reshape(sum(map%height, dim=1), [1, slab%columns()]))/product(real(slab%points, dp))
-         map%height = scale*(map%height - mean(1))
-         largest = scale*maxval(extremes + [-mean, mean])
+         map%height = unit*(map%height - mean(1))
+         largest = unit*maxval(extremes + [-mean, mean])
       end if
       if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
          call fatal_error(error, exit_bad_input, escaped(source)//': the heights over their mean, times '// &
@@ -75,8 +75,8 @@ contains
                           'from '//short_number(smallest_number)//' to '//short_number(largest_number))
          return
       end if
-      changes%rise = scale*changes%rise
-      changes%rms_of_short = scale*changes%rms_of_short
+      changes%rise = unit*changes%rise
+      changes%rms_of_short = unit*changes%rms_of_short
       statistics = statistics_of(map%height, map%format, slab%points, length/slab%points, repeats)
       surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
                                   changes%edges == 'free', radii)

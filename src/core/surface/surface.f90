@@ -46,7 +46,7 @@ module wavycon_surface
       real(dp) :: crest_curvature = 0.0_dp
       real(dp) :: hardness = huge(1.0_dp)       !! H, upper bound of the pressure [p*]; huge if the bodies stay elastic
    contains
-      procedure :: parts
+      procedure :: maps_in_cell
       procedure :: sides
       procedure :: nominal_area
       procedure :: is_height_map
@@ -63,21 +63,21 @@ contains
 
    !> How often the cell contains, along x and along y, the region that decks and tables refer to: 2 for a mirrored map,
    !> otherwise 1.
-   pure function parts(self)
+   pure function maps_in_cell(self)
       class(surface_type), intent(in) :: self
-      integer :: parts(2)
+      integer :: maps_in_cell(2)
 
-      parts = 1
-      if (self%mirrored) parts = 2
-      if (self%dimension == 1) parts(2) = 1
-   end function parts
+      maps_in_cell = 1
+      if (self%mirrored) maps_in_cell = 2
+      if (self%dimension == 1) maps_in_cell(2) = 1
+   end function maps_in_cell
 
    !> The sides along x and y of the region that decks and tables refer to [length].
    pure function sides(self)
       class(surface_type), intent(in) :: self
       real(dp) :: sides(2)
 
-      sides = self%length/self%parts()
+      sides = self%length/self%maps_in_cell()
    end function sides
 
    !> The nominal area of decks and tables [length^2]; of a profile the area over the width along y, its length
@@ -144,9 +144,9 @@ contains
       real(dp), intent(in) :: offset(2)                    !! of the first point from X = Y = 0, in steps
       real(dp), allocatable, intent(out) :: values(:, :)   !! shape (N_x, N_y)
 
-      call sample_series(self%shape, points, offset, values, self%parts())
+      call sample_series(self%shape, points, offset, values, self%maps_in_cell())
       if (self%has_steps) call sample_blocks(self, offset, values)
-      call self%form%subtract_from(values, 2*pi*offset/(self%parts()*points), 2*pi/(self%parts()*points))
+      call self%form%subtract_from(values, 2*pi*offset/(self%maps_in_cell()*points), 2*pi/(self%maps_in_cell()*points))
    end subroutine sample_shape
 
    !> h/Delta at the points of a grid. Waves of the surface beyond the grid's highest wave number are left out. The
@@ -162,7 +162,7 @@ contains
       call transform%sample(self%shape, h)
       if (self%has_steps) call sample_blocks(self, [0.5_dp, 0.5_dp], h)
       call self%form%subtract_from(h, point_angle([1, slab%first], transform%points, transform%even), &
-                                   2*pi/(self%parts()*slab%points))
+                                   2*pi/(self%maps_in_cell()*slab%points))
       h = 1.0_dp - h
    end subroutine sample_gap
 
@@ -177,7 +177,7 @@ contains
       integer :: i, grid(2)
       type(grid_transform) :: transform
 
-      grid = surface%points/surface%parts()
+      grid = surface%points/surface%maps_in_cell()
       allocate (blocks(grid(1), grid(2)))
       call transform%start(grid, even=.true., whole=.true.)
       call transform%sample(surface%shape, blocks)

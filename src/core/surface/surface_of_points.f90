@@ -47,8 +47,8 @@ contains
       if (present(has_free_edges)) surface%has_free_edges = has_free_edges
       surface%mirrored = surface%mirrored .or. surface%has_free_edges
       call assert(all(sides > 0.0_dp), 'sides > 0')
-      surface%length = surface%parts()*sides
-      surface%points = surface%parts()*grid
+      surface%length = surface%maps_in_cell()*sides
+      surface%points = surface%maps_in_cell()*grid
       call transform%start(grid, even=surface%mirrored)
       call transform%series(height, surface%shape)
       call surface%shape%set_mean(0.0_dp)

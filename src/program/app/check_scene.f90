@@ -30,27 +30,27 @@ contains
 
       character(:), allocatable :: reason
       type(results_type) :: results
-      type(run_log) :: log
+      type(run_log) :: logger
       type(table_type), allocatable :: tables(:)
 
-      call log%start(quiet)
+      call logger%start(quiet)
       call start_results(scene, results, tables)
-      call show_scene(results, log)
+      call show_scene(results, logger)
       reason = why_chosen(results%traits)
       ! The default solver is 'auto', for which `reason` is not empty.
       associate (solver => results%scene%method%solver)
          if (.not. solver%is_given) reason = clauses("'"//solver%text//"' is the default", reason)
       end associate
-      if (reason /= '') call log%say('because: '//reason)
+      if (reason /= '') call logger%say('because: '//reason)
       if (all(results%traits%finest_grid > 0)) then
-         call log%say('memory: '//memory(results))
-         call log%say('time: some '// &
+         call logger%say('memory: '//memory(results))
+         call logger%say('time: some '// &
             duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
             ' if all loads need that grid, by its transforms as measured now')
       end if
-      call log%say('tables: '//listed(pack(tables%name(), tables%key /= '' .or. tables%file == 'summary'))//' in '// &
-                   escaped(results%scene%directory))
-      call log%say(escaped(results%scene%deck_path)//': the deck is fine')
+      call logger%say('tables: '//listed(pack(tables%name(), tables%key /= '' .or. tables%file == 'summary'))// &
+                      ' in '//escaped(results%scene%directory))
+      call logger%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene
 
    !> The memory that the finest grid takes and the memory that is available, in words.

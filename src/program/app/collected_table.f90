@@ -107,7 +107,7 @@ contains
                listed%given = value%is_given
                listed%in_effect = value%in_effect .and. all(lists(i)%name /= ['scene    ', 'interface', 'output   ']) &
                                   .and. .not. (lists(i)%name == 'load' .and. key%most_values > 1) .and. &
-                                  (lists(i)%name /= 'stress' .or. lists(i)%group%place > 0)
+                                  (lists(i)%name /= 'stress' .or. lists(i)%group%position > 0)
                listed%word = '-'
                if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
                if (listed%in_effect) listed%word = word_of(lists(i), k)

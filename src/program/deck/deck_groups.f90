@@ -79,7 +79,7 @@ contains
          call take_setting(own_settings(s))
       end do
       g = 0
-      token = next_token(text%content(:text%own), 1)
+      token = next_token(text%content(:text%last_of_deck), 1)
       do while (token%kind /= at_end .and. .not. problems%is_full())
          if (token%kind == is_group) then
             if (group%kind == is_group .and. .not. quote_is_open) call problems%add(token%first, &
@@ -91,9 +91,9 @@ contains
          else if (group%kind == is_group .and. token%kind == is_slash) then
             group%kind = at_end
             is_lost = .false.
-         else if (group%kind == is_group .and. starts_entry(text%content(:text%own), token)) then
+         else if (group%kind == is_group .and. starts_entry(text%content(:text%last_of_deck), token)) then
             is_lost = .false.
-            call take_entry(text%own)
+            call take_entry(text%last_of_deck)
             cycle
          else if (.not. is_lost) then
             is_lost = .true.
@@ -105,14 +105,14 @@ contains
                                  "with &name and ends with '/', which is text only between quotes")
             end if
          end if
-         token = next_token(text%content(:text%own), token%last + 1)
+         token = next_token(text%content(:text%last_of_deck), token%last + 1)
       end do
       ! If a quote is not closed, the '/' is likely within the quoted text: do not report it as missing.
       if (group%kind == is_group .and. token%kind == at_end .and. .not. quote_is_open) call problems%add(group%first, &
          shown(group)//" is not closed: no '/' up to the end of the deck")
       do g = 1, size(lists)
          associate (group => lists(g)%group)
-            group%has_unknown = group%has_unknown .or. (is_unknown .and. group%place == 0)
+            group%has_unknown = group%has_unknown .or. (is_unknown .and. group%position == 0)
             group%any_bad = group%has_unknown .or. any([(lists(g)%keys(s)%value%is_bad, s=1, size(lists(g)%keys))])
          end associate
       end do
@@ -130,29 +130,29 @@ contains
       !> Sets g to the number of a group in `lists`, or to 0 for an unknown group and for one that is given twice. A
       !> misspelt name counts as the nearest known one, so that the keys of the group are checked too, unless the deck
       !> has given that group before.
-      subroutine open_group(name, place)
+      subroutine open_group(name, position)
          character(*), intent(in) :: name   !! in lower case, without '&'
-         integer, intent(in) :: place       !! position of the '&' in the text
+         integer, intent(in) :: position    !! position of the '&' in the text
 
          logical :: is_known
 
          g = findloc(lists%name == name, .true., dim=1)
          is_known = g > 0
          if (.not. is_known) then
-            call problems%add(place, unknown_group(name, lists))
+            call problems%add(position, unknown_group(name, lists))
             g = nearest_name(name, lists%name)
             is_unknown = is_unknown .or. g == 0
             if (g == 0) return
          end if
-         associate (first => lists(g)%group%place)
-            if (first > 0 .and. first <= text%own .and. .not. is_guessed(g)) then
-               if (is_known) call problems%add(place, '&'//name//' is given twice, first in line '// &
+         associate (first => lists(g)%group%position)
+            if (first > 0 .and. first <= text%last_of_deck .and. .not. is_guessed(g)) then
+               if (is_known) call problems%add(position, '&'//name//' is given twice, first in line '// &
                                                integer_text(text%line_of(first)))
                g = 0
                return
             end if
          end associate
-         lists(g)%group%place = place
+         lists(g)%group%position = position
          is_guessed(g) = .not. is_known
       end subroutine open_group
 
@@ -161,7 +161,7 @@ contains
          type(setting_type), intent(in) :: setting
 
          character(:), allocatable :: value
-         integer :: place
+         integer :: position
 
          g = findloc(lists%name == setting%group, .true., dim=1)
          value = setting%value
@@ -172,15 +172,15 @@ contains
                    scan(value, quotes) /= 1) value = quoted(value)
             end associate
          end if
-         place = len(text%content) + len(' --set ') + 1
+         position = len(text%content) + len(' --set ') + 1
          text%content = text%content//newline//'--set '//setting%group//'.'//setting%key//'='//value
          if (g == 0) then
-            call problems%add(place, unknown_group(setting%group, lists))
+            call problems%add(position, unknown_group(setting%group, lists))
             return
          end if
-         if (lists(g)%group%place == 0) lists(g)%group%place = place
-         place = place + len(setting%group) + 1
-         token = token_type(is_word, place, place + len(setting%key) - 1)
+         if (lists(g)%group%position == 0) lists(g)%group%position = position
+         position = position + len(setting%group) + 1
+         token = token_type(is_word, position, position + len(setting%key) - 1)
          call take_entry(len(text%content))
          if (token%kind /= at_end) call problems%add(token%first, "--set takes one key and its value, found '"// &
                                                      shown(token)//"' behind them")
@@ -192,16 +192,16 @@ contains
          integer, intent(in) :: last           !! last byte of the text that may be read
 
          character(:), allocatable :: name, trouble
-         integer :: k, most_values, place, used
+         integer :: k, most_values, position, used
          logical :: is_bad     ! whether a value cannot be used
          logical :: is_read    ! whether words are read as values; if not they are skipped
          real(dp), allocatable :: numbers(:)
          type(token_type) :: before, equals   ! the token before the next one; the '=' of the entry
          type(word_value) :: value
 
-         place = token%first
-         name = lower_case(text%content(place:token%last))
-         call find_key(name, place, k)
+         position = token%first
+         name = lower_case(text%content(position:token%last))
+         call find_key(name, position, k)
          most_values = 0
          if (k > 0) most_values = lists(g)%rows(k)%most_values
          allocate (numbers(most_values))
@@ -246,15 +246,15 @@ contains
          end do
          if (k == 0) return
          if (is_bad) used = 0
-         call lists(g)%take(k, place, numbers(:used), value%text)
-         if (before%last == equals%last) call problems%add(place, &
+         call lists(g)%take(k, position, numbers(:used), value%text)
+         if (before%last == equals%last) call problems%add(position, &
             name//' has no value: it must be '//allowed_values(lists(g)%rows(k)))
       end subroutine take_entry
 
       !> Finds a key of the open group. Unknown keys and keys given twice are reported.
-      subroutine find_key(name, place, k)
+      subroutine find_key(name, position, k)
          character(*), intent(in) :: name   !! in lower case
-         integer, intent(in) :: place       !! position of the key in the text
+         integer, intent(in) :: position    !! position of the key in the text
          !> Number of the key; 0 if its values are not to be read: it was reported, the group is unknown, or a setting
          !> of the command line replaces the key.
          integer, intent(out) :: k
@@ -265,28 +265,29 @@ contains
 
          k = 0
          if (g == 0) return
-         if (place <= text%own .and. any([(replaces(own_settings(s), lists(g), name), s=1, size(own_settings))])) return
+         if (position <= text%last_of_deck .and. &
+             any([(replaces(own_settings(s), lists(g), name), s=1, size(own_settings))])) return
          k = key_index(lists(g)%rows, name)
          if (k == 0) then
             lists(g)%group%has_unknown = .true.
-            call problems%add(place, unknown_key(name, lists(g), lists))
+            call problems%add(position, unknown_key(name, lists(g), lists))
             ! A misspelt key of the deck counts as the nearest one, without a value: that is not reported as missing
             ! too. The deck may still give the right key behind it.
             is_given = [(lists(g)%keys(i)%value%is_given, i=1, size(lists(g)%keys))]
             candidate = nearest_name(name, lists(g)%rows%name, is_given)
-            if (candidate == 0 .or. place > text%own) return
-            if (.not. is_given(candidate)) call lists(g)%take(candidate, place)
+            if (candidate == 0 .or. position > text%last_of_deck) return
+            if (.not. is_given(candidate)) call lists(g)%take(candidate, position)
             return
          end if
          associate (given => lists(g)%keys(k)%value)
             if (.not. given%is_given .or. given%is_bad) return
-            before = 'in line '//integer_text(text%line_of(given%place))
-            if (given%place > text%own) then
-               call text%line_bounds(given%place, first, last)
+            before = 'in line '//integer_text(text%line_of(given%position))
+            if (given%position > text%last_of_deck) then
+               call text%line_bounds(given%position, first, last)
                before = 'by '//excerpt(text%content(first:last))
             end if
          end associate
-         call problems%add(place, name//' is given twice, first '//before)
+         call problems%add(position, name//' is given twice, first '//before)
          k = 0
       end subroutine find_key
 

@@ -16,11 +16,11 @@ module wavycon_deck_text
    public :: deck_text_type, problem_report, read_deck_text
    public :: token_type, has_curly_quote, next_token, starts_entry
 
-   !> The text. A place is the position of a byte in the text, counted from 1.
+   !> The text. A position is the number of a byte in the text, from 1.
    type :: deck_text_type
       character(:), allocatable :: path        !! path of the file as the user gave it
       character(:), allocatable :: content     !! lines that end in LF, CR LF or CR, and a line for each option
-      integer :: own = 0                       !! place of the last byte of the file's own text; options are behind it
+      integer :: last_of_deck = 0              !! position of the last byte of the file's text; options are behind it
    contains
       procedure :: line_of
       procedure :: line_bounds
@@ -60,32 +60,32 @@ contains
       text%path = path
       text%content = content
       if (index(content, byte_order_mark) == 1) text%content = content(len(byte_order_mark) + 1:)
-      text%own = len(text%content)
+      text%last_of_deck = len(text%content)
    end function new_deck_text
 
-   !> The number of the line in which a place is, from 1.
-   pure integer function line_of(self, place)
+   !> The number of the line in which a position is, from 1.
+   pure integer function line_of(self, position)
       class(deck_text_type), intent(in) :: self
-      integer, intent(in) :: place  !! >= 1
+      integer, intent(in) :: position  !! >= 1
 
       integer :: i
 
       line_of = 1
-      do i = 1, place - 1
+      do i = 1, position - 1
          ! A line ends at its LF or, if no LF follows, at its CR.
          if (self%content(i:i) == newline .or. (self%content(i:i) == carriage_return .and. &
                                                 self%content(i + 1:i + 1) /= newline)) line_of = line_of + 1
       end do
    end function line_of
 
-   !> The first and the last byte of the line in which a place is.
-   pure subroutine line_bounds(self, place, first, last)
+   !> The first and the last byte of the line in which a position is.
+   pure subroutine line_bounds(self, position, first, last)
       class(deck_text_type), intent(in) :: self
-      integer, intent(in) :: place          !! place of a byte that is not CR or LF
-      integer, intent(out) :: first, last   !! places of these bytes; the line end is left out
+      integer, intent(in) :: position       !! position of a byte that is not CR or LF
+      integer, intent(out) :: first, last   !! positions of these bytes; the line end is left out
 
-      first = scan(self%content(:place - 1), line_ends, back=.true.) + 1
-      last = end_before(self%content, place, line_ends)
+      first = scan(self%content(:position - 1), line_ends, back=.true.) + 1
+      last = end_before(self%content, position, line_ends)
    end subroutine line_bounds
 
    !> Reads the text of a deck file: the first rank reads the file, and all get the text. Errors: exit_file_trouble.
@@ -105,14 +105,14 @@ contains
       text = deck_text_type(path, content)
    end subroutine read_deck_text
 
-   !> The first token from a place on. Blanks, line ends and comments before it are skipped.
-   pure type(token_type) function next_token(content, place) result(token)
+   !> The first token from a position on. Blanks, line ends and comments before it are skipped.
+   pure type(token_type) function next_token(content, position) result(token)
       character(*), intent(in) :: content
-      integer, intent(in) :: place
+      integer, intent(in) :: position
 
       integer :: skipped
 
-      token%first = place
+      token%first = position
       do
          skipped = verify(content(token%first:), blanks) - 1
          if (skipped < 0) then
@@ -134,14 +134,14 @@ contains
       end if
    end function next_token
 
-   !> The place before the first byte that is in a set, searched from `place` on; the last place of the text if no byte
-   !> is.
-   pure integer function end_before(content, place, set)
+   !> The position before the first byte that is in a set, searched from `position` on; the last position of the text if
+   !> no byte is.
+   pure integer function end_before(content, position, set)
       character(*), intent(in) :: content, set   !! the text; the bytes of the set
-      integer, intent(in) :: place
+      integer, intent(in) :: position
 
-      end_before = scan(content(place:), set) + place - 2
-      if (end_before < place - 1) end_before = len(content)
+      end_before = scan(content(position:), set) + position - 2
+      if (end_before < position - 1) end_before = len(content)
    end function end_before
 
    !> Finds the end of a word: its closing quote, or the byte before the next blank or separator. A word whose quote is
@@ -194,7 +194,7 @@ contains
    end function starts_entry
 
    !> The report of all problems in a deck, as the message of one error. Problems are numbered in the order of their
-   !> places. Each has its line of the deck with a caret below the place.
+   !> positions. Each has its line of the deck with a caret below the position.
    pure function problem_report(problems, text) result(report)
       type(problem_list_type), intent(in) :: problems  !! at least one problem
       type(deck_text_type), intent(in) :: text
@@ -208,30 +208,31 @@ contains
       report = ''
       do i = 1, min(problems%number, most_kept)
          words = ' error '//integer_text(i)//' of '//total//': '//problems%items(i)%words
-         associate (place => problems%items(i)%place)
+         associate (position => problems%items(i)%position)
             if (i > 1) report = report//newline
             report = report//escaped(text%path)//':'
-            if (place == 0) then
+            if (position == 0) then
                report = report//words
                cycle
             end if
-            call text%line_bounds(place, first, last)
-            if (place > text%own) then
+            call text%line_bounds(position, first, last)
+            if (position > text%last_of_deck) then
                report = report//' '//escaped(text%content(first:last))//':'//words
             else
-               report = report//integer_text(text%line_of(place))//':'// &
-                        integer_text(character_count(text%content(first:place - 1)) + 1)//':'//words//newline// &
-                        line_and_caret(text, place, first, last)
+               report = report//integer_text(text%line_of(position))//':'// &
+                        integer_text(character_count(text%content(first:position - 1)) + 1)//':'//words//newline// &
+                        line_and_caret(text, position, first, last)
             end if
          end associate
       end do
       if (problems%number > most_kept) report = report//newline//'and more'
    end function problem_report
 
-   !> A line of the deck, with a caret below a place in a second line. A long line is cut on both sides of the place.
-   pure function line_and_caret(text, place, first, last) result(words)
+   !> A line of the deck, with a caret below a position in a second line. A long line is cut on both sides of the
+   !> position.
+   pure function line_and_caret(text, position, first, last) result(words)
       type(deck_text_type), intent(in) :: text
-      integer, intent(in) :: place, first, last   !! places of the problem and of the first and last byte of its line
+      integer, intent(in) :: position, first, last   !! those of the problem and of the first and last byte of its line
       character(:), allocatable :: words
 
       integer, parameter :: longest_line = 100, most_before = 60, most_after = 40, narrowest_number = 4
@@ -241,14 +242,14 @@ contains
       from = first
       to = last
       if (last - first >= longest_line) then
-         from = max(first, place - most_before)
-         to = min(last, place + most_after)
+         from = max(first, position - most_before)
+         to = min(last, position + most_after)
       end if
-      before = escaped(text%content(from:place - 1))
+      before = escaped(text%content(from:position - 1))
       if (from > first) before = '...'//before
-      after = escaped(text%content(place:to))
+      after = escaped(text%content(position:to))
       if (to < last) after = after//'...'
-      number = integer_text(text%line_of(place))
+      number = integer_text(text%line_of(position))
       number = repeat(' ', max(0, narrowest_number - len(number)))//number
       words = number//' | '//trim(before//after)//newline// &
               repeat(' ', len(number))//' | '//repeat(' ', character_count(before))//'^'

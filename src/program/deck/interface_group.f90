@@ -73,7 +73,7 @@ contains
       real(dp) :: kappa(3)
       real(dp), allocatable :: e(:), nu(:)
 
-      if (values%place == 0) return
+      if (values%position == 0) return
       if (values%friction%is_given) then
          call take_ratios(values, 'interface', values%nu, material)
          if (.not. (values%tangential_load%is_given .or. values%tangential_over_normal%is_given .or. &
@@ -89,15 +89,15 @@ contains
          values%shear_direction%in_effect = .false.
       end if
       if (.not. present(surface)) return
-      if (surface%has_hardness()) call values%problems%add(values%place, &
+      if (surface%has_hardness()) call values%problems%add(values%position, &
          '&interface takes elastic contacts: leave hardness or &interface out')
       if (surface%kernel%has_layer() .and. (values%friction%is_given .or. values%resistivity1%is_given .or. &
-                                            values%work_of_adhesion%is_given)) call values%problems%add(values%place, &
-         'of a layer the stiffness is computed alone: leave friction, resistivity1, work_of_adhesion or '// &
-         'layer_thickness out')
-      if (.not. surface%amplitude > 0.0_dp) call values%problems%add(values%place, &
+                                            values%work_of_adhesion%is_given)) &
+         call values%problems%add(values%position, 'of a layer the stiffness is computed alone: leave friction, '// &
+                                  'resistivity1, work_of_adhesion or layer_thickness out')
+      if (.not. surface%amplitude > 0.0_dp) call values%problems%add(values%position, &
          'the surface is flat and in full contact: leave &interface out')
-      if (surface%has_free_edges .and. surface%dimension == 1) call values%problems%add(values%place, &
+      if (surface%has_free_edges .and. surface%dimension == 1) call values%problems%add(values%position, &
          'the approach of a profile with free edges is not defined, and so is what &interface computes: leave it out')
       if (surface%dimension == 2) then
          if (values%shear_direction%text == 'y') call values%complain(values%shear_direction, &

@@ -80,18 +80,18 @@ contains
       type(load_group), intent(inout) :: values
       logical, intent(in) :: with_adhesion   !! whether loads may be tensions, and approaches separations
 
-      character(:), allocatable :: key, kind
-      integer :: loads_by, place
+      character(:), allocatable :: key, word
+      integer :: loads_by, position
       real(dp), allocatable :: loads(:)
 
-      if (values%problems%number > 0 .or. values%place == 0 .or. values%any_bad) return
-      call given_loads(values, key, place, loads_by, loads)
-      kind = 'tension'
-      if (loads_by == by_approach) kind = 'separation'
-      if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(place, &
-         key//' = '//short_number(minval(loads))//' is a '//kind// &
+      if (values%problems%number > 0 .or. values%position == 0 .or. values%any_bad) return
+      call given_loads(values, key, position, loads_by, loads)
+      word = 'tension'
+      if (loads_by == by_approach) word = 'separation'
+      if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
+         key//' = '//short_number(minval(loads))//' is a '//word// &
          ': without work_of_adhesion of &interface it is >= 0')
-      if (with_adhesion .and. loads_by == by_yield) call values%problems%add(place, &
+      if (with_adhesion .and. loads_by == by_yield) call values%problems%add(position, &
          'the load of yield is found without adhesion: leave yield or work_of_adhesion of &interface out')
       if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &
          call values%complain(values%sweep_steps, &
@@ -112,21 +112,22 @@ contains
       real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
 
       character(:), allocatable :: key, limit   ! limit: the limit in words; empty: there is none to check
-      integer :: place
+      integer :: position
       real(dp) :: area, most   ! most: largest value allowed, and unit of the target, in the unit of the key
 
-      call given_loads(values, key, place, loads_by, target)
+      call given_loads(values, key, position, loads_by, target)
       limit = ''
       most = 1.0_dp
       if (surface%has_free_edges .and. any(periodic_lists == key)) then
-         call values%problems%add(place, key//' needs a surface that is repeated: one with free edges '// &
+         call values%problems%add(position, key//' needs a surface that is repeated: one with free edges '// &
             'has no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
       else if (surface%has_free_edges .and. loads_by == by_approach .and. surface%dimension == 1) then
-         call values%problems%add(place, 'the approach of a profile with free edges is not defined: it '// &
+         call values%problems%add(position, 'the approach of a profile with free edges is not defined: it '// &
             'grows with the logarithm of the length over which it is measured. Give force or contact_area')
       end if
       if (p_star <= 0.0_dp .and. loads_by /= by_pressure) then
-         call values%problems%add(place, 'the surface is flat: give its loads by pressure, not by gap, area or yield')
+         call values%problems%add(position, 'the surface is flat: give its loads by pressure, not by gap, area '// &
+                                  'or yield')
          return
       end if
       ! The limits of the other keys are bounds in the table of keys.
@@ -162,7 +163,7 @@ contains
          target = target/most
          return
       end if
-      if (limit /= '' .and. maxval(target) > (1 + rounding)*most) call values%problems%add(place, &
+      if (limit /= '' .and. maxval(target) > (1 + rounding)*most) call values%problems%add(position, &
          key//' = '//short_number(maxval(target))//' is more than '//limit//'. Do the units agree?')
       if (loads_by /= by_pressure) then
          target = target/most
@@ -174,10 +175,10 @@ contains
    end subroutine take_loads
 
    !> The loads in the deck's order; none if the group does not give loads.
-   subroutine given_loads(values, key, place, loads_by, loads)
+   subroutine given_loads(values, key, position, loads_by, loads)
       type(load_group), intent(in), target :: values        !! without bad values
       character(:), allocatable, intent(out) :: key         !! key that gives the loads; 'sweep_from' for a sweep
-      integer, intent(out) :: place                         !! position of the key in the deck's text
+      integer, intent(out) :: position                      !! position of the key in the deck's text
       integer, intent(out) :: loads_by                      !! by_pressure or another name of wavycon_scene
       real(dp), allocatable, intent(out) :: loads(:)        !! [unit of the key]
 
@@ -190,7 +191,7 @@ contains
       end do
       key = trim(keys%rows(k)%name)
       loads_by = list_is(k)
-      place = keys%keys(k)%value%place
+      position = keys%keys(k)%value%position
       loads = keys%keys(k)%value%numbers
       if (key /= 'sweep_from' .or. .not. values%sweep_steps%is_given) return
       associate (from => values%sweep_from%number, to => values%sweep_to%number, &

@@ -101,7 +101,7 @@ contains
       layer%slides = values%layer_base%text == 'smooth'
       if (.not. (layer%slides .or. values%nu1%is_given .or. values%layer_nu%is_given)) call values%complain( &
          values%layer_base, "a bonded layer needs layer_nu, Poisson's ratio: its compliance follows from it")
-      longest = maxval(surface%length(:surface%dimension)/surface%parts())
+      longest = maxval(surface%length(:surface%dimension)/surface%maps_in_cell())
       layer%thickness = values%layer_thickness%number
       if (surface%has_free_edges) then
          call values%complain(values%layer_thickness, &

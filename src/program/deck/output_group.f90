@@ -98,7 +98,7 @@ contains
 
       grid = points_of_grid(method, surface)
       if (all(grid == 0)) grid = surface%points
-      grid = grid/surface%parts()
+      grid = grid/surface%maps_in_cell()
       ! Lines take a multiple of the grid's points: on a square height map they then pass through the map's points and
       ! do not miss peaks.
       finest = max(1, maxval(grid))

@@ -82,7 +82,7 @@ contains
       call list_keys(scene, lists)
       call take_groups(text, lists, problems, settings)
       do i = 1, size(lists)
-         if (lists(i)%required .and. lists(i)%group%place == 0 .and. .not. lists(i)%group%has_unknown .and. &
+         if (lists(i)%required .and. lists(i)%group%position == 0 .and. .not. lists(i)%group%has_unknown .and. &
              (is_file .or. lists(i)%name /= 'load')) &
             call problems%add(0, 'the group &'//trim(lists(i)%name)//' ('//trim(lists(i)%meaning)//') is missing')
          call lists(i)%check_relations()
@@ -95,7 +95,7 @@ contains
       call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star)
       call check_load_group(scene%load, scene%interface%work_of_adhesion%is_given)
       if (scene%material%problems%number + scene%load%problems%number == 0 .and. &
-          .not. (scene%material%any_bad .or. scene%load%any_bad) .and. scene%load%place > 0 .and. &
+          .not. (scene%material%any_bad .or. scene%load%any_bad) .and. scene%load%position > 0 .and. &
           allocated(scene%surface)) call take_loads(scene%load, scene%surface, scene%p_star, &
                                                     scene%interface%work_of_adhesion%is_given, scene%loads_by, &
                                                     scene%target, scene%mean_pressure)
@@ -151,7 +151,7 @@ contains
       !> stays off the border even if a hardness or a rough estimate of the load makes the contact larger.
       real(dp), parameter :: sides_over_half_axes = 4.0_dp
       character(:), allocatable :: key
-      integer :: loads_by, place
+      integer :: loads_by, position
       real(dp) :: e_star, half_axis(2), largest, radii(2)
       real(dp), allocatable :: loads(:)
       type(hertz_ball) :: contact
@@ -159,9 +159,9 @@ contains
       associate (ball => scene%surface_values)
          if (ball%length_x%is_given) call ball%length_y%set_default([ball%length_x%number])
          if (ball%length_x%is_given .or. scene%material%any_bad .or. scene%load%any_bad) return
-         if (scene%load%place == 0) call ball%complain(ball%kind, "without loads kind = 'ball' needs length_x")
-         call given_loads(scene%load, key, place, loads_by, loads)
-         if (any(key == ['mean_pressure        ', 'contact_area_fraction'])) call scene%load%problems%add(place, &
+         if (scene%load%position == 0) call ball%complain(ball%kind, "without loads kind = 'ball' needs length_x")
+         call given_loads(scene%load, key, position, loads_by, loads)
+         if (any(key == ['mean_pressure        ', 'contact_area_fraction'])) call scene%load%problems%add(position, &
             key//' needs the sides of the ball, length_x and length_y: give them, or force, approach or contact_area')
          largest = max(0.0_dp, maxval(abs(loads)))
          ! A ball yields first at a peak pressure of 1.4 to 1.9 times its yield stress: take 2 times.
@@ -206,7 +206,7 @@ contains
       scene%has_units = scene%gives_modulus .or. scene%scene_values%pressure_unit%is_given .or. &
                         scene%scene_values%length_unit%is_given
       if (allocated(scene%map)) scene%has_units = scene%has_units .or. allocated(scene%map%length_unit)
-      if (scene%load%place == 0) allocate (scene%target(0), scene%mean_pressure(0))
+      if (scene%load%position == 0) allocate (scene%target(0), scene%mean_pressure(0))
       associate (labels => scene%scene_values, surface => scene%surface_values)
          scene%case = labels%case%text
          scene%pressure_unit = labels%pressure_unit%text
@@ -228,7 +228,7 @@ contains
       end associate
       allocate (scene%asked_for(0))
       do i = 1, size(lists)
-         if (lists(i)%group%place == 0 .and. lists(i)%name /= 'output') cycle
+         if (lists(i)%group%position == 0 .and. lists(i)%name /= 'output') cycle
          scene%asked_for = [scene%asked_for, lists(i)%asked_for()]
       end do
    end subroutine complete
@@ -247,7 +247,7 @@ contains
       do i = 1, size(lists)
          ! A group &load, &stress or &interface that the deck does not have is left out: the group alone would ask for
          ! computations.
-         if (lists(i)%group%place > 0 .or. all(lists(i)%name /= ['load     ', 'stress   ', 'interface'])) &
+         if (lists(i)%group%position > 0 .or. all(lists(i)%name /= ['load     ', 'stress   ', 'interface'])) &
             text = text//group_text(lists(i))
       end do
    end function resolved_deck_text

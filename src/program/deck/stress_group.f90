@@ -76,7 +76,7 @@ contains
 
       if (load%yield%is_given .and. .not. (values%yield_stress%is_given .or. values%has_unknown)) &
          call load%complain(load%yield, 'yield needs yield_stress in the group &stress')
-      if (values%place == 0) return
+      if (values%position == 0) return
       has_range = values%depth_from%is_given .or. values%depth_to%is_given .or. values%depth_steps%is_given
       if (.not. has_range .and. (values%depths%is_given .or. values%depths_over_cell_x%is_given)) then
          values%depth_from%in_effect = .false.
@@ -87,10 +87,10 @@ contains
       end if
       call take_ratios(values, 'stress', values%nu, material)
       if (present(surface)) then
-         if (surface%kernel%has_layer()) call values%problems%add(values%place, &
+         if (surface%kernel%has_layer()) call values%problems%add(values%position, &
             'stresses are computed in half-spaces, not in a layer: leave &stress or layer_thickness out')
          if (surface%has_free_edges) then
-            if (surface%dimension == 1) call values%problems%add(values%place, &
+            if (surface%dimension == 1) call values%problems%add(values%position, &
                'stresses below a profile with free edges are not computed: leave &stress out')
             if (values%lateral%is_given) call values%complain(values%lateral, &
                'a surface with free edges has no mean pressure far below it: leave lateral out')

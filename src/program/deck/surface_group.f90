@@ -200,37 +200,37 @@ contains
       type(surface_type), intent(in) :: surface
 
       character(:), allocatable :: keys
-      integer :: place
+      integer :: position
       real(dp) :: side(2)
 
       if (surface%dimension == 1) return
       side = surface%sides()
       if (maxval(side) <= largest_ratio*minval(side)) return
-      place = values%kind%place
+      position = values%kind%position
       keys = 'both sides'
       if (values%file%is_given) then
-         place = values%file%place
+         position = values%file%position
          keys = 'the sides in '//escaped(values%file%text)
       end if
       call name_sides(values%length_x, values%length_y, 'length_x and length_y')
       call name_sides(values%wavelength, values%wavelength_y, 'wavelength and wavelength_y')
       call name_sides(values%wavelength1, values%wavelength2, 'wavelength1 and wavelength2')
-      call values%problems%add(max(place, values%place), &
+      call values%problems%add(max(position, values%position), &
          'the cell is '//short_number(side(1))//' x '//short_number(side(2))// &
          ', one side '//short_number(maxval(side)/minval(side))//' times the other; at most '// &
          short_number(largest_ratio)//' times is allowed. Are '//keys//' in one unit?')
 
    contains
 
-      !> Sets `keys` and `place` to two keys, if at least one of them is in effect.
+      !> Sets `keys` and `position` to two keys, if at least one of them is in effect.
       subroutine name_sides(x, y, names)
          type(key_value), intent(in) :: x, y
          character(*), intent(in) :: names
 
          if (.not. (x%in_effect .or. y%in_effect)) return
          keys = names
-         place = x%place
-         if (y%is_given) place = y%place
+         position = x%position
+         if (y%is_given) position = y%position
       end subroutine name_sides
 
    end subroutine check_sides

@@ -16,7 +16,7 @@ module wavycon_key_group
 
    !> The value of one key and how it was given.
    type :: key_value
-      integer :: place = 0                     !! position of the key in the deck's text, from 1; 0 if it is absent
+      integer :: position = 0                  !! position of the key in the deck's text, from 1; 0 if it is absent
       logical :: is_given = .false.            !! whether the deck gives the key
       !> Whether the key is given but its value cannot be used: checks that depend on the value are then left out.
       logical :: is_bad = .false.
@@ -35,7 +35,7 @@ module wavycon_key_group
    !> The components that the records of all groups have. The record of a group extends this type by its keys.
    type :: key_group
       character(:), allocatable :: deck_path   !! path of the deck's file as the caller gave it
-      integer :: place = 0                     !! position of '&name' in the deck's text, from 1; 0 if it is absent
+      integer :: position = 0                  !! position of '&name' in the deck's text, from 1; 0 if it is absent
       !> Whether the deck has an unknown key in this group or, if the group is missing, an unknown group. The unknown
       !> key may mean any key that is missing, so that missing keys are not reported.
       logical :: has_unknown = .false.
@@ -106,11 +106,11 @@ contains
       type(key_value), intent(in) :: key
       character(*), intent(in) :: words   !! what is wrong, what was expected
 
-      integer :: place
+      integer :: position
 
-      place = self%place
-      if (key%place > 0) place = key%place
-      call self%problems%add(place, words)
+      position = self%position
+      if (key%position > 0) position = key%position
+      call self%problems%add(position, words)
    end subroutine complain
 
    !> Adds a key: a pointer to its value, and its row of the table.
@@ -148,17 +148,17 @@ contains
    end subroutine start
 
    !> Takes the values that the deck gives for a key. A key without values is bad, and its default stays in effect.
-   subroutine take(self, k, place, numbers, text)
+   subroutine take(self, k, position, numbers, text)
       class(key_list), intent(inout) :: self
       integer, intent(in) :: k                                !! number of the key
-      integer, intent(in) :: place                            !! position of the key in the deck's text
+      integer, intent(in) :: position                         !! position of the key in the deck's text
       !> The values as numbers, as in key_value; for a text or a choice one number, which has no meaning. Empty or
       !> absent: no value.
       real(dp), intent(in), optional :: numbers(:)
       character(*), intent(in), optional :: text              !! value of a text or a choice
 
       associate (key => self%keys(k)%value)
-         key%place = place
+         key%position = position
          key%is_given = .true.
          key%is_bad = .true.
          if (present(numbers)) key%is_bad = size(numbers) == 0
@@ -198,15 +198,15 @@ contains
       character(:), allocatable :: number
       integer :: i, used
 
-      associate (kind => self%rows(k)%kind, numbers => self%keys(k)%value%numbers)
-         select case (kind)
+      associate (key_kind => self%rows(k)%kind, numbers => self%keys(k)%value%numbers)
+         select case (key_kind)
          case (real_value, integer_value)
             ! Appending numbers one by one would copy the text each time, for up to 100000 numbers.
             allocate (character((most_digits + len(between))*size(numbers)) :: text)
             used = 0
             do i = 1, size(numbers)
                number = exact_number(numbers(i))
-               if (kind == integer_value) number = integer_text(nint(numbers(i)))
+               if (key_kind == integer_value) number = integer_text(nint(numbers(i)))
                if (i > 1) number = between//number
                text(used + 1:used + len(number)) = number
                used = used + len(number)
@@ -255,7 +255,7 @@ contains
       character(:), allocatable :: subject   ! subject of the message about a missing key
       character(:), allocatable :: key
       character(name_length), allocatable :: needs(:)
-      integer :: first, i, k, place, selector_index
+      integer :: first, i, k, position, selector_index
       logical :: is_default                  ! whether the alternative is the default
       logical :: is_told                     ! whether a key of another alternative was reported
       logical, allocatable :: is_lacking(:)  ! whether each needed key is missing
@@ -263,7 +263,7 @@ contains
 
       choice = ''
       reported = ' '
-      place = self%group%place
+      position = self%group%position
       subject = '&'//trim(self%name)
       is_default = .false.
       is_told = .false.
@@ -278,7 +278,7 @@ contains
             if (.not. (selector%is_bad .or. (is_default .and. self%group%has_unknown))) choice = selector%text
             if (choice /= '') then
                subject = trim(self%selector)//" = '"//choice//"'"
-               place = max(selector%place, place)
+               position = max(selector%position, position)
                is_own = is_read(self%rows, choice)
             end if
          end associate
@@ -304,12 +304,12 @@ contains
                is_same = is_own .and. rows%way/10 == rows(k)%way/10
                if (rows(k)%way == 0) is_same = rows%name == key
                first = findloc(is_same, .true., dim=1)
-               if (rows(k)%required .and. k == first .and. group%place > 0 .and. .not. group%has_unknown .and. &
+               if (rows(k)%required .and. k == first .and. group%position > 0 .and. .not. group%has_unknown .and. &
                    .not. any(is_same .and. is_given) .and. (rows(k)%of == '' .or. choice /= '')) then
                   if (rows(k)%way == 0) then
-                     call group%problems%add(place, subject//' needs '//key//' = '//allowed_values(rows(k)))
+                     call group%problems%add(position, subject//' needs '//key//' = '//allowed_values(rows(k)))
                   else
-                     call group%problems%add(place, subject//' needs '//ways_in_words(rows, k))
+                     call group%problems%add(position, subject//' needs '//ways_in_words(rows, k))
                   end if
                end if
                first = findloc(is_same .and. is_given, .true., dim=1)
@@ -320,7 +320,7 @@ contains
                if (.not. is_given(k)) cycle
                if (rows(k)%way /= rows(first)%way .and. &
                    .not. any(is_same(:k - 1) .and. is_given(:k - 1) .and. rows(:k - 1)%way /= rows(first)%way)) &
-                  call group%problems%add(max(self%keys(first)%value%place, value%place), &
+                  call group%problems%add(max(self%keys(first)%value%position, value%position), &
                      trim(rows(first)%name)//' and '//key//' contradict each other: give one of them')
                if (rows(k)%kind == logical_value .and. .not. value%is_true) cycle
                do i = 1, size(needs)

@@ -10,13 +10,13 @@ module wavycon_problems
    integer, parameter, public :: most_kept = 50
 
    type :: problem_type
-      integer :: place = 0                  !! position in the deck's text, a byte from 1; 0 means the deck as a whole
+      integer :: position = 0               !! position in the deck's text, a byte from 1; 0 means the deck as a whole
       character(:), allocatable :: words    !! what is wrong, what was expected
    end type problem_type
 
    type :: problem_list_type
       integer :: number = 0                   !! number of all problems, also of those that are not kept
-      type(problem_type) :: items(most_kept)  !! the first ones found, in the order of their places
+      type(problem_type) :: items(most_kept)  !! the first ones found, in the order of their positions
    contains
       procedure :: add
       procedure :: join
@@ -25,10 +25,10 @@ module wavycon_problems
 
 contains
 
-   !> Adds a problem in the order of places, behind earlier problems of the same place.
-   pure subroutine add(self, place, words)
+   !> Adds a problem in the order of positions, behind earlier problems of the same position.
+   pure subroutine add(self, position, words)
       class(problem_list_type), intent(inout) :: self
-      integer, intent(in) :: place       !! position in the deck's text, a byte from 1; 0 means the deck as a whole
+      integer, intent(in) :: position    !! position in the deck's text, a byte from 1; 0 means the deck as a whole
       character(*), intent(in) :: words  !! what is wrong, what was expected
 
       integer :: i
@@ -36,10 +36,10 @@ contains
       self%number = self%number + 1
       if (self%number > most_kept) return
       do i = self%number, 2, -1
-         if (self%items(i - 1)%place <= place) exit
+         if (self%items(i - 1)%position <= position) exit
          self%items(i) = self%items(i - 1)
       end do
-      self%items(i)%place = place
+      self%items(i)%position = position
       self%items(i)%words = words
    end subroutine add
 
@@ -51,7 +51,7 @@ contains
       integer :: i
 
       do i = 1, min(other%number, most_kept)
-         call self%add(other%items(i)%place, other%items(i)%words)
+         call self%add(other%items(i)%position, other%items(i)%words)
       end do
       self%number = self%number + max(0, other%number - most_kept)
    end subroutine join

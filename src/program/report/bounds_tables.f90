@@ -78,7 +78,7 @@ contains
                end if
                if (has_bounds) then
                   call grid%bound(surface, p, gap, solution%pbar_over_pstar, bounds)
-                  cell = grid%cell/surface%parts()
+                  cell = grid%cell/surface%maps_in_cell()
                   measures = solution%quantities
                   call solution%details(measures)
                   own = or_nan(measures%value([approach, elastic_energy, mean_gap]))
@@ -143,13 +143,13 @@ contains
          else
             points = 1
             points(:surface%dimension) = points_for(results%scene%method%accuracy%number, surface%dimension)
-            points = points/surface%parts()
+            points = points/surface%maps_in_cell()
             ! Of an even surface the bounds take a quarter of the cell, with points in the middle of their steps.
             is_halved = points > 1 .and. surface%shape%is_even()
             offset = 0.0_dp
             where (is_halved) offset = 0.5_dp
             call fields%on_grid(points, offset, p, u, gap)
-            where (is_halved) points = points*surface%parts()/2
+            where (is_halved) points = points*surface%maps_in_cell()/2
             p = p(:points(1), :points(2))
             gap = gap(:points(1), :points(2))
          end if

@@ -147,7 +147,7 @@ contains
          if (all(points == fields%own_points)) return
       end do
       ! Otherwise the points of a mirrored surface are in the middle of their steps, so that none lies on a border.
-      offset = merge(0.5_dp, 0.0_dp, results%solver%surface%parts() > 1)
+      offset = merge(0.5_dp, 0.0_dp, results%solver%surface%maps_in_cell() > 1)
    end function map_offset
 
    !> The header of a file in numpy's format: the bytes before the elements. Elements are double precision numbers or

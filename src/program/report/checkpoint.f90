@@ -53,17 +53,17 @@ module wavycon_checkpoint
 contains
 
    !> The path of the checkpoint, <directory>/<case>.checkpoint or <directory>/<case>.checkpoint.<rank>.
-   function checkpoint_name(results, rank) result(name)
+   function checkpoint_name(results, number) result(name)
       type(results_type), intent(in) :: results
-      !> A rank, or `alone` for a run whose work is not shared; absent: that of this run and rank.
-      integer, intent(in), optional :: rank
+      !> Number of a rank, or `alone` for a run whose work is not shared; absent: that of this run and rank.
+      integer, intent(in), optional :: number
       character(:), allocatable :: name
 
       integer :: owner
 
       owner = alone
       if (results%sharing%is_shared) owner = results%sharing%rank
-      if (present(rank)) owner = rank
+      if (present(number)) owner = number
       name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
       if (owner /= alone) name = name//'.'//integer_text(owner)
    end function checkpoint_name
@@ -73,17 +73,17 @@ contains
    subroutine remove_others(results)
       type(results_type), intent(in) :: results
 
-      integer :: rank
+      integer :: number
 
       if (.not. results%sharing%is_first) return
-      rank = 0
+      number = 0
       if (results%sharing%is_shared) then
          call remove_file(checkpoint_name(results, alone))
-         rank = results%sharing%ranks
+         number = results%sharing%ranks
       end if
-      do while (path_kind(checkpoint_name(results, rank)) == path_file)
-         call remove_file(checkpoint_name(results, rank))
-         rank = rank + 1
+      do while (path_kind(checkpoint_name(results, number)) == path_file)
+         call remove_file(checkpoint_name(results, number))
+         number = number + 1
       end do
    end subroutine remove_others
 
@@ -209,20 +209,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: name, now
-      integer :: load, rank
+      integer :: load, number
 
       known = .false.
       now = description(results)
-      rank = alone
+      number = alone
       do while (.not. allocated(error))
-         name = checkpoint_name(results, rank)
+         name = checkpoint_name(results, number)
          if (path_kind(name) /= path_absent) then
             if (.not. allocated(first_name)) first_name = name
             call read_checkpoint(name, now, results, known, error)
-         else if (rank >= results%sharing%ranks) then
+         else if (number >= results%sharing%ranks) then
             exit
          end if
-         rank = rank + 1
+         number = number + 1
       end do
       ! At the interruption some ranks may have written their columns of a load and others not: forget these columns.
       do load = 1, size(known)
@@ -353,11 +353,11 @@ contains
 
       integer(int64) :: sums(2)
 
-      associate (surface => results%solver%surface, shape => results%solver%surface%shape)
-         if (shape%is_even()) then
-            sums = [sum_over_waves(shape%c, shape%first()), 0_int64]
+      associate (surface => results%solver%surface, series => results%solver%surface%shape)
+         if (series%is_even()) then
+            sums = [sum_over_waves(series%c, series%first()), 0_int64]
          else
-            sums = [sum_over_waves(shape%wave%re, shape%first()), sum_over_waves(shape%wave%im, shape%first())]
+            sums = [sum_over_waves(series%wave%re, series%first()), sum_over_waves(series%wave%im, series%first())]
          end if
          if (results%sharing%kind == distributed_grids .and. surface%is_distributed()) call results%sharing%add(sums)
          total = checksum([transfer([surface%amplitude, surface%length], sums(:0)), sums])

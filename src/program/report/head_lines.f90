@@ -15,12 +15,12 @@ contains
 
    !> The lines of version, deck, surface, statistics of a height map, material and method, separated by newlines. The
    !> last line has no newline.
-   function head_lines(scene, surface, method, prefix, digits) result(lines)
+   function head_lines(scene, surface, method, prefix, shown_digits) result(lines)
       type(scene_type), intent(in) :: scene
       type(surface_type), intent(in) :: surface   !! the surface that is solved, with its amplitude and sides
       character(*), intent(in) :: method          !! the solver and its discretisation in words
       character(*), intent(in) :: prefix          !! text at the start of each line, such as '# '
-      character(*), intent(in) :: digits          !! digits of numbers: 'all', so that they read back exactly, or 'some'
+      character(*), intent(in) :: shown_digits    !! digits of numbers: 'all', so that they read back exactly, or 'some'
       character(:), allocatable :: lines
 
       character(:), allocatable :: words
@@ -87,7 +87,7 @@ contains
          character(:), allocatable :: text
 
          text = short_number(value)
-         if (digits == 'all') text = exact_number(value)
+         if (shown_digits == 'all') text = exact_number(value)
       end function text_of
 
    end function head_lines

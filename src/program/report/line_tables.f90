@@ -87,7 +87,7 @@ contains
       if (number == 3) line%direction(1) = 0
       if (number == 1) line%direction(2) = 0
       associate (surface => results%solver%surface)
-         step = 2*pi*line%direction/(surface%parts()*intervals)
+         step = 2*pi*line%direction/(surface%maps_in_cell()*intervals)
          first = surface%crest
          if (surface%mirrored) then
             to_crest = steps_within(surface%crest, step)

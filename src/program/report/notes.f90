@@ -16,7 +16,7 @@ module wavycon_notes
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
-   use wavycon_solution_record, only: by_beale, by_dual, solution_record, solver_names
+   use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
    implicit none (type, external)
    private
 
@@ -33,18 +33,18 @@ module wavycon_notes
 contains
 
    !> Writes the input in effect: deck, surface, material, method and loads, and notes on suspicious values.
-   subroutine show_scene(results, log)
+   subroutine show_scene(results, logger)
       type(results_type), intent(in) :: results   !! with the scene and the started solver
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       character(:), allocatable :: words
       real(dp) :: loads(size(results%scene%target))
 
       associate (scene => results%scene, surface => results%solver%surface)
-         call log%say(head_lines(scene, surface, results%method, '', 'some'))
+         call logger%say(head_lines(scene, surface, results%method, '', 'some'))
          words = scene%deck_path(index(scene%deck_path, '/', back=.true.) + 1:)
          if (index(words//'.nml', '.nml') > 1) words = words(:index(words//'.nml', '.nml') - 1)
-         if (.not. scene%scene_values%case%is_given .and. index(scene%case, words) /= 1) call log%note( &
+         if (.not. scene%scene_values%case%is_given .and. index(scene%case, words) /= 1) call logger%note( &
             'the results have the name '//scene%case//", with '_' for characters of the deck's name")
          loads = scene%target
          words = trim(target_words(scene%loads_by))
@@ -52,18 +52,18 @@ contains
             loads = surface%nominal_area()*scene%mean_pressure
             words = 'force'
          end if
-         call log%say('loads: '//integer_text(size(loads))//', '//words//' from '//short_number(minval(loads))// &
-                      ' to '//short_number(maxval(loads)))
-         if (results%sharing%words() /= '') call log%say('ranks: '//results%sharing%words())
-         call note_scene(scene, log)
+         call logger%say('loads: '//integer_text(size(loads))//', '//words//' from '//short_number(minval(loads))// &
+                         ' to '//short_number(maxval(loads)))
+         if (results%sharing%words() /= '') call logger%say('ranks: '//results%sharing%words())
+         call note_scene(scene, logger)
       end associate
    end subroutine show_scene
 
    !> Notes what is suspicious in a scene, before its loads are solved: a doubtful height map; if the deck has units, a
    !> surface that is too steep for the theory; a surface that is almost flat, most likely by a mistake of units.
-   subroutine note_scene(scene, log)
+   subroutine note_scene(scene, logger)
       type(scene_type), intent(in) :: scene
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       !> The relative error of the theory of small slopes is of the order of the slope squared, here a tenth.
       real(dp), parameter :: steepest = 0.3_dp
@@ -73,7 +73,7 @@ contains
       character(:), allocatable :: borders, cause, verdict
       logical :: is_flat
 
-      if (allocated(scene%map)) call note_map(scene, scene%map, log)
+      if (allocated(scene%map)) call note_map(scene, scene%map, logger)
       is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
       if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
       verdict = '; the theory needs small ones.'
@@ -85,16 +85,16 @@ contains
             cause = 'Do height_scale, and the sides of the cell, suit the units of the heights?'
          if (any(scene%map%is_broken_along([1, 2]))) borders = ', with the steps across its borders'
       end if
-      call log%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
+      call logger%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
                    verdict//' '//cause)
    end subroutine note_scene
 
    !> Notes what is suspicious in a height map: a missing_value that does not occur, spikes, borders that do not fit
    !> together, noise.
-   subroutine note_map(scene, map, log)
+   subroutine note_map(scene, map, logger)
       type(scene_type), intent(in) :: scene
       type(map_statistics), intent(in) :: map   !! statistics of the scene's height map
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       !> Least ratio of the rms slope by differences to the rms slope of the Fourier series. Noise that lowers the ratio
       !> to 0.9 takes a quarter or more of the contact area at light loads: see the table of src/core/map/README.md.
@@ -102,22 +102,22 @@ contains
       character(:), allocatable :: remedies
       integer :: direction
 
-      if (map%lacks_missing_value) call log%note('no height of the file has the missing_value of the deck')
-      if (map%spikes > 0) call log%note(integer_text(map%spikes)//' of the heights are far from all '// &
+      if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
+      if (map%spikes > 0) call logger%note(integer_text(map%spikes)//' of the heights are far from all '// &
          'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
          'surface does not. Remedy: despike = .true.')
       remedies = "edges = 'mirror', edges = 'window'"
       if (map%changes%detrend /= 'plane' .and. map%changes%detrend /= 'quadratic') &
          remedies = "detrend = 'plane', "//remedies
       do direction = 1, 2
-         if (map%is_broken_along(direction)) call log%note('along '//'xy'(direction:direction)// &
+         if (map%is_broken_along(direction)) call logger%note('along '//'xy'(direction:direction)// &
             ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['// &
             scene%length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
             '; such steps carry load. Remedies: '//remedies)
       end do
       ! A border that does not fit is a step between two points and lowers the ratio too: it was noted above.
       if (map%slope_by_differences >= least_ratio*scene%roughness%slope .or. any(map%is_broken_along([1, 2]))) return
-      call log%note('the rms slope is '//short_number(scene%roughness%slope)// &
+      call logger%note('the rms slope is '//short_number(scene%roughness%slope)// &
                    ', by differences of neighbours only '//short_number(map%slope_by_differences)// &
                    ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
                    'they make contact areas smaller')
@@ -126,16 +126,16 @@ contains
    !> Writes a row for each load: mean gap, area and peak pressure, each followed by its error estimate; mean and peak
    !> pressure in the deck's unit if the deck gives a modulus; solver and status. With free edges the row has force,
    !> approach, area and peak pressure in the deck's units.
-   subroutine show_loads(results, log)
+   subroutine show_loads(results, logger)
       type(results_type), intent(in) :: results   !! with a solution for each load
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       character(24) :: columns(3)
       character(9) :: names(3)
       integer :: i, load, solver_width
       type(log_line) :: line
 
-      if (log%quiet) return
+      if (logger%quiet) return
       ! The column of solvers is as wide as the longest name among the loads.
       solver_width = max(len('solver'), maxval(len_trim(solver_names(results%loads%solver))))
       names = [character(9) :: 'gap/Delta', 'area/A0', 'peak/p*']
@@ -153,9 +153,10 @@ contains
             end do
             if (scene%gives_modulus .and. .not. surface%has_free_edges) &
                call line%add('peak['//scene%pressure_unit//']', results%number(load, 'peak_pressure'))
-            if (load == 1) call log%say(line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)//'status')
-            call log%say(line%words//' '//solver_names(results%loads(load)%solver)(:solver_width)//'  '// &
-                         trim(status_name(results%loads(load)%status)))
+            if (load == 1) call logger%say(line%names//' solver'//repeat(' ', solver_width - len('solver') + 2)// &
+                                           'status')
+            call logger%say(line%words//' '//solver_names(results%loads(load)%solver)(:solver_width)//'  '// &
+                            trim(status_name(results%loads(load)%status)))
          end do
       end associate
    end subroutine show_loads
@@ -164,9 +165,9 @@ contains
    !> its error estimate, and the depth of the largest von Mises stress over the side of the cell along x. If the deck
    !> gives a modulus, the von Mises stress follows in the deck's unit; if it gives a yield stress, the ratio to the
    !> yield stress follows. With free edges all values are in the deck's units.
-   subroutine show_stresses(results, log)
+   subroutine show_stresses(results, logger)
       type(results_type), intent(in) :: results   !! with the largest stresses
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       character(40) :: names(3)
       character(:), allocatable :: in_unit
@@ -192,7 +193,7 @@ contains
                   call line%add('body', real(body, dp))
                   call line%add(trim(names(1)), stress_unit*yielding%value)
                   call line%add('error', stress_unit*yielding%error)
-                  call line%add(trim(names(2)), depth_unit*yielding%place(3)/(2*pi))
+                  call line%add(trim(names(2)), depth_unit*yielding%position(3)/(2*pi))
                   call line%add(trim(names(3)), stress_unit*shear%value)
                   call line%add('error', stress_unit*shear%error)
                   if (scene%gives_modulus .and. .not. surface%has_free_edges) &
@@ -200,8 +201,8 @@ contains
                   if (allocated(scene%stress_setting%yield_stress)) call line%add( &
                      'over yield', scene%stress_setting%over_yield_stress(body, yielding%value, shear%value))
                end associate
-               if (load == 1 .and. body == 1) call log%say(line%names)
-               call log%say(line%words)
+               if (load == 1 .and. body == 1) call logger%say(line%names)
+               call logger%say(line%words)
             end do
          end do
       end associate
@@ -250,19 +251,19 @@ contains
 
    !> Writes the last lines of the log and sets the exit status: exit_fine if all loads were solved as requested,
    !> otherwise exit_not_converged.
-   subroutine sum_up(results, log, status)
+   subroutine sum_up(results, logger, status)
       type(results_type), intent(in) :: results
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
       integer, intent(out) :: status
 
       integer :: load
 
       associate (scene => results%scene)
-         call note_loads(results, scene%loads_by, results%loads%solution_record, log)
-         if (scene%p_star <= 0.0_dp) call log%say('the surface is flat: there is only a summary')
-         call log%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
+         call note_loads(results, scene%loads_by, results%loads%solution_record, logger)
+         if (scene%p_star <= 0.0_dp) call logger%say('the surface is flat: there is only a summary')
+         call logger%say('results: '//escaped(scene%directory)//'/'//scene%case//'.summary.dat')
       end associate
-      call log%say(outcome(results))
+      call logger%say(outcome(results))
       status = exit_fine
       if (.not. all([(results%is_solved(load), load=1, size(results%loads))])) status = exit_not_converged
    end subroutine sum_up
@@ -281,11 +282,11 @@ contains
    end function outcome
 
    !> Notes what a user should know of solutions: what is not resolved, not reached, not defined or doubtful.
-   subroutine note_loads(results, loads_by, loads, log)
+   subroutine note_loads(results, loads_by, loads, logger)
       type(results_type), intent(in) :: results       !! with the scene and the started solver
       integer, intent(in) :: loads_by                 !! how the loads were given: by_pressure or another of the scene
       type(solution_record), intent(in) :: loads(:)   !! the solutions
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       character(:), allocatable :: of_loads
       logical :: is_series(size(loads))
@@ -293,8 +294,8 @@ contains
       associate (scene => results%scene, surface => results%solver%surface)
          of_loads = ' of '//integer_text(size(loads))//' loads'
          call note_unresolved()
-         is_series = loads%solver == by_beale .or. loads%solver == by_dual
-         if (any(is_series)) call log%note( &
+         is_series = loads%solver == by_beale .or. loads%solver == by_series
+         if (any(is_series)) call logger%note( &
             "the errors of the paper's truncated series are not estimated: with its harmonics and points they are "// &
             'up to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
             ' in area/A0 and '//short_number(paper_errors(3))//' in peak/p* from 0.05 to 0.9 p*, more at other '// &
@@ -304,7 +305,7 @@ contains
          if (loads_by == by_yield) then
             call note_some(count(loads%status == not_found), 'no mean pressure was found that brings the '// &
                            'stresses to the given part of the yield stress')
-            if (.not. results%traits%has_errors) call log%note("solver = '"//scene%method%solver%text// &
+            if (.not. results%traits%has_errors) call logger%note("solver = '"//scene%method%solver%text// &
                "' estimates no errors; a light load of first yield may be wrong by a factor of 2. solver = 'auto' "// &
                'estimates them')
          else
@@ -314,15 +315,15 @@ contains
             call note_some(count(loads%value(concentrated_load) >= least_concentration), &
             "the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
          if (surface%has_free_edges) then
-            if (any(loads%value(border_load) > 0.0_dp)) call log%note( &
+            if (any(loads%value(border_load) > 0.0_dp)) call logger%note( &
                'contact reaches the border: up to '//percent(maxval(loads%value(border_load)))// &
                ' of the load is within '//percent(border)// &
                ' of the sides from it, where a larger map might carry more')
-            if (surface%has_steps) call log%note('a map of two heights at most is taken as blocks, the cells of '// &
+            if (surface%has_steps) call logger%note('a map of two heights at most is taken as blocks, the cells of '// &
                'its points, as a punch is')
-            if (.not. all(is_known(loads%value(peak_pressure)))) call log%note('where contact ends at '// &
+            if (.not. all(is_known(loads%value(peak_pressure)))) call logger%note('where contact ends at '// &
                'a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
-            if (surface%dimension == 1) call log%note('the approach of a profile with free edges is not '// &
+            if (surface%dimension == 1) call logger%note('the approach of a profile with free edges is not '// &
                'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
          end if
          call note_some(count(loads%status == converged .and. loads%value(contact_area) <= 0.0_dp), &
@@ -337,7 +338,7 @@ contains
          integer, intent(in) :: number       !! how many loads the words hold for
          character(*), intent(in) :: words
 
-         if (number > 0) call log%note('at '//integer_text(number)//of_loads//' '//words)
+         if (number > 0) call logger%note('at '//integer_text(number)//of_loads//' '//words)
       end subroutine note_some
 
       !> Notes how many of the given contact areas or mean gaps the grid cannot have at any load, and what helps.
@@ -354,7 +355,7 @@ contains
             if (loads_by == by_contact_area) limit = &
                ' contact areas are below the least that the grid shows, '//short_number(solution%value(contact_area))
          end associate
-         call log%note(integer_text(count(is_unreached))//' of '//integer_text(size(loads))//limit// &
+         call logger%note(integer_text(count(is_unreached))//' of '//integer_text(size(loads))//limit// &
             ' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
             "accuracy; solver = 'fitted' has no such limit")
       end subroutine note_unreached
@@ -379,14 +380,14 @@ contains
                end if
             end associate
          end do
-         if (unknown > 0) call log%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: a grid '// &
-            'has error estimates from 64 points a side on, if each wave of the surface has two points or more. '// &
-            'Give more grid_points, or an accuracy')
+         if (unknown > 0) call logger%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: '// &
+            'a grid has error estimates from 64 points a side on, if each wave of the surface has two points '// &
+            'or more. Give more grid_points, or an accuracy')
          if (all(coarse == 0)) return
          do i = 1, size(values)
             values(i) = trim(values(i))//' at '//integer_text(coarse(i))
          end do
-         call log%note('the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
+         call logger%note('the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
                       ': the error is as large as the value, or unknown. Give an accuracy, or more grid_points')
       end subroutine note_unresolved
 

@@ -72,11 +72,11 @@ contains
       self%with_adhesion = .not. self%with_adhesion
    end subroutine swap_contacts
 
-   !> Opens a table <case>.<kind>.dat, writes the header lines that all tables have and sets the columns. If there is a
-   !> table in memory, its columns are set instead, without a file. `file%finish` reports errors.
-   subroutine open_table(self, kind, columns, file)
+   !> Opens a table <case>.<table_file>.dat, writes the header lines that all tables have and sets the columns. If there
+   !> is a table in memory, its columns are set instead, without a file. `file%finish` reports errors.
+   subroutine open_table(self, table_file, columns, file)
       class(results_type), intent(in) :: self
-      character(*), intent(in) :: kind         !! name of the table, such as 'summary'
+      character(*), intent(in) :: table_file   !! name of the table, such as 'summary'
       character(*), intent(in) :: columns      !! name[unit] of each column; `unit_in_words` makes labels of the units
       type(output_file), intent(out) :: file
 
@@ -85,11 +85,11 @@ contains
       if (associated(self%memory)) then
          file%memory => self%memory
       else
-         call file%open(self%scene%directory, self%scene%case//'.'//kind//'.dat')
+         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat')
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
          if (self%with_adhesion) then
             call file%put('# adhesion: the contacts are those with it; of each load the stable one of the largest area')
-         else if (allocated(self%adhesion) .and. kind /= 'adhesion') then
+         else if (allocated(self%adhesion) .and. table_file /= 'adhesion') then
             call file%put('# adhesion: the contacts are those without it; with it they are in '//self%scene%case// &
                           '.adhesion.dat')
          end if
@@ -196,7 +196,7 @@ contains
       type(quantities), intent(in), optional :: quantities_of_load
 
       logical :: exists, in_unit, is_error
-      integer :: kind, quantity
+      integer :: quantity_kind, quantity
       real(dp) :: unit(number_of_kinds)   !! the program's unit of each kind of quantity, in the deck's units
       type(quantities) :: q
 
@@ -223,7 +223,7 @@ contains
          case ('status_code')
             number = status_code(solution%status)
          case default
-            call find_quantity(column, quantity, kind, is_error, in_unit)
+            call find_quantity(column, quantity, quantity_kind, is_error, in_unit)
             number = q%value(quantity)
             ! The pressure of a flat surface, whose p* is 0, is infinite in units of p*.
             if (.not. number > huge(number)) number = or_nan(number)
@@ -240,10 +240,10 @@ contains
                unit(of_pressure) = scene%p_star
                unit(of_area) = surface%nominal_area()
                unit(of_energy) = scene%p_star*surface%amplitude*surface%nominal_area()
-               number = unit(kind)*number
+               number = unit(quantity_kind)*number
                ! The pressure on a flat surface is uniform, so that the peak pressure is the mean pressure.
                if (column == 'peak_pressure' .and. .not. scene%p_star > 0.0_dp) number = self%mean_pressure(load)
-            else if (any(kind == [of_pressure, of_energy])) then
+            else if (any(quantity_kind == [of_pressure, of_energy])) then
                number = self%in_p_star(number)
             end if
          end select

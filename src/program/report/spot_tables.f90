@@ -17,7 +17,7 @@ module wavycon_spot_tables
    use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_spots, only: contact_region, contact_spots
+   use wavycon_contact_spots, only: connected_region, contact_spots
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_histogram, only: histogram, make_histogram
    use wavycon_kinds, only: dp
@@ -125,9 +125,9 @@ contains
    contains
 
       !> Writes a row for each region of one kind.
-      subroutine put_regions(regions, kind)
-         type(contact_region), intent(in) :: regions(:)   !! the largest first
-         character(*), intent(in) :: kind                 !! 'spot' or 'pool'
+      subroutine put_regions(regions, word)
+         type(connected_region), intent(in) :: regions(:)   !! the largest first
+         character(*), intent(in) :: word                   !! 'spot' or 'pool'
 
          real(dp) :: area, mean_pressure, radius
          integer :: i
@@ -144,7 +144,7 @@ contains
                      mean_pressure = results%mean_pressure(load)*region%load_fraction/region%area_fraction
                   call file%put_row([real(dp) :: load, i, area, region%area_fraction, radius, region%perimeter, &
                                      region%load_fraction, mean_pressure, surface%length*region%centre/(2*pi), &
-                                     region%holes, merge(1, 0, region%percolates)], [kind])
+                                     region%holes, merge(1, 0, region%percolates)], [word])
                end associate
             end do
          end associate

@@ -75,7 +75,7 @@ contains
       real(dp) :: to_unit(5)   ! units of value, error, x, y and depth in the deck's units
 
       associate (surface => results%solver%surface)
-         images = surface%parts()
+         images = surface%maps_in_cell()
          to_unit = [results%scene%p_star, results%scene%p_star, surface%length, surface%length(1)]
       end associate
       do body = 1, size(results%scene%stress_setting%body)
@@ -88,8 +88,8 @@ contains
                                results%in_p_star([results%loads(load)%pbar_over_pstar, yielding%value, &
                                                   yielding%error, shear%value, shear%error]), ratio, &
                                results%mean_pressure(load), &
-                               to_unit*[yielding%value, yielding%error, yielding%place_in_cell(images)], &
-                               to_unit*[shear%value, shear%error, shear%place_in_cell(images)], &
+                               to_unit*[yielding%value, yielding%error, yielding%position_in_cell(images)], &
+                               to_unit*[shear%value, shear%error, shear%position_in_cell(images)], &
                                status_code(status)], [status_name(status)])
          end associate
       end do

@@ -95,7 +95,7 @@ contains
 
       associate (surface => results%solver%surface)
          is_here = results%sharing%is_first
-         points = surface%points/surface%parts()
+         points = surface%points/surface%maps_in_cell()
          if (all(points == 0)) points = map_points(results)
          if (associated(results%memory)) then
             call results%open_table(trim(table%file), table%columns, file)

@@ -39,20 +39,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer(int64) :: status_of_all(1)   ! sum of the statuses: ranks that did not work have 0
-      type(run_log), target :: log
+      type(run_log), target :: logger
       type(table_type), allocatable :: tables(:)
 
       status = exit_fine
-      call log%start(quiet)
+      call logger%start(quiet)
       call start_results(scene, results, tables)
-      call show_scene(results, log)
+      call show_scene(results, logger)
       if (results%sharing%kind == distributed_grids) call collect(results, tables, error)
       if (allocated(error)) return
       if (results%sharing%is_shared) then
-         call solve_and_write(results, tables, resume, log, status, error)
+         call solve_and_write(results, tables, resume, logger, status, error)
       else
          call results%sharing%work_alone(.true.)
-         if (results%sharing%is_first) call solve_and_write(results, tables, resume, log, status, error)
+         if (results%sharing%is_first) call solve_and_write(results, tables, resume, logger, status, error)
          call results%sharing%work_alone(.false.)
          call results%sharing%share_error(error)
          status_of_all = status
@@ -90,11 +90,11 @@ contains
    end subroutine run_deck
 
    !> Solves the loads of a scene and writes its tables. Errors: those of run_scene.
-   subroutine solve_and_write(results, tables, resume, log, status, error)
+   subroutine solve_and_write(results, tables, resume, logger, status, error)
       type(results_type), intent(inout) :: results        !! with the started solver; gets the solutions
       type(table_type), intent(in) :: tables(:)           !! the tables to write
       logical, intent(in) :: resume                       !! as in run_scene
-      type(run_log), intent(inout), target :: log
+      type(run_log), intent(inout), target :: logger
       integer, intent(out) :: status
       type(error_type), allocatable, intent(out) :: error
 
@@ -105,32 +105,32 @@ contains
       allocate (results%loads(size(known)))
       known = .false.
       call order_loads(results)
-      if (resume) call take_checkpoint(results, known, log, error)
+      if (resume) call take_checkpoint(results, known, logger, error)
       if (allocated(error)) return
       if (results%sharing%is_first) call prepare_directory(results%scene, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
 
       call checkpoint%create(results, known)
-      call solve_loads(results, known, checkpoint, log)
+      call solve_loads(results, known, checkpoint, logger)
       if (results%sharing%any(.not. checkpoint%is_complete)) &
-         call log%note('not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
-      call log%say_timed('solved and measured')
-      call show_loads(results, log)
-      call write_results(results, tables, log, error)
+         call logger%note('not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
+      call logger%say_timed('solved and measured')
+      call show_loads(results, logger)
+      call write_results(results, tables, logger, error)
       if (allocated(error)) return
       call checkpoint%remove()
-      call log%say_timed('tables written')
-      call sum_up(results, log, status)
+      call logger%say_timed('tables written')
+      call sum_up(results, logger, status)
    end subroutine solve_and_write
 
    !> Finds the largest stresses and writes the tables. If grids are distributed over the ranks, all ranks together
    !> write some of the tables first. For the other tables the first rank then collects the fields of all ranks and
    !> works alone. Errors: exit_file_trouble.
-   subroutine write_results(results, tables, log, error)
+   subroutine write_results(results, tables, logger, error)
       type(results_type), intent(inout) :: results   !! with a solution for each load
       type(table_type), intent(in) :: tables(:)
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
       type(error_type), allocatable, intent(out) :: error
 
       logical :: are_distributed, by_all(size(tables))
@@ -151,11 +151,11 @@ contains
       end if
       if (results%sharing%is_first .or. .not. are_distributed) then
          if (asks_for_largest(results%scene)) then
-            call find_stresses(results, log)
-            call log%say_timed('largest stresses found')
-            call show_stresses(results, log)
+            call find_stresses(results, logger)
+            call logger%say_timed('largest stresses found')
+            call show_stresses(results, logger)
          end if
-         if (allocated(results%scene%interface_setting)) call find_interface(results, log, '')
+         if (allocated(results%scene%interface_setting)) call find_interface(results, logger, '')
       end if
       do i = 1, size(tables)
          if (results%sharing%is_first .and. .not. (by_all(i) .or. allocated(error))) &
@@ -209,10 +209,10 @@ contains
    end subroutine start_results
 
    !> Reads the solutions in the checkpoint, if there is one. Errors: those of read_checkpoints.
-   subroutine take_checkpoint(results, known, log, error)
+   subroutine take_checkpoint(results, known, logger, error)
       type(results_type), intent(inout) :: results   !! gets the solutions
       logical, intent(out) :: known(:)               !! whether each load need not be solved again
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: name
@@ -231,10 +231,10 @@ contains
          known = ranks_that_know > 0
       end if
       if (allocated(name)) then
-         call log%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
-                      ' loads are in '//escaped(name))
+         call logger%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
+                         ' loads are in '//escaped(name))
       else
-         call log%note('there is no '//escaped(checkpoint_name(results))//' to resume from: all loads are solved')
+         call logger%note('there is no '//escaped(checkpoint_name(results))//' to resume from: all loads are solved')
       end if
       ! A load that is searched for has digits that depend on the load solved before: solve all of them again, so that a
       ! resumed run gives the same digits.
@@ -294,7 +294,7 @@ contains
       end if
       ! The surface takes the memory of its series, and twice as much more while the series is gathered.
       if (needs_surface .and. results%solver%surface%is_distributed()) &
-         numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%parts())
+         numbers = numbers + 3*product(int(results%solver%surface%points, int64)/results%solver%surface%maps_in_cell())
       if (.not. has_memory_for(numbers) .and. results%sharing%is_first) call fatal_error(error, exit_file_trouble, &
          'the first rank has too little memory for the tables: the whole fields of all loads, and the surface, '// &
          'take '//short_number(real(bytes_of_number*numbers, dp)/1e9_dp)//' GB. Leave out tables but the '// &

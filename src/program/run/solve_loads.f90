@@ -66,11 +66,11 @@ contains
 
    !> Solves all loads that are not known. If the loads are distributed, each rank solves its own loads and then gets
    !> the numbers of the others.
-   subroutine solve_loads(results, known, checkpoint, log)
+   subroutine solve_loads(results, known, checkpoint, logger)
       type(results_type), intent(inout) :: results       !! after order_loads
       logical, intent(in) :: known(:)                    !! whether the results already have the solution of each load
       type(checkpoint_file), intent(inout) :: checkpoint !! gets the solutions computed here
-      type(run_log), intent(inout), target :: log        !! shows the progress
+      type(run_log), intent(inout), target :: logger     !! shows the progress
 
       integer :: i, load
       integer(int64), allocatable :: words(:)   ! the records of all loads
@@ -81,7 +81,7 @@ contains
       associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver, &
                  order => results%order)
          if (are_distributed) call results%sharing%work_alone(.true.)
-         progress%log => log
+         progress%log => logger
          progress%loads = size(order)
          solver%progress => progress
          do i = 1, size(order)
@@ -95,7 +95,7 @@ contains
                call solve_target(solver, loads_by, target(load), results%loads(load), results%scene%stress_setting)
                call checkpoint%add(load, results%loads(load))
                progress%solved = progress%solved + 1
-               progress%last = log%elapsed()
+               progress%last = logger%elapsed()
             end if
          end do
          solver%progress => null()
@@ -130,9 +130,9 @@ contains
 
    !> Finds the largest von Mises stress and the largest shear stress of each load and body. If the loads are
    !> distributed, each rank does so for its own loads and then gets the stresses of the others.
-   subroutine find_stresses(results, log)
+   subroutine find_stresses(results, logger)
       type(results_type), intent(inout) :: results   !! with a group &stress and all loads solved with their fields
-      type(run_log), intent(inout) :: log            !! shows the progress
+      type(run_log), intent(inout) :: logger         !! shows the progress
 
       class(stress_fields), allocatable :: fields
       integer :: body, load, number
@@ -146,14 +146,14 @@ contains
          do load = 1, size(results%loads)
             if (.not. results%sharing%is_own_load(load)) cycle
             call results%loads(load)%stresses(results%solver%surface, fields)
-            if (results%loads(load)%is_good() .and. .not. fields%exist) call log%note( &
+            if (results%loads(load)%is_good() .and. .not. fields%exist) call logger%note( &
                'there is not enough memory for the stresses of load '//integer_text(load))
             do body = 1, size(setting%body)
                call find_largest_stresses(fields, setting%body(body), results%largest_stresses(1, body, load), &
                                           results%largest_stresses(2, body, load))
             end do
-            call log%say_progress('stresses of '//integer_text(load)//' of '//integer_text(size(results%loads))// &
-                                  ' loads')
+            call logger%say_progress('stresses of '//integer_text(load)//' of '//integer_text(size(results%loads))// &
+                                     ' loads')
          end do
       end associate
       if (are_distributed) then
@@ -166,68 +166,68 @@ contains
       end if
       number = count([(any([(results%stress_status(load, body), body=1, size(results%largest_stresses, 2))] /= &
                            results%loads(load)%status), load=1, size(results%loads))])
-      if (number > 0) call log%note('the error of the largest stress is more than half of it at '// &
+      if (number > 0) call logger%note('the error of the largest stress is more than half of it at '// &
          integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
          'grid_points')
    end subroutine find_stresses
 
    !> Solves partial slip under all loads and tangential loads, and the contact with adhesion, as far as the deck asks
    !> for them.
-   subroutine find_interface(results, log, table)
+   subroutine find_interface(results, logger, table)
       type(results_type), intent(inout) :: results   !! with a group &interface and all loads solved with their fields
-      type(run_log), intent(inout) :: log            !! shows the progress
+      type(run_log), intent(inout) :: logger         !! shows the progress
       character(*), intent(in) :: table              !! name of the one table that needs the results; '': all tables
 
       associate (setting => results%scene%interface_setting)
          if (setting%friction > 0.0_dp .and. (table == '' .or. index(table, 'slip') > 0)) then
-            call find_slip(results, log)
-            call log%say_timed('partial slip solved')
+            call find_slip(results, logger)
+            call logger%say_timed('partial slip solved')
          end if
          if (setting%work > 0.0_dp .and. (table == '' .or. index(table, 'adhesion') > 0)) then
-            call find_adhesion(results, log)
-            call log%say_timed('adhesion solved')
+            call find_adhesion(results, logger)
+            call logger%say_timed('adhesion solved')
          end if
       end associate
    end subroutine find_interface
 
    !> Solves partial slip under all loads and tangential loads.
-   subroutine find_slip(results, log)
+   subroutine find_slip(results, logger)
       type(results_type), intent(inout) :: results   !! gets `slip`
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       integer :: bad, i, load
       real(dp) :: tangential
 
       associate (setting => results%scene%interface_setting)
-         if (abs(setting%beta) > 0.0_dp) call log%note('partial slip neglects the coupling of normal and '// &
+         if (abs(setting%beta) > 0.0_dp) call logger%note('partial slip neglects the coupling of normal and '// &
             "tangential displacements of unlike bodies, Dundurs' beta = "//short_number(setting%beta))
          allocate (results%slip(size(setting%tangential), size(results%loads)))
          do load = 1, size(results%loads)
             associate (solution => results%loads(load))
                do i = 1, size(setting%tangential)
-                  call log%say_progress('partial slip of '//integer_text(load)//' of '// &
-                                        integer_text(size(results%loads))//' loads')
+                  call logger%say_progress('partial slip of '//integer_text(load)//' of '// &
+                                           integer_text(size(results%loads))//' loads')
                   tangential = setting%tangential(i)
                   if (setting%over_mean_pressure) tangential = tangential*solution%pbar_over_pstar
                   call solve_partial_slip(results%solver, setting%friction, solution, tangential, &
                                           results%scene%interface%slip_loop%is_true, results%slip(i, load))
-                  if (results%slip(i, load)%slides) call log%note( &
+                  if (results%slip(i, load)%slides) call logger%note( &
                      'under load '//integer_text(load)//' tangential load '//integer_text(i)// &
                      ' is more than friction times the mean pressure: the bodies slide')
                end do
             end associate
          end do
          bad = count(.not. (results%slip%slides .or. is_good_status(results%slip%status)))
-         if (bad > 0) call log%note('partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
+         if (bad > 0) call logger%note('partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
             integer_text(size(results%slip))//' tangential loads, see the status column')
       end associate
    end subroutine find_slip
 
    !> Computes the curve of the contact with adhesion and its contacts at the deck's loads. Mean pressures, gaps,
    !> approaches or areas of the deck are those of the contact with adhesion.
-   subroutine find_adhesion(results, log)
+   subroutine find_adhesion(results, logger)
       type(results_type), intent(inout) :: results   !! gets `adhesion` and `adhesive_loads`
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       character(:), allocatable :: words   ! load and area of a critical point; with free edges the load is a force
       integer :: bad, given, i   ! given: which value of a point on the curve the loads give
@@ -255,9 +255,9 @@ contains
             call add_load(curve, given, loads(i), i)
             call find_adhesive_solution(curve, given, i, results%adhesive_loads(i))
          end do
-         call log%say('adhesion: the contacts of the loads are in the table of adhesion, those above are without it')
+         call logger%say('adhesion: the contacts of the loads are in the table of adhesion, those above are without it')
          bad = count(.not. is_good_status(curve%at_loads%status))
-         if (bad > 0) call log%note('adhesion is NOT solved as requested at '//integer_text(bad)//' of '// &
+         if (bad > 0) call logger%note('adhesion is NOT solved as requested at '//integer_text(bad)//' of '// &
             integer_text(size(curve%at_loads))//' contacts of the loads, see the status column')
          do i = 1, size(curve%critical)
             associate (point => curve%critical(i))
@@ -267,7 +267,7 @@ contains
                if (surface%has_free_edges) words = ', force = '// &
                   short_number(mean_pressure*surface%nominal_area())//', area = '// &
                   short_number(surface%nominal_area()*point%area)
-               call log%say('adhesion: '//trim(point_names(point%kind))//words)
+               call logger%say('adhesion: '//trim(point_names(point%kind))//words)
             end associate
          end do
       end associate

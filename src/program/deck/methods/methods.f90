@@ -1,7 +1,7 @@
 !> The solvers as a deck names them: their names, their keys in &method, which surfaces they cannot solve, and how a
 !> solver is started from the values of its keys.
 module wavycon_methods
-   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_expansions, has_neither, &
+   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_lattice, has_neither, &
       last_choice, points_are_given, points_are_of_the_map
    use wavycon_series_contact, only: series_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
@@ -124,7 +124,7 @@ contains
          if (.not. closed_form_exists(surface)) words = "is for the 1-D wave and kind = 'ball'"
       case ('fitted')
          call find_frame(surface, frame)
-         ! A flat surface is in full contact at every load: no expansion is needed.
+         ! A flat surface is in full contact at every load: no fitted function is needed.
          if (.not. allocated(frame%lattice) .and. surface%amplitude > 0.0_dp) words = &
             "is for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
             ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
@@ -231,8 +231,8 @@ contains
          traits = solver%traits()
          words = grid_in_words(values, surface)
          if (traits%choice == has_closed_form) words = trim(closed_form(surface%dimension))
-         if (traits%choice == has_expansions) words = fitted
-         if (traits%choice == has_expansions .or. (traits%choice == has_closed_form .and. surface%dimension == 2)) &
+         if (traits%choice == has_lattice) words = fitted
+         if (traits%choice == has_lattice .or. (traits%choice == has_closed_form .and. surface%dimension == 2)) &
             words = words//', grids where it cannot'
       end select
       if (present(description)) call move_alloc(words, description)
@@ -247,7 +247,7 @@ contains
 
       reasons = ''
       reasons(has_closed_form) = 'the surface is the 1-D wave or a ball, which has a closed form'
-      reasons(has_expansions) = 'the surface has a lattice of equal spots; grids solve the loads for which '// &
+      reasons(has_lattice) = 'the surface has a lattice of equal spots; grids solve the loads for which '// &
                                 "'fitted' is not accurate enough"
       reasons(has_neither) = 'there is neither a closed form nor a lattice of equal spots on half-spaces'
       reasons(has_a_hardness) = "neither the closed form nor 'fitted' has a hardness"
@@ -283,7 +283,7 @@ contains
       else if (points <= harmonics) then
          origin = ' (the default)'
          if (values%harmonics%is_given) origin = ''
-         call values%problems%add(max(values%harmonics%place, values%constraint_points%place), &
+         call values%problems%add(max(values%harmonics%position, values%constraint_points%position), &
             'constraint_points must be more than harmonics, got '//integer_text(points)//' and '// &
             integer_text(harmonics)//origin)
       else if (.not. values%symmetry%is_bad) then
@@ -328,7 +328,7 @@ contains
       type(surface_type), intent(in) :: surface
       integer :: points(2)
 
-      points = surface%parts()*nint(values%grid_points%pair)
+      points = surface%maps_in_cell()*nint(values%grid_points%pair)
    end function points_of_grid
 
    !> Checks the keys of grids and sets grid_points along x and y. If the deck gives neither grid_points nor an
@@ -346,7 +346,7 @@ contains
          if (.not. surface%mirrored .and. any(mod(nint(grid%numbers), 2) /= 0)) call values%complain(grid, &
             'grid_points must be even: of surfaces with mirror symmetry half of them are solved each way')
          if (.not. (grid%is_given .or. values%accuracy%is_given) .and. all(surface%points > 0)) then
-            call grid%set(real(surface%points/surface%parts(), dp))
+            call grid%set(real(surface%points/surface%maps_in_cell(), dp))
             grid%in_effect = .false.
          end if
          if (size(grid%numbers) > 0 .and. .not. values%accuracy%is_given) values%accuracy%in_effect = .false.
@@ -365,7 +365,7 @@ contains
 
       integer :: points(2)
 
-      points = points_of_grid(values, surface)/surface%parts()
+      points = points_of_grid(values, surface)/surface%maps_in_cell()
       if (all(points > 0)) then
          words = 'a grid of '//integer_text(points(1))
          if (surface%dimension == 2) words = words//' x '//integer_text(points(2))

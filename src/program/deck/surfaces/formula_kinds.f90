@@ -80,7 +80,7 @@ contains
       case ('ball')
          surface = surface_of_ball([values%length_x%number, values%length_y%number], &
                                    radii_of(values%radius, values%radius_x, values%radius_y))
-         if (values%points%is_given) surface%points = surface%parts()*nint(values%points%pair)
+         if (values%points%is_given) surface%points = surface%maps_in_cell()*nint(values%points%pair)
       end select
    end function formula_surface
 

@@ -1,50 +1,50 @@
-!> Stresses in the half-space below one expansion and all its images: README.md, section 13.
+!> Stresses in the half-space below one fitted function and all its images: README.md, section 13.
 !>
 !> At depth the stresses are a Fourier series. Near the surface they are the sum of two parts: the spots or pools near
 !> the point are integrated one by one, by a rule over the disc or, next to a spot or pool, along rays; the stresses of
 !> all others are smooth and are interpolated in a table.
-module wavycon_expansion_stress
+module wavycon_fitted_function_stress
    use wavycon_constants, only: pi
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
-   use wavycon_expansion, only: expansion
    use wavycon_far_stress, only: far_stress, set_far_values, start_far_stress
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: far_top, near_clearance, series_depth
    use wavycon_kinds, only: dp
+   use wavycon_lattice_stress_series, only: add_wave, lattice_stress_series, start_lattice_stress_series
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral
-   use wavycon_stress_kernel, only: all_fields, stress_fields, stress_parts
-   use wavycon_stress_series, only: add_wave, start_stress_series, stress_series
+   use wavycon_stress_kernel, only: all_fields, nu_terms_of, stress_field_count
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
-   public :: expansion_stress, start_expansion_stress
+   public :: fitted_function_stress, start_fitted_function_stress
 
-   type :: expansion_stress
+   type :: fitted_function_stress
       type(wave_lattice), private :: lattice
       type(spot_integral) :: spot                            !! the integral over one spot or pool
       complex(dp), allocatable, private :: centre(:)         !! centres of the spots or pools near the cell [s]
       real(dp), allocatable, private :: half_turn(:)         !! for each of them 1, or -1 if rotated by half a turn
       complex(dp), allocatable, private :: edge(:)           !! edge_points of the shape [s]
       ! The series at depth and the table near the surface are made when they are first needed.
-      type(stress_series), allocatable, private :: series
+      type(lattice_stress_series), allocatable, private :: series
       type(far_stress), allocatable, private :: far
    contains
       procedure :: at
       procedure :: distance_from_edges
       procedure, private :: prepare_series
       procedure, private :: prepare_far
-   end type expansion_stress
+   end type fitted_function_stress
 
 contains
 
    !> Prepares the stresses below a solution, and lists the spots or pools near the rectangle to which positions are
    !> reduced.
-   subroutine start_expansion_stress(stress, lattice, solution, accuracy)
-      type(expansion_stress), intent(out) :: stress
+   subroutine start_fitted_function_stress(stress, lattice, solution, accuracy)
+      type(fitted_function_stress), intent(out) :: stress
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: solution      !! the solution of the lattice, without adhesion
-      real(dp), intent(in) :: accuracy             !! error of the stresses over the peak pressure
+      type(fitted_function), intent(in) :: solution      !! the solution of the lattice, without adhesion
+      real(dp), intent(in) :: accuracy                   !! error of the stresses over the peak pressure
 
       complex(dp), allocatable :: centre(:)
       complex(dp) :: first
@@ -61,17 +61,17 @@ contains
          stress%centre = [stress%centre, centre]
          stress%half_turn = [stress%half_turn, spread(merge(1.0_dp, -1.0_dp, k == 1), 1, size(centre))]
       end do
-   end subroutine start_expansion_stress
+   end subroutine start_fitted_function_stress
 
    !> The stresses at a point, less those of the mean pressure.
-   subroutine at(self, place, depth, parts)
-      class(expansion_stress), intent(inout) :: self
+   subroutine at(self, place, depth, nu_terms)
+      class(fitted_function_stress), intent(inout) :: self
       complex(dp), intent(in) :: place                    !! x + i y of the point from a crest [s]
       real(dp), intent(in) :: depth                       !! depth z >= 0 [s]
-      real(dp), intent(out) :: parts(6, 2)                !! as of stress_parts [pi E* Delta/s]
+      real(dp), intent(out) :: nu_terms(6, 2)             !! as of nu_terms_of [pi E* Delta/s]
 
       complex(dp) :: z
-      real(dp) :: fields(stress_fields)
+      real(dp) :: fields(stress_field_count)
       integer :: i
 
       fields = 0.0_dp
@@ -93,12 +93,12 @@ contains
             call add_wave(2*pi*self%lattice%wave(:, i), self%lattice%pressure(i), place, depth, fields)
          end do
       end if
-      parts = stress_parts(fields)
+      nu_terms = nu_terms_of(fields)
    end subroutine at
 
    !> The distance of a position on the surface from the nearest edge of a spot or pool [s].
    pure real(dp) function distance_from_edges(self, place) result(distance)
-      class(expansion_stress), intent(in) :: self
+      class(fitted_function_stress), intent(in) :: self
       complex(dp), intent(in) :: place                    !! x + i y from a crest [s]
 
       complex(dp) :: z
@@ -115,7 +115,7 @@ contains
 
    !> Makes the Fourier series for depths from `series_depth` on.
    subroutine prepare_series(self)
-      class(expansion_stress), intent(inout) :: self
+      class(fitted_function_stress), intent(inout) :: self
 
       type(disc_sources) :: sources
       real(dp) :: waves
@@ -128,11 +128,11 @@ contains
    end subroutine prepare_series
 
    !> Makes a Fourier series of all spots or pools from the point sources, pressure or gap, of one of them.
-   subroutine start_series(stress, series, sources, depth, digits)
-      type(expansion_stress), intent(in) :: stress
-      type(stress_series), intent(out) :: series
+   subroutine start_series(stress, series, sources, depth, e_folds)
+      type(fitted_function_stress), intent(in) :: stress
+      type(lattice_stress_series), intent(out) :: series
       type(disc_sources), intent(in) :: sources               !! sources of one spot or pool
-      real(dp), intent(in) :: depth, digits                   !! as of start_stress_series
+      real(dp), intent(in) :: depth, e_folds             !! as of start_lattice_stress_series
 
       complex(dp) :: centre
 
@@ -140,21 +140,21 @@ contains
          centre = merge(lattice%trough, (0.0_dp, 0.0_dp), pool)
          ! A pool and its image by half a turn about a crest have the same even terms. So the second pool of a cell is a
          ! factor 2.
-         call start_stress_series(series, lattice%rows, centre%re + sources%x, centre%im + sources%y, &
-                                  merge(lattice%troughs, 1, pool)*sources%strength(:, 1), pool, depth, digits)
+         call start_lattice_stress_series(series, lattice%rows, centre%re + sources%x, centre%im + sources%y, &
+                                  merge(lattice%troughs, 1, pool)*sources%strength(:, 1), pool, depth, e_folds)
       end associate
    end subroutine start_series
 
    !> Makes the table of the far spots or pools. At its nodes their stresses are the Fourier series of all less the sum
    !> of the near ones. Both are those of the same point sources.
    subroutine prepare_far(self)
-      class(expansion_stress), intent(inout) :: self
+      class(fitted_function_stress), intent(inout) :: self
 
       type(disc_sources) :: sources
-      type(stress_series) :: series
-      complex(dp) :: at
+      type(lattice_stress_series) :: series
+      complex(dp) :: position
       real(dp), allocatable :: values(:, :, :, :)
-      real(dp) :: fields(stress_fields)
+      real(dp) :: fields(stress_field_count)
       integer :: i, j, k, m
 
       call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
@@ -163,15 +163,15 @@ contains
       call start_far_stress(self%far, self%lattice%rows%half_sides(), self%spot%solution%pool, &
                             self%spot%digits - 1.0_dp)
       associate (x => self%far%node_x, y => self%far%node_y, z => self%far%node_z)
-         allocate (values(size(x), size(y), size(z), stress_fields))
+         allocate (values(size(x), size(y), size(z), stress_field_count))
          do k = 1, size(z)
             do j = 1, size(y)
                do i = 1, size(x)
                   fields = 0.0_dp
                   do m = 1, size(self%centre)
-                     at = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
+                     position = self%half_turn(m)*(cmplx(x(i), y(j), dp) - self%centre(m))
                      fields(7:8) = self%half_turn(m)*fields(7:8)
-                     call sources%add_at(all_fields, at, z(k), fields)
+                     call sources%add_at(all_fields, position, z(k), fields)
                      fields(7:8) = self%half_turn(m)*fields(7:8)
                   end do
                   fields = -fields
@@ -184,4 +184,4 @@ contains
       end associate
    end subroutine prepare_far
 
-end module wavycon_expansion_stress
+end module wavycon_fitted_function_stress

@@ -3,36 +3,36 @@
 !> All lattices are symmetric to the x axis and the y axis through a crest, so that the series has terms
 !> cos(k_x x) cos(k_y y) only. A lattice of shifted rows has the terms of a rectangle of two rows in which the sum of
 !> the two wave numbers is even.
-module wavycon_stress_series
+module wavycon_lattice_stress_series
    use wavycon_constants, only: pi
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemm
    use wavycon_row_lattice, only: row_lattice
-   use wavycon_stress_kernel, only: stress_fields
+   use wavycon_stress_kernel, only: stress_field_count
    implicit none (type, external)
    private
 
-   public :: stress_series, start_stress_series, add_wave
+   public :: lattice_stress_series, start_lattice_stress_series, add_wave
 
-   type :: stress_series
+   type :: lattice_stress_series
       real(dp) :: digits = 0.0_dp                      !! waves with |k| z above this are left out: ln(1/accuracy)
       real(dp) :: base_x = 0.0_dp, base_y = 0.0_dp     !! least k_x and k_y [rad/s]
       real(dp), allocatable, private :: pressure(:, :) !! amplitude of each wave, shape (0:n_x, 0:n_y); 0 for the mean
    contains
       procedure :: add_at
-   end type stress_series
+   end type lattice_stress_series
 
 contains
 
    !> Computes the amplitudes of the waves that reach a depth, from the point sources of one cell.
-   subroutine start_stress_series(series, rows, x, y, strength, gap, depth, digits)
-      type(stress_series), intent(out) :: series
+   subroutine start_lattice_stress_series(series, rows, x, y, strength, gap, depth, e_folds)
+      type(lattice_stress_series), intent(out) :: series
       type(row_lattice), intent(in) :: rows
       real(dp), intent(in) :: x(:), y(:)         !! positions of the n sources from a crest, shape (n) [s]
       real(dp), intent(in) :: strength(:)        !! pressure or gap times area, shape (n)
       logical, intent(in) :: gap                 !! true: the sources are a gap, whose waves have |k| times the pressure
       real(dp), intent(in) :: depth              !! least depth at which the series will be evaluated, > 0 [s]
-      real(dp), intent(in) :: digits             !! natural logarithm of 1/accuracy
+      real(dp), intent(in) :: e_folds       !! natural logarithm of 1/accuracy
 
       real(dp), allocatable :: along_x(:, :), along_y(:, :)
       real(dp) :: height, largest, length
@@ -41,8 +41,8 @@ contains
       height = rows%spacing*merge(2, 1, rows%shift > 0.0_dp)
       series%base_x = 2*pi/merge(height, 1.0_dp, rows%along_y)
       series%base_y = 2*pi/merge(1.0_dp, height, rows%along_y)
-      series%digits = digits
-      largest = digits/depth
+      series%digits = e_folds
+      largest = e_folds/depth
       waves_x = ceiling(largest/series%base_x)
       waves_y = ceiling(largest/series%base_y)
       n = size(x)
@@ -63,17 +63,17 @@ contains
          end do
          p(0, 0) = 0.0_dp
       end associate
-   end subroutine start_stress_series
+   end subroutine start_lattice_stress_series
 
    !> Adds the fields at a point.
    pure subroutine add_at(self, place, depth, fields)
-      class(stress_series), intent(in) :: self
+      class(lattice_stress_series), intent(in) :: self
       complex(dp), intent(in) :: place             !! from a crest [s]
       real(dp), intent(in) :: depth                !! >= that of the start [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_field_count)
 
       complex(dp) :: x(0:ubound(self%pressure, 1)), y(0:ubound(self%pressure, 2))
-      real(dp) :: kx, ky, length, p, total(stress_fields)
+      real(dp) :: kx, ky, length, p, total(stress_field_count)
       integer :: i, j, last
 
       do i = 0, ubound(x, 1)
@@ -108,7 +108,7 @@ contains
       real(dp), intent(in) :: pressure             !! amplitude p
       complex(dp), intent(in) :: place             !! x + i y of the point [s]
       real(dp), intent(in) :: depth                !! depth z >= 0 [s]
-      real(dp), intent(inout) :: fields(stress_fields)
+      real(dp), intent(inout) :: fields(stress_field_count)
 
       complex(dp) :: direction
       real(dp) :: length, turn
@@ -124,4 +124,4 @@ contains
       end associate
    end subroutine add_wave
 
-end module wavycon_stress_series
+end module wavycon_lattice_stress_series

@@ -2,7 +2,7 @@
 !> method, or the one through the pressures at the points of a grid.
 !>
 !> Equations (S1) to (S5), (S9) and, for free edges, (S11) of README.md in this directory.
-module wavycon_series_stress
+module wavycon_series_stress_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_constants, only: pi
    use wavycon_elastic_body, only: elastic_body, no_waves
@@ -10,19 +10,18 @@ module wavycon_series_stress
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_load_tree, only: load_tree, plant_load_tree
+   use wavycon_pressure_wave_sums, only: deepest, pressure_wave_sums
    use wavycon_series_samples, only: sample_series
-   use wavycon_stress_fields, only: start_place, stress_fields
-   use wavycon_stress_kernel, only: stress_parts
+   use wavycon_stress_fields, only: start_point, stress_fields
+   use wavycon_stress_kernel, only: nu_terms_of
    use wavycon_stress_tensor, only: von_mises, zz
-   use wavycon_stress_tuning, only: coarsest, expansion_order, least_pressure, noise_part, octave_factor, &
-      plane_points, plane_ratio, pressure_part, shift_of_smooth, steps_in_shift, waves_in_depth, window_depth, &
-      window_points
-   use wavycon_stress_waves, only: deepest, stress_waves
+   use wavycon_stress_tuning, only: coarsest, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
+      pressure_part, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, window_points
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: series_stress, start_series_stress
+   public :: series_stress_fields, start_series_stress_fields
 
    !> Points across the middle part of a window, where its stresses are compared with others.
    integer, parameter :: middle = window_points/2
@@ -39,9 +38,9 @@ module wavycon_series_stress
       real(dp) :: centre(3) = 0.0_dp                !! X, Y, Z of the point [rad]
    end type taylor_series
 
-   type, extends(stress_fields) :: series_stress
+   type, extends(stress_fields) :: series_stress_fields
       private
-      type(stress_waves) :: waves                    !! the waves of the pressure that (S4) adds up
+      type(pressure_wave_sums) :: waves              !! the waves of the pressure that (S4) adds up
       real(dp) :: pressure_error = 0.0_dp            !! error estimate of the pressure [p*]; NaN if there is none
       type(taylor_series), allocatable :: known(:)   !! series made by `expand` so far
       integer :: used = 0                            !! number of the one that `near` takes
@@ -49,7 +48,7 @@ module wavycon_series_stress
       !> With free edges only: the smooth part of the stresses, (S11), which `waves` lack.
       type(load_tree), allocatable :: load
       !> With free edges only: the waves of the whole pressure, with its mean.
-      type(stress_waves), allocatable :: whole
+      type(pressure_wave_sums), allocatable :: whole
    contains
       procedure :: remove_images
       procedure :: at
@@ -57,15 +56,15 @@ module wavycon_series_stress
       procedure :: near
       procedure :: on_line
       procedure :: on_plane
-      procedure :: start_places
-   end type series_stress
+      procedure :: start_points
+   end type series_stress_fields
 
 contains
 
    !> Prepares the stresses below a pressure that is a Fourier series. Waves that the error of the pressure hides at a
    !> depth are left out there: see `pressure_part`.
-   subroutine start_series_stress(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled)
-      type(series_stress), intent(out) :: stress
+   subroutine start_series_stress_fields(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled)
+      type(series_stress_fields), intent(out) :: stress
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure    !! p/p* on the cell; its mean is not used
       real(dp), intent(in) :: pbar_over_pstar         !! mean pressure P [p*]
@@ -74,7 +73,7 @@ contains
 
       stress%pbar_over_pstar = pbar_over_pstar
       stress%dimension = surface%dimension
-      stress%parts = surface%parts()
+      stress%maps_in_cell = surface%maps_in_cell()
       stress%side_ratio = surface%length(2)/surface%length(1)
       if (surface%dimension == 1) stress%side_ratio = 1.0_dp
       call stress%waves%start(pressure, stress%side_ratio, is_sampled)
@@ -82,15 +81,15 @@ contains
       stress%pressure_error = pressure_error
       if (.not. ieee_is_nan(pressure_error)) &
          stress%waves%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), coarsest))
-   end subroutine start_series_stress
+   end subroutine start_series_stress_fields
 
    !> Removes the stresses of the images from those of a surface with free edges, (S11).
    !>
    !> The pressure's series is that of a cell of twice the sides of the map, so that the series repeats the pressure. On
    !> exit `waves` have only the first part of (S11), and `load` computes the second one from point forces.
    subroutine remove_images(self, first)
-      class(series_stress), intent(inout) :: self   !! just started, with the mean pressure of the cell
-      real(dp), intent(in) :: first(2)              !! X, Y of the surface at the origin of the series [rad]
+      class(series_stress_fields), intent(inout) :: self   !! just started, with the mean pressure of the cell
+      real(dp), intent(in) :: first(2)                     !! X, Y of the surface at the origin of the series [rad]
 
       real(dp), allocatable :: pressure(:, :)
       real(dp) :: ratios(2), shift
@@ -118,17 +117,17 @@ contains
    end subroutine remove_images
 
    !> The stress at one point: that on a line of a single point.
-   subroutine at(self, x, y, depth, parts, error)
-      class(series_stress), intent(inout) :: self
+   subroutine at(self, x, y, depth, nu_terms, error)
+      class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
-      real(dp) :: errors(1), parts_on_line(6, 2, 1)
+      real(dp) :: errors(1), nu_terms_on_line(6, 2, 1)
 
-      call self%on_line([x, y], [0, 0], [0.0_dp], depth, parts_on_line, errors)
-      parts = parts_on_line(:, :, 1)
+      call self%on_line([x, y], [0, 0], [0.0_dp], depth, nu_terms_on_line, errors)
+      nu_terms = nu_terms_on_line(:, :, 1)
       if (present(error)) error = errors(1)
    end subroutine at
 
@@ -136,7 +135,7 @@ contains
    !> chosen if its error is below `noise_part` of the change of the stress over the distance `reach`. Otherwise a
    !> series about the place is made.
    subroutine expand(self, place, width, reach, noise)
-      class(series_stress), intent(inout) :: self
+      class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: place(3)
       real(dp), intent(in) :: width, reach
       real(dp), intent(out) :: noise
@@ -152,7 +151,7 @@ contains
       if (noise <= noise_part*(reach/width)**2) return
       self%known = [self%known, taylor_series(centre=place)]
       self%used = size(self%known)
-      call self%waves%find_moments(place - self%first, expansion_order, self%known(self%used)%moment)
+      call self%waves%find_moments(place - self%first, taylor_order, self%known(self%used)%moment)
       noise = noise_at(0.0_dp)
 
    contains
@@ -161,27 +160,27 @@ contains
       pure real(dp) function noise_at(distance)
          real(dp), intent(in) :: distance   !! of the place from the centre of a series [rad]
 
-         noise_at = ((distance + reach)/min(width, max(place(3), least_width(self))))**(expansion_order + 1)/8
+         noise_at = ((distance + reach)/min(width, max(place(3), least_width(self))))**(taylor_order + 1)/8
       end function noise_at
 
    end subroutine expand
 
    !> The least distance over which the stress at the surface changes [rad]: half of the shortest wavelength.
    pure real(dp) function least_width(stress)
-      class(series_stress), intent(in) :: stress
+      class(series_stress_fields), intent(in) :: stress
 
       least_width = pi/max(plane_points/2.0_dp, maxval(stress%waves%pressure%last([1, 2])/[1.0_dp, stress%side_ratio]))
    end function least_width
 
    !> The stress near a place, by the Taylor series that `expand` chose.
-   subroutine near(self, place, parts)
-      class(series_stress), intent(inout) :: self
+   subroutine near(self, place, nu_terms)
+      class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: place(3)
-      real(dp), intent(out) :: parts(6, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
 
-      associate (known => self%known(self%used), scale => [1.0_dp, self%side_ratio, 1.0_dp])
-         parts = stress_parts(sums_near(known%moment, (place - known%centre)*scale, place(3)) &
-                              + smooth_sums(self, place))
+      associate (known => self%known(self%used), to_series => [1.0_dp, self%side_ratio, 1.0_dp])
+         nu_terms = nu_terms_of(sums_near(known%moment, (place - known%centre)*to_series, place(3)) &
+                                + smooth_sums(self, place))
       end associate
    end subroutine near
 
@@ -225,7 +224,7 @@ contains
 
    !> The smooth part of the sums (S4), which the waves of a surface with free edges lack; zero for other surfaces.
    pure function smooth_sums(stress, place) result(sums)
-      class(series_stress), intent(in) :: stress
+      class(series_stress_fields), intent(in) :: stress
       real(dp), intent(in) :: place(3)   !! X, Y, Z [rad]
       real(dp) :: sums(8)
 
@@ -235,13 +234,13 @@ contains
 
    !> The stresses along a line. Waves with the same wave number m = d_x k + d_y l along the line are added up first, so
    !> that each point takes a sum over m only.
-   subroutine on_line(self, start, direction, t, depth, parts, error)
-      class(series_stress), intent(inout) :: self
+   subroutine on_line(self, start, direction, t, depth, nu_terms, error)
+      class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: start(2)
       integer, intent(in) :: direction(2)
       real(dp), intent(in) :: t(:)
       real(dp), intent(in) :: depth
-      real(dp), intent(out) :: parts(:, :, :), error(:)
+      real(dp), intent(out) :: nu_terms(:, :, :), error(:)
 
       complex(dp), allocatable :: along(:, :), turn_x(:), waves(:)
       complex(dp) :: turned, wave
@@ -279,15 +278,15 @@ contains
          do m = lbound(along, 2), ubound(along, 2)
             sums = sums + real(along(:, m)*turn(m*t(i)))
          end do
-         parts(:, :, i) = stress_parts(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))
-         error(i) = error_of(self, parts(zz, 1, i) - self%pbar_over_pstar, sums(9:))
+         nu_terms(:, :, i) = nu_terms_of(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))
+         error(i) = error_of(self, nu_terms(zz, 1, i) - self%pbar_over_pstar, sums(9:))
       end do
    end subroutine on_line
 
    !> The error estimate (S5) of a stress component. The vertical stress below a contact is never a tension, so the
    !> error is at least the computed vertical tension.
    pure real(dp) function error_of(stress, vertical, octave)
-      class(series_stress), intent(in) :: stress
+      class(series_stress_fields), intent(in) :: stress
       real(dp), intent(in) :: vertical    !! zz, with that of the mean pressure [p*]
       real(dp), intent(in) :: octave(:)   !! S, S_x, S_y [p*]; size 0 if no wave of the last octave reaches the depth
 
@@ -299,7 +298,7 @@ contains
    !> same values at the points as a slower wave (aliases) are added to the slower wave. So the values at the points are
    !> exact for any number of points.
    subroutine on_plane(self, points, offset, depth, body, stress, error)
-      class(series_stress), intent(inout) :: self
+      class(series_stress_fields), intent(inout) :: self
       integer, intent(in) :: points(2)
       real(dp), intent(in) :: offset(2)
       real(dp), intent(in) :: depth
@@ -315,7 +314,7 @@ contains
 
       number = merge(9, 6, self%waves%octave_reaches(depth))
       mean = body%stress(no_waves, self%pbar_over_pstar)
-      associate (of_cell => self%parts*points)
+      associate (of_cell => self%maps_in_cell*points)
          step = 2*pi/of_cell
          allocate (fields(of_cell(1), of_cell(2), number), waves(of_cell(1)/2 + 1, of_cell(2), number))
          call plane%start(of_cell, even=.false., whole=.true.)
@@ -326,14 +325,15 @@ contains
       end do
       deallocate (waves)
       allocate (stress(points(1), points(2), 6), error(points(1), points(2)))
-      associate (scale => [1.0_dp, self%side_ratio])
-         if (allocated(self%load)) call self%load%sums_on_plane(offset*step*scale, step*scale, points, depth, smooth)
+      associate (to_series => [1.0_dp, self%side_ratio])
+         if (allocated(self%load)) call self%load%sums_on_plane(offset*step*to_series, step*to_series, points, depth, &
+                                                            smooth)
       end associate
       do l = 1, points(2)
          do k = 1, points(1)
             stress(k, l, :) = fields(k, l, :6) + mean
             if (allocated(self%load)) stress(k, l, :) = stress(k, l, :) &
-               + matmul(stress_parts(smooth(:, k, l)), [1.0_dp, body%nu])
+               + matmul(nu_terms_of(smooth(:, k, l)), [1.0_dp, body%nu])
             error(k, l) = error_of(self, stress(k, l, zz), fields(k, l, 7:))
          end do
       end do
@@ -345,10 +345,10 @@ contains
    !> The first plane is the surface, and each further one is `plane_ratio` times as deep as the plane before. Deeper
    !> planes need fewer points. If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the
    !> planes close to the surface are computed within these windows only, which takes less time at light loads.
-   subroutine start_places(self, body, places)
-      class(series_stress), intent(inout) :: self
+   subroutine start_points(self, body, places)
+      class(series_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
-      type(start_place), allocatable, intent(out) :: places(:)
+      type(start_point), allocatable, intent(out) :: places(:)
 
       integer, parameter :: window(2) = window_points
       real(dp), allocatable :: highest(:, :), pressure(:, :)
@@ -357,7 +357,7 @@ contains
       real(dp) :: largest, region, step
       type(fourier_series) :: series
       type(grid_transform) :: plane
-      type(stress_waves) :: all_waves, waves
+      type(pressure_wave_sums) :: all_waves, waves
       !> `last`: number of the deepest plane. `shallow`: the planes 0 to this one are those of windows; -1 without
       !> windows.
       integer :: block(2), i, last, points(2), shallow
@@ -402,7 +402,7 @@ contains
 
       !> The number of points of a plane along x and y that resolve the waves that reach a depth.
       pure function points_of(waves, depth) result(number)
-         type(stress_waves), intent(in) :: waves
+         type(pressure_wave_sums), intent(in) :: waves
          real(dp), intent(in) :: depth      !! Z, in the angles of the cell or window of the waves [rad]
          integer :: number(2)
 
@@ -418,11 +418,11 @@ contains
 
       !> Appends to `places` the points of the largest stresses on some of the planes below the cell or below a window.
       subroutine scan(waves, first, last, corner, extent, from, to)
-         type(stress_waves), intent(in) :: waves   !! of the cell's or the window's pressure
-         integer, intent(in) :: first, last        !! numbers of the planes; 0 is the surface
-         integer, intent(in) :: corner(2)          !! first point of the cell or window, from 0
-         integer, intent(in) :: extent(2)          !! its number of points along x and y
-         real(dp), intent(in) :: from, to          !! points from `from` to `to` of its sides are compared, 0 to 1
+         type(pressure_wave_sums), intent(in) :: waves   !! of the cell's or the window's pressure
+         integer, intent(in) :: first, last              !! numbers of the planes; 0 is the surface
+         integer, intent(in) :: corner(2)                !! first point of the cell or window, from 0
+         integer, intent(in) :: extent(2)                !! its number of points along x and y
+         real(dp), intent(in) :: from, to                !! points from `from` to `to` of its sides are compared, 0 to 1
 
          real(dp) :: depth, stress(6, 2)
          integer :: i, k, number(2), point(2, 2)
@@ -437,7 +437,7 @@ contains
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
                                      min(floor(to*number), number - 1), depth/side(1), body, point, stress)
                do k = 1, 2
-                  places = [places, start_place([2*pi*(corner/real(points, dp) + side*point(:, k)/number), depth] &
+                  places = [places, start_point([2*pi*(corner/real(points, dp) + side*point(:, k)/number), depth] &
                                                 + self%first, max(depth, step), stress(:, k))]
                end do
                largest = max(largest, von_mises(stress(:, 1)))
@@ -455,6 +455,6 @@ contains
                               i=1, seen(1), middle), j=1, seen(2), middle)], (seen - 1)/middle + 1)
       end subroutine find_highest
 
-   end subroutine start_places
+   end subroutine start_points
 
-end module wavycon_series_stress
+end module wavycon_series_stress_fields

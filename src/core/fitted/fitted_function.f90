@@ -1,7 +1,8 @@
-!> The pressure on a contact spot or the gap over an open pool as an expansion over the unit disc.
+!> A fitted function: the pressure on a contact spot, or the gap over an open pool, as a sum of polynomials on the unit
+!> disc.
 !>
-!> Where spots are separate the expansion is the pressure on one spot around a crest. Where pools are separate it is the
-!> gap over one pool around a trough. Both are
+!> Where spots are separate the fitted function is the pressure on one spot around a crest. Where pools are separate it
+!> is the gap over one pool around a trough. Both are
 !>
 !>     (1 - |w|^2)^power times the sum over i of c_i Psi_i(w),
 !>
@@ -11,16 +12,16 @@
 !> the centre of the spot or pool.
 !>
 !> Without adhesion the load is given and the size follows. With adhesion the area is given and the load follows.
-module wavycon_expansion
+module wavycon_fitted_function
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_kinds, only: dp
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
    private
 
-   public :: edge_power, expansion
+   public :: edge_power, fitted_function
 
-   type :: expansion
+   type :: fitted_function
       logical :: pool = .false.              !! true: the gap over a pool; false: the pressure on a spot
       type(disc_polynomials) :: basis        !! the polynomials Psi_i
       type(shape_map) :: shape               !! the map of the disc to the spot or pool
@@ -32,7 +33,7 @@ module wavycon_expansion
    contains
       procedure :: resized
       procedure :: at
-   end type expansion
+   end type fitted_function
 
 contains
 
@@ -49,11 +50,11 @@ contains
    !> those of polynomials that a smaller basis lacks are dropped. With another clustering the function changes a
    !> little.
    function resized(self, degree, shape_terms, clustering) result(copy)
-      class(expansion), intent(in) :: self
+      class(fitted_function), intent(in) :: self
       integer, intent(in) :: degree           !! degree of the new basis
       integer, intent(in) :: shape_terms      !! number K of the new shape's terms, >= 1
       real(dp), intent(in) :: clustering      !! tau of the new shape, close to that of the old one
-      type(expansion) :: copy
+      type(fitted_function) :: copy
 
       integer :: i, n
 
@@ -83,7 +84,7 @@ contains
    !> The pressure or gap at a point of the disc; 0 outside and on the edge. The value at the centre is a spot's peak
    !> pressure or a pool's gap at the trough.
    real(dp) function at(self, w)
-      class(expansion), intent(in) :: self
+      class(fitted_function), intent(in) :: self
       complex(dp), intent(in) :: w
 
       real(dp) :: inside, values(1, self%basis%terms)
@@ -95,4 +96,4 @@ contains
       at = dot_product(values(1, :), self%c)*inside**self%basis%power
    end function at
 
-end module wavycon_expansion
+end module wavycon_fitted_function

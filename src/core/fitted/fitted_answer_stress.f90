@@ -1,11 +1,11 @@
-!> Stresses in the half-space below a solution by collocation fitted to the edge: README.md, section 13.
+!> Stresses in the half-space below a fitted answer, with error estimates from the lower degrees: README.md, section 13.
 !>
 !> Their integration adds errors of 1e-10 of the peak pressure at most, at any depth, the surface included. The errors
 !> of the solution itself come on top.
-module wavycon_fitted_stress
+module wavycon_fitted_answer_stress
    use wavycon_degree_history, only: error_estimate
-   use wavycon_expansion_stress, only: expansion_stress, start_expansion_stress
    use wavycon_fitted_answer, only: fitted_answer
+   use wavycon_fitted_function_stress, only: fitted_function_stress, start_fitted_function_stress
    use wavycon_fitted_tuning, only: fastest_decay_at_point, stress_error_safety
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: contact_area, peak_pressure, perimeter
@@ -13,24 +13,24 @@ module wavycon_fitted_stress
    implicit none (type, external)
    private
 
-   public :: fitted_stress, start_fitted_stress
+   public :: fitted_answer_stress, start_fitted_answer_stress
 
-   type :: fitted_stress
+   type :: fitted_answer_stress
       type(fitted_answer) :: answer
       real(dp), private :: accuracy = 0.0_dp              !! error of the integrals over the peak pressure
       real(dp), private :: relative_error = 0.0_dp        !! relative error of the peak pressure or, if larger, the area
       real(dp), private :: edge_error = 0.0_dp            !! mean error of the edge's position [s]
-      type(expansion_stress), allocatable, private :: of_degree(:)
-         !! stresses of the answer's expansion, 0, and of those of lower degrees, from 1 on
+      type(fitted_function_stress), allocatable, private :: of_degree(:)
+         !! stresses of the answer's fitted function, 0, and of those of lower degrees, from 1 on
    contains
       procedure :: at
-   end type fitted_stress
+   end type fitted_answer_stress
 
 contains
 
    !> Prepares the stresses of a solution. Series, tables and rules are made when a point first needs them.
-   subroutine start_fitted_stress(stress, lattice, answer, accuracy)
-      type(fitted_stress), intent(out) :: stress
+   subroutine start_fitted_answer_stress(stress, lattice, answer, accuracy)
+      type(fitted_answer_stress), intent(out) :: stress
       type(wave_lattice), intent(in) :: lattice    !! the lattice that was solved
       type(fitted_answer), intent(in) :: answer    !! the solution, status <= fitted_less_exact
       real(dp), intent(in) :: accuracy             !! error of the integrals over the peak pressure, > 0
@@ -41,9 +41,9 @@ contains
       stress%answer = answer
       stress%accuracy = accuracy
       allocate (stress%of_degree(0:size(answer%previous)))
-      call start_expansion_stress(stress%of_degree(0), lattice, answer%solution, accuracy)
+      call start_fitted_function_stress(stress%of_degree(0), lattice, answer%solution, accuracy)
       do i = 1, ubound(stress%of_degree, 1)
-         call start_expansion_stress(stress%of_degree(i), lattice, answer%previous(i), accuracy)
+         call start_fitted_function_stress(stress%of_degree(i), lattice, answer%previous(i), accuracy)
       end do
       ! The area of one spot or pool, and its error.
       area = answer%solution%shape%area()
@@ -51,30 +51,30 @@ contains
       if (answer%pool) area_error = area_error/lattice%troughs
       stress%relative_error = max(answer%error(peak_pressure)/answer%value(peak_pressure), area_error/area)
       stress%edge_error = area_error/answer%value(perimeter)
-   end subroutine start_fitted_stress
+   end subroutine start_fitted_answer_stress
 
    !> The stresses at a point, less those of the mean pressure. The error is estimated by README.md (F64): from the
    !> stresses of lower degrees, the errors of peak pressure and area, and, next to the edge, the error of the edge's
    !> position.
    !>
    !> N.B. On the surface inside a pool the pressure is not exactly 0, but the residual of the equations.
-   subroutine at(self, place, depth, parts, error)
-      class(fitted_stress), intent(inout) :: self
+   subroutine at(self, place, depth, nu_terms, error)
+      class(fitted_answer_stress), intent(inout) :: self
       complex(dp), intent(in) :: place             !! x + i y from a crest [s]
       real(dp), intent(in) :: depth                !! depth z >= 0 [s]
-      real(dp), intent(out) :: parts(6, 2)
-         !! xx, yy, zz, xy, xz, yz [pi E* Delta/s], tension > 0: the stress is parts(:, 1) + nu*parts(:, 2)
+      real(dp), intent(out) :: nu_terms(6, 2)
+         !! xx, yy, zz, xy, xz, yz [pi E* Delta/s], tension > 0: the stress is nu_terms(:, 1) + nu*nu_terms(:, 2)
       real(dp), intent(out), optional :: error
          !! estimate of the largest error of the components for any 0 <= nu <= 1/2 [pi E* Delta/s]
 
-      !> The matrix that makes the stresses for nu = 0 and nu = 1/2 of `parts`.
+      !> The matrix that makes the stresses for nu = 0 and nu = 1/2 of `nu_terms`.
       real(dp), parameter :: at_limits(2, 2) = reshape([1.0_dp, 0.0_dp, 1.0_dp, 0.5_dp], [2, 2])
       real(dp) :: distance, lower(6, 2), values(12, 0:ubound(self%of_degree, 1))
       integer :: i
 
-      call self%of_degree(0)%at(place, depth, parts)
+      call self%of_degree(0)%at(place, depth, nu_terms)
       if (.not. present(error)) return
-      values(:, 0) = reshape(matmul(parts, at_limits), [12])
+      values(:, 0) = reshape(matmul(nu_terms, at_limits), [12])
       do i = 1, ubound(values, 2)
          call self%of_degree(i)%at(place, depth, lower)
          values(:, i) = reshape(matmul(lower, at_limits), [12])
@@ -89,4 +89,4 @@ contains
       end associate
    end subroutine at
 
-end module wavycon_fitted_stress
+end module wavycon_fitted_answer_stress

@@ -1,7 +1,8 @@
-!> Chooses the size of an expansion: the sequence of degrees, the number of shape terms, and the clustering of the map.
-!> They depend on the merging ratio, a measure of how close a spot or pool is to its neighbours, which is computed here.
-module wavycon_expansion_size
-   use wavycon_expansion, only: expansion
+!> Chooses the size of a fitted function: the sequence of degrees, the number of shape terms, and the clustering of the
+!> map. They depend on the merging ratio, a measure of how close a spot or pool is to its neighbours, which is computed
+!> here.
+module wavycon_fitted_size
+   use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: degree_per_shape_term, degree_per_shape_term_twofold, degree_step, first_degree, &
       full_step_degree, pool_clustering, pool_clustering_power, least_clustering, round_shape_ratio, &
       spot_clustering, spot_clustering_power
@@ -21,7 +22,7 @@ contains
    !> where they overlap.
    pure real(dp) function merging_ratio(lattice, now) result(ratio)
       type(wave_lattice), intent(in) :: lattice
-      type(expansion), intent(in) :: now          !! the spot or pool
+      type(fitted_function), intent(in) :: now    !! the spot or pool
 
       complex(dp), allocatable :: midpoints(:)
       integer :: i
@@ -35,8 +36,8 @@ contains
    end function merging_ratio
 
    !> The merging ratio towards one midpoint.
-   pure real(dp) function ratio_towards(shape, midpoint) result(ratio)
-      type(shape_map), intent(in) :: shape
+   pure real(dp) function ratio_towards(map, midpoint) result(ratio)
+      type(shape_map), intent(in) :: map
       complex(dp), intent(in) :: midpoint   !! its position from the shape's centre [s]
 
       !> An angle whose sine is less than this counts as 0.
@@ -44,14 +45,14 @@ contains
       complex(dp) :: direction
 
       direction = midpoint/abs(midpoint)
-      associate (rotated => direction**shape%fold)
+      associate (rotated => direction**map%fold)
          if (abs(rotated%im) < rounding) then
             ! The midpoint lies on an axis of symmetry. The edge's point in this direction is the image of the disc's
             ! one.
-            ratio = abs(shape%place(direction))/abs(midpoint)
+            ratio = abs(map%position_of(direction))/abs(midpoint)
          else
             ! Long spots have tips off the axes, which approach the midpoint from the side.
-            ratio = 1.0_dp - distance_from_edge(shape, edge_points(shape), midpoint)/abs(midpoint)
+            ratio = 1.0_dp - distance_from_edge(map, edge_points(map), midpoint)/abs(midpoint)
          end if
       end associate
    end function ratio_towards
@@ -107,4 +108,4 @@ contains
       next_clustering = min(next_clustering, tau + 0.02_dp)
    end function next_clustering
 
-end module wavycon_expansion_size
+end module wavycon_fitted_size

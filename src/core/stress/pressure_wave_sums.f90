@@ -3,7 +3,7 @@
 !> stresses of a plane, (S10).
 !>
 !> As in (S3) a wave has the numbers k >= 0 and l, the wave vector (k, l'), l' = l L_x/L_y, and its length q.
-module wavycon_stress_waves
+module wavycon_pressure_wave_sums
    use wavycon_assertion, only: assert
    use wavycon_constants, only: pi, sqrt3
    use wavycon_elastic_body, only: elastic_body, no_waves
@@ -17,12 +17,12 @@ module wavycon_stress_waves
    implicit none (type, external)
    private
 
-   public :: stress_waves
+   public :: pressure_wave_sums
 
    !> Waves whose factor of depth exp(-q Z) is smaller than exp(-37) = 9e-17 are less than rounding.
    real(dp), parameter, public :: deepest = 37.0_dp
 
-   type :: stress_waves
+   type :: pressure_wave_sums
       real(dp) :: side_ratio = 1.0_dp           !! L_y/L_x
       type(fourier_series) :: pressure          !! the pressure less its mean: the waves W of (S3) [p*]
       real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are the last octave of a grid, (S5)
@@ -34,14 +34,14 @@ module wavycon_stress_waves
       procedure :: find_moments
       procedure :: find_spectra
       procedure :: scan_plane
-   end type stress_waves
+   end type pressure_wave_sums
 
 contains
 
    !> Takes the waves of a pressure and, if the series is that of a grid, sets its last octave: half of the grid's
    !> highest wave number and more, in the direction where this is less.
    subroutine start(self, pressure, side_ratio, is_sampled)
-      class(stress_waves), intent(out) :: self
+      class(pressure_wave_sums), intent(out) :: self
       type(fourier_series), intent(in) :: pressure    !! pressure less its mean [p*]
       real(dp), intent(in) :: side_ratio              !! L_y/L_x, > 0
       logical, intent(in) :: is_sampled               !! whether the series is the one through values at a grid's points
@@ -56,7 +56,7 @@ contains
 
    !> The highest wave numbers k and l of the waves that reach a depth, which have q Z <= `faintest`.
    pure function last_waves(self, depth) result(last)
-      class(stress_waves), intent(in) :: self
+      class(pressure_wave_sums), intent(in) :: self
       real(dp), intent(in) :: depth      !! Z >= 0 [rad]
       integer :: last(2)
 
@@ -66,7 +66,7 @@ contains
 
    !> Whether any wave of the last octave may reach a depth.
    pure logical function octave_reaches(self, depth)
-      class(stress_waves), intent(in) :: self
+      class(pressure_wave_sums), intent(in) :: self
       real(dp), intent(in) :: depth   !! Z >= 0 [rad]
 
       octave_reaches = norm2(self%last_waves(depth)*[1.0_dp, 1.0_dp/self%side_ratio]) > self%sampled_from
@@ -77,7 +77,7 @@ contains
    !> The moments with c = -2 and c = -1 are sums over all waves. For each l the sum over k is a product of matrices.
    !> The other moments follow from these two: as q^2 = k^2 + l'^2, M_ab(c+2) = M_(a+2)bc + M_a(b+2)c.
    subroutine find_moments(self, place, order, moment)
-      class(stress_waves), intent(in) :: self
+      class(pressure_wave_sums), intent(in) :: self
       real(dp), intent(in) :: place(3)                          !! X, Y, Z [rad]
       integer, intent(in) :: order                              !! order N of the Taylor series, >= 0
       !> M_abc [p*], a and b from 0 to n, c from -2 to n - 2, n = order + 3; those with a + b + c + 2 > n are not used.
@@ -147,7 +147,7 @@ contains
    !> xy, xz and yz. 2: below an even pressure, the sum of these five without eta_2, and eta_2. With 5 and 2 waves with
    !> q Z > `faintest_on_planes` are left out.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
-      class(stress_waves), intent(in) :: self
+      class(pressure_wave_sums), intent(in) :: self
       integer, intent(in) :: points(2)                 !! N_x, N_y of the plane
       real(dp), intent(in) :: offset(2)                !! of the first point from X = Y = 0, in steps
       real(dp), intent(in) :: depth                    !! Z >= 0 [rad]
@@ -205,7 +205,7 @@ contains
    !> stresses are evaluated column by column, and no field of the whole plane is kept. Below an even pressure four of
    !> the five numbers of the deviator share one transform.
    subroutine scan_plane(self, pbar_over_pstar, points, first, last, depth, body, place, stress)
-      class(stress_waves), intent(in) :: self
+      class(pressure_wave_sums), intent(in) :: self
       real(dp), intent(in) :: pbar_over_pstar    !! mean pressure P [p*]
       integer, intent(in) :: points(2)           !! N_x, N_y of the plane
       integer, intent(in) :: first(2), last(2)   !! the first and the last point along X and Y to be compared, from 0
@@ -278,4 +278,4 @@ contains
 
    end subroutine scan_plane
 
-end module wavycon_stress_waves
+end module wavycon_pressure_wave_sums
