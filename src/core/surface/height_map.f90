@@ -15,7 +15,7 @@ module wavycon_height_map
    implicit none (type, external)
    private
 
-   public :: surface_of_map
+   public :: prepare_heights, surface_of_map
 
 contains
 
@@ -35,10 +35,32 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: radii(2)    !! radii of the ball that the map lies on, as of surface_of_points
 
+      real(dp) :: length(2)
+
+      allocate (statistics)
+      call prepare_heights(source, preparation, scale, sides, map, length, statistics, error)
+      if (allocated(error)) then
+         deallocate (statistics)
+         return
+      end if
+      surface = surface_of_points(length, map%height, preparation%edges == 'mirror', statistics%points, &
+                                  preparation%edges == 'free', radii)
+   end subroutine surface_of_map
+
+   !> Prepares a map and computes its statistics. The arguments and errors are those of `surface_of_map`.
+   subroutine prepare_heights(source, preparation, scale, sides, map, length, statistics, error)
+      character(*), intent(in) :: source
+      type(map_preparation), intent(in) :: preparation
+      real(dp), intent(in) :: scale, sides(2)
+      type(measured_map), intent(inout) :: map
+      real(dp), intent(out) :: length(2)            !! sides of the map on exit, which may have been cropped [length]
+      type(map_statistics), intent(out) :: statistics
+      type(error_type), allocatable, intent(out) :: error
+
       type(grid_slab) :: slab
       type(map_changes) :: changes
       logical :: repeats
-      real(dp) :: extremes(2), largest, length(2), mean(1)
+      real(dp) :: extremes(2), largest, mean(1)
 
       slab = map%columns()
       length = sides/slab%points
@@ -78,11 +100,9 @@ contains
       changes%rise = scale*changes%rise
       changes%rms_of_short = scale*changes%rms_of_short
       statistics = statistics_of(map%height, map%format, slab%points, length/slab%points, repeats)
-      surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
-                                  changes%edges == 'free', radii)
       statistics%changes = changes
       if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
          call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)
-   end subroutine surface_of_map
+   end subroutine prepare_heights
 
 end module wavycon_height_map

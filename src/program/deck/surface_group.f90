@@ -85,6 +85,14 @@ contains
          'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
          "program is started. The last row and column are the cell's last, not copies of the first.", &
          longest=longest_path, required=.true.))
+      call keys%add(values%file2, key_type(text_value, 'file2', '', '', &
+         'a second map, of the other body, upwards to the first one: points and sides are those of `file`. The '// &
+         'surface has the sum of both heights. The keys below prepare each map by itself.', longest=longest_path))
+      call keys%add(values%file2_scale, key_type(real_value, 'file2_scale', 'height_scale', 'length', &
+         "length of one unit of file2's heights; beside a file with units a factor.", above=0, needs='file2'))
+      call keys%add(values%file2_flip, key_type(logical_value, 'file2_flip', '.true.', '', &
+         'whether the second map is turned over about the y axis, as its body is when it is laid on the first: '// &
+         'the last point along x becomes the first.', needs='file2'))
       call keys%add(values%file_format, key_type(choice_value, 'file_format', "'auto'", '', &
          "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
          "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if "// &
@@ -164,6 +172,10 @@ contains
       type(surface_group), intent(inout) :: values
 
       select case (values%kind%text)
+      case ('file')
+         if (values%file2%is_given) call values%file2_scale%set_default([values%height_scale%number])
+         if (values%file2%is_given .and. values%crop_missing%is_true) call values%complain(values%crop_missing, &
+            'crop_missing is for one map: borders cut off one of two maps would displace it against the other')
       case ('sum')
          call check_sum(values)
       case ('self_affine')
@@ -237,12 +249,13 @@ contains
 
    !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read; exit_bad_input for a bad height
    !> map, and for `heights` beside a kind that is not 'file'.
-   subroutine make_surface(values, surface, map, error, heights)
+   subroutine make_surface(values, surface, map, two_maps, error, heights)
       !> The values of the keys, without problems. Keys that have no effect because the file gives the same are marked,
       !> so that the resolved deck does not show them.
       type(surface_group), intent(inout) :: values
       type(surface_type), allocatable, intent(out) :: surface   !! not allocated in case of an error
       type(map_statistics), allocatable, intent(out) :: map     !! allocated for a height map
+      type(map_statistics), allocatable, intent(out) :: two_maps(:)   !! allocated for two maps, whose sum `map` is
       type(error_type), allocatable, intent(out) :: error
       !> Heights in place of those of the file, as in surface_of_heights.
       real(dp), intent(in), optional :: heights(:, :)
@@ -254,7 +267,7 @@ contains
       else
          select case (values%kind%text)
          case ('file')
-            call surface_of_file(values, surface, map, error)
+            call surface_of_file(values, surface, map, two_maps, error)
          case ('self_affine')
             call self_affine_of(values, surface, map, error)
          case default

@@ -24,6 +24,7 @@ contains
       character(:), allocatable :: lines
 
       character(:), allocatable :: words
+      integer :: i
       real(dp) :: side(2)
 
       lines = prefix//'wavycon '//version//' ('//revision//')'
@@ -50,13 +51,28 @@ contains
                         ', format = '//trim(map%format))
                if (map%assumed_sides /= '') call add('sides: '//map%assumed_sides)
                words = preparation_words(map%changes, length)
-               if (words /= '') call add('prepared: '//words)
+               if (words /= '' .and. .not. allocated(scene%two_maps)) call add('prepared: '//words)
                if (map%rms > 0.0_dp) call add('roughness: skewness[-] = '//text_of(map%skewness)// &
                   number('kurtosis', '-', map%kurtosis)//number('rms_slope', '-', roughness%slope)// &
                   number('rms_slope_by_differences', '-', map%slope_by_differences)// &
                   number('rms_curvature', '1/'//length, roughness%curvature)// &
                   number('rms_curvature_by_differences', '1/'//length, map%curvature_by_differences))
             end associate
+         end if
+         if (allocated(scene%two_maps)) then
+            do i = 1, 2
+               associate (map => scene%two_maps(i))
+                  words = ''
+                  if (i == 2 .and. scene%surface_values%file2_flip%is_true) words = 'turned over about the y axis'
+                  words = clauses(words, preparation_words(map%changes, length))
+                  if (words /= '') words = '; '//words
+                  call add('map of body '//integer_text(i)//': format = '//trim(map%format)// &
+                     number('lowest', length, map%lowest)//number('highest', length, map%highest)// &
+                     number('rms_height', length, map%rms)//number('skewness', '-', map%skewness)// &
+                     number('kurtosis', '-', map%kurtosis)// &
+                     number('rms_slope_by_differences', '-', map%slope_by_differences)//words)
+               end associate
+            end do
          end if
          words = 'e_star['//pressure//'] = '//text_of(scene%e_star)
          if (.not. surface%has_free_edges) words = words//number('p*', pressure, scene%p_star)
