@@ -110,7 +110,8 @@ contains
          'whether spikes, heights far from all around them, become the median of their neighbours.'))
       call keys%add(values%detrend, key_type(choice_value, 'detrend', "'none'", '', &
          "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' "// &
-         "or 'quadratic', a polynomial of the second degree.", choices='none mean plane quadratic'))
+         "or 'quadratic', a polynomial of the second degree; 'lines', from each row along x its median.", &
+         choices='none mean plane quadratic lines'))
       call keys%add(values%fill_missing, key_type(choice_value, 'fill_missing', "'none'", '', &
          "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
          "smooth surface of Laplace's equation.", choices='none harmonic'))
@@ -127,6 +128,14 @@ contains
       call keys%add(values%short_wavelength, key_type(real_value, 'short_wavelength', '', 'length', &
          'shortest wave; without it all waves of a file stay, and the short cut-off of self_affine is '// &
          'rolloff_wavelength/64.', above=0))
+      call keys%add(values%long_wavelength, key_type(real_value, 'long_wavelength', 'as kind says', 'length', &
+         'longest wave, the long cut-off; without it all waves of a file stay, and that of self_affine is the '// &
+         'longer side of the cell.', above=0))
+      keys%of = 'file'
+      call keys%add(values%filter, key_type(choice_value, 'filter', "'sharp'", '', &
+         "how short_wavelength and long_wavelength cut off: 'sharp', waves beyond them are left out; 'gaussian', by "// &
+         'the filters of ISO 16610-61, which let half of a wave of this length pass.', choices='sharp gaussian'))
+      keys%of = 'file self_affine'
       call keys%add(values%form_radius, key_type(real_value, 'form_radius', '', 'length', &
          'radius of '//on_a_ball, above=0, way=30, needs="edges='free'"))
       call keys%add(values%form_radius_x, key_type(real_value, 'form_radius_x', '', 'length', &
@@ -142,9 +151,6 @@ contains
       call keys%add(values%spectral_density, key_type(real_value, 'spectral_density', '', 'length^4', &
          'in place of rms_height or rms_slope: the spectral density of waves longer than rolloff_wavelength, '// &
          'as &output spectrum has it; of a profile in length^3.', above=0, way=12))
-      call keys%add(values%long_wavelength, key_type(real_value, 'long_wavelength', 'the longer side of the cell', &
-         'length', &
-         'longest wave, the long cut-off.', above=0))
       call keys%add(values%rolloff_wavelength, key_type(real_value, 'rolloff_wavelength', 'long_wavelength', 'length', &
          'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', above=0))
       call keys%add(values%spectrum, key_type(choice_value, 'spectrum', "'ideal'", '', &
@@ -176,6 +182,12 @@ contains
          if (values%file2%is_given) call values%file2_scale%set_default([values%height_scale%number])
          if (values%file2%is_given .and. values%crop_missing%is_true) call values%complain(values%crop_missing, &
             'crop_missing is for one map: borders cut off one of two maps would displace it against the other')
+         values%filter%in_effect = values%short_wavelength%is_given .or. values%long_wavelength%is_given
+         if (values%filter%is_given .and. .not. values%filter%in_effect) &
+            call values%complain(values%filter, 'filter needs short_wavelength or long_wavelength beside it')
+         if (values%short_wavelength%is_given .and. values%long_wavelength%is_given .and. &
+             values%short_wavelength%number >= values%long_wavelength%number) call values%complain( &
+            values%long_wavelength, 'long_wavelength must be above short_wavelength')
       case ('sum')
          call check_sum(values)
       case ('self_affine')

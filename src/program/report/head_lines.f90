@@ -130,8 +130,9 @@ contains
          trend = 'mean'
          if (changes%detrend == 'quadratic') trend = 'quadratic trend'
          if (changes%detrend == 'plane') trend = 'plane'
+         if (changes%detrend == 'lines') trend = 'rows'' medians'
          words = clauses(words, 'without its '//trend)
-         if (changes%detrend /= 'mean') then
+         if (all(changes%detrend /= ['mean ', 'lines'])) then
             words = words//', which rises by '//short_number(changes%rise(1))
             if (changes%points(2) > 1) words = words//' along x and '//short_number(changes%rise(2))//' along y'
             words = words//' ['//length_unit//']'
@@ -143,9 +144,24 @@ contains
       if (changes%edges == 'free') words = clauses(words, 'with free edges: nothing continues it')
       if (changes%edges == 'window') words = clauses(words, 'tapered at its borders, which changes '// &
                                                     percent(changes%tapered)//' of its points')
-      if (changes%short_wavelength > 0.0_dp) words = clauses(words, 'without waves shorter than '// &
-         short_number(changes%short_wavelength)//', whose rms was '//short_number(changes%rms_of_short)// &
-         ' ['//length_unit//']')
+      if (changes%short_wavelength > 0.0_dp) &
+         words = clauses(words, without_waves('shorter', changes%short_wavelength, changes%rms_of_short))
+      if (changes%long_wavelength > 0.0_dp) &
+         words = clauses(words, without_waves('longer', changes%long_wavelength, changes%rms_of_long))
+
+   contains
+
+      !> Words about waves that were left out.
+      pure function without_waves(which, wavelength, rms) result(words)
+         character(*), intent(in) :: which   !! 'shorter' or 'longer' than the wavelength
+         real(dp), intent(in) :: wavelength, rms
+         character(:), allocatable :: words
+
+         words = 'without waves '//which//' than '//short_number(wavelength)
+         if (changes%filter == 'gaussian') words = words//' (Gaussian filter)'
+         words = words//', whose rms was '//short_number(rms)//' ['//length_unit//']'
+      end function without_waves
+
    end function preparation_words
 
    !> A number of things in words, such as '1 line' or '3 lines'.

@@ -222,6 +222,8 @@ contains
                                     values%window_width%number, values%crop_missing%is_true, &
                                     values%despike%is_true)
       if (values%short_wavelength%is_given) preparation%short_wavelength = values%short_wavelength%number
+      if (values%long_wavelength%is_given) preparation%long_wavelength = values%long_wavelength%number
+      preparation%filter = values%filter%text
    end function preparation_of
 
    !> Finds the sides of the cell: those of the file, or those of the deck, or assumed ones. A side for which the file
