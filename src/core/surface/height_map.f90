@@ -15,7 +15,7 @@ module wavycon_height_map
    implicit none (type, external)
    private
 
-   public :: prepare_heights, surface_of_map
+   public :: surface_of_map
 
 contains
 
@@ -30,37 +30,15 @@ contains
       !> On entry heights that rise towards the other body. On exit the heights of the surface less their mean [length],
       !> without holes.
       type(measured_map), intent(inout) :: map
-      type(surface_type), intent(inout) :: surface
+      type(surface_type), intent(inout), optional :: surface   !! absent: the map is only prepared
       type(map_statistics), allocatable, intent(out) :: statistics   !! all components but the path are set
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: radii(2)    !! radii of the ball that the map lies on, as of surface_of_points
 
-      real(dp) :: length(2)
-
-      allocate (statistics)
-      call prepare_heights(source, preparation, scale, sides, map, length, statistics, error)
-      if (allocated(error)) then
-         deallocate (statistics)
-         return
-      end if
-      surface = surface_of_points(length, map%height, preparation%edges == 'mirror', statistics%points, &
-                                  preparation%edges == 'free', radii)
-   end subroutine surface_of_map
-
-   !> Prepares a map and computes its statistics. The arguments and errors are those of `surface_of_map`.
-   subroutine prepare_heights(source, preparation, scale, sides, map, length, statistics, error)
-      character(*), intent(in) :: source
-      type(map_preparation), intent(in) :: preparation
-      real(dp), intent(in) :: scale, sides(2)
-      type(measured_map), intent(inout) :: map
-      real(dp), intent(out) :: length(2)            !! sides of the map on exit, which may have been cropped [length]
-      type(map_statistics), intent(out) :: statistics
-      type(error_type), allocatable, intent(out) :: error
-
       type(grid_slab) :: slab
       type(map_changes) :: changes
       logical :: repeats
-      real(dp) :: extremes(2), largest, mean(1)
+      real(dp) :: extremes(2), largest, length(2), mean(1)
 
       slab = map%columns()
       length = sides/slab%points
@@ -104,9 +82,11 @@ contains
       changes%rms_of_short = scale*changes%rms_of_short
       changes%rms_of_long = scale*changes%rms_of_long
       statistics = statistics_of(map%height, map%format, slab%points, length/slab%points, repeats)
+      if (present(surface)) surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
+                                                        changes%edges == 'free', radii)
       statistics%changes = changes
       if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
          call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)
-   end subroutine prepare_heights
+   end subroutine surface_of_map
 
 end module wavycon_height_map

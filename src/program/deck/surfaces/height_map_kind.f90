@@ -4,7 +4,7 @@ module wavycon_height_map_kind
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_height_map, only: prepare_heights, surface_of_map
+   use wavycon_height_map, only: surface_of_map
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
@@ -155,7 +155,7 @@ contains
 
       character(:), allocatable :: assumed_sides, unused
       type(map_preparation) :: preparation, preparation_of_sum
-      real(dp) :: length(2), sides(2, 2)
+      real(dp) :: sides(2, 2)
       integer :: points(2, 2)
       type(grid_slab) :: slab
 
@@ -180,18 +180,21 @@ contains
       end if
       preparation = preparation_of(values)
       allocate (two_maps(2))
-      call prepare_heights(source, preparation, values%height_scale%number, sides(:, 1), first, length, &
-                           two_maps(1), error)
-      if (.not. allocated(error)) call prepare_heights(source2, preparation, values%file2_scale%number, &
-                                                       sides(:, 1), second, length, two_maps(2), error)
+      call surface_of_map(source, preparation, values%height_scale%number, sides(:, 1), first, statistics=map, &
+                          error=error)
       if (allocated(error)) return
+      two_maps(1) = map
+      call surface_of_map(source2, preparation, values%file2_scale%number, sides(:, 1), second, statistics=map, &
+                          error=error)
+      if (allocated(error)) return
+      two_maps(2) = map
       two_maps(2)%path = full_path(source2)
       if (values%file2_flip%is_true) second%height = second%height(size(second%height, 1):1:-1, :)
       first%height = first%height + second%height
       if (allocated(first%missing)) deallocate (first%missing)
       ! The sum of two tapered maps is tapered.
       if (preparation%edges /= 'window') preparation_of_sum%edges = preparation%edges
-      call surface_of_map(source//' and '//source2, preparation_of_sum, 1.0_dp, length, first, &
+      call surface_of_map(source//' and '//source2, preparation_of_sum, 1.0_dp, sides(:, 1), first, &
                           surface, map, error, radii_of(values%form_radius, values%form_radius_x, values%form_radius_y))
       if (allocated(error)) return
       map%assumed_sides = assumed_sides
