@@ -1,14 +1,16 @@
 !> Removes the trend of a height map, which is its mean, plane or polynomial of the second degree of least squares:
-!> (M1), (M2) of README.md in this directory.
+!> (M1), (M2) of README.md in this directory; or the median of each of its rows.
 module wavycon_detrend
+   use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_grid_slab, only: grid_slab
+   use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dpotrf, dtrsv
    use wavycon_measured_map, only: measured_map
    implicit none (type, external)
    private
 
-   public :: detrend_map
+   public :: detrend_map, level_lines
 
    !> Least pivot of Cholesky's factorisation of (M2). The pivot is the mean square, over the points with a height, of
    !> the part of a term that the terms before cannot fit; the mean square of a term over the whole grid is 1. With a
@@ -95,6 +97,32 @@ contains
       end function terms_of_column
 
    end subroutine detrend_map
+
+   !> Subtracts from each row along x the median of its heights that are not missing: the middle one, or the mean of the
+   !> two in the middle. Missing heights stay 0.
+   subroutine level_lines(height, missing)
+      real(dp), intent(inout) :: height(:, :)             !! the own columns of the map: rows along x of one y each
+      logical, allocatable, intent(in) :: missing(:, :)   !! shape of height; not allocated if none is missing
+
+      integer(c_size_t), allocatable :: order(:)
+      integer :: j, n
+      logical :: is_there(size(height, 1))
+      real(dp), allocatable :: heights(:)
+
+      is_there = .true.
+      do j = 1, size(height, 2)
+         if (allocated(missing)) is_there = .not. missing(:, j)
+         heights = pack(height(:, j), is_there)
+         n = size(heights)
+         if (n == 0) cycle
+         allocate (order(n))
+         call gsl_sort_index(order, heights, 1_c_size_t, int(n, c_size_t))
+         ! The order counts from 0.
+         where (is_there) height(:, j) = height(:, j) - &
+                                         0.5_dp*(heights(order((n + 1)/2) + 1) + heights(order(n/2 + 1) + 1))
+         deallocate (order)
+      end do
+   end subroutine level_lines
 
    !> The polynomials P_0 .. P_degree of (M1) at the points of one direction. Of n points there are n polynomials at
    !> most.

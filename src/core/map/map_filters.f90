@@ -1,5 +1,5 @@
 !> Filters of height maps: removal of spikes by a median rule, (M8), taper of the borders, (M5), and removal of short
-!> waves. The equations are those of README.md in this directory.
+!> or long waves, (M9). The equations are those of README.md in this directory.
 module wavycon_map_filters
    use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
@@ -10,7 +10,7 @@ module wavycon_map_filters
    implicit none (type, external)
    private
 
-   public :: find_spikes, leave_out_short_waves, taper_borders
+   public :: find_spikes, leave_out_waves, taper_borders
 
    !> The neighbours of a height are the points at most so many steps away: in each direction of a map; along a profile.
    integer, parameter :: reach_in_map = 2, reach_in_profile = 6
@@ -127,31 +127,44 @@ contains
       end do
    end function window
 
-   !> Removes the waves of the map's Fourier series whose length, in whatever direction, is less than a given one.
-   subroutine leave_out_short_waves(points, sides, mirrored, shortest, height, removed)
+   !> Removes the short or the long waves of the map's Fourier series, in whatever direction they run: sharply those
+   !> that are shorter or longer than the cut-off, or all waves in part, as the Gaussian filter (M9) does. The mean stays.
+   subroutine leave_out_waves(points, sides, mirrored, which, filter, cut_off, height, removed)
       integer, intent(in) :: points(2)                     !! M, N of the map
       real(dp), intent(in) :: sides(2)                     !! sides of the map along x and y, in one unit, > 0
       logical, intent(in) :: mirrored                      !! whether mirror images continue the map
-      real(dp), intent(in) :: shortest                     !! shortest wavelength that stays, in the same unit, > 0
+      character(*), intent(in) :: which                    !! 'shorter' or 'longer'
+      character(*), intent(in) :: filter                   !! 'sharp' or 'gaussian'
+      real(dp), intent(in) :: cut_off                      !! cut-off wavelength, in the same unit, > 0
       real(dp), intent(inout), contiguous :: height(:, :)  !! shape (M, N), or the own columns of the grid's slab
-      real(dp), intent(out) :: removed                     !! root mean square of the removed waves [height]
+      real(dp), intent(out) :: removed                     !! root mean square of what was removed [height]
 
-      !> A wave whose length differs from the shortest one by rounding stays.
+      !> A wave whose length differs from the cut-off by rounding stays.
       real(dp), parameter :: rounding = 1e-12_dp
       type(fourier_series) :: waves
       type(grid_transform) :: transform
-      real(dp), allocatable :: smooth(:, :)
+      real(dp), allocatable :: factor(:, :), ratio(:, :), smooth(:, :)   ! ratio: of the cut-off to the wavelength
       real(dp) :: periods(2), squares(1)
 
       periods = merge(2, 1, mirrored)*sides
       call transform%start(points, even=mirrored)
       call transform%series(height, waves)
-      call waves%multiply(merge(1.0_dp, 0.0_dp, shortest*waves%frequencies(periods) <= 1 + rounding))
+      ratio = cut_off*waves%frequencies(periods)
+      if (filter == 'gaussian') then
+         factor = exp(-log(2.0_dp)*ratio**2)
+         if (which == 'longer') factor = 1.0_dp - factor
+      else if (which == 'longer') then
+         factor = merge(1.0_dp, 0.0_dp, ratio >= 1 - rounding)
+      else
+         factor = merge(1.0_dp, 0.0_dp, ratio <= 1 + rounding)
+      end if
+      where (ratio <= 0.0_dp) factor = 1.0_dp
+      call waves%multiply(factor)
       allocate (smooth, mold=height)
       call transform%sample(waves, smooth)
       squares = transform%slab%column_totals(reshape(sum((height - smooth)**2, dim=1), [1, size(height, 2)]))
       removed = sqrt(squares(1)/product(real(points, dp)))
       height = smooth
-   end subroutine leave_out_short_waves
+   end subroutine leave_out_waves
 
 end module wavycon_map_filters

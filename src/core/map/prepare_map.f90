@@ -2,7 +2,7 @@
 !> borders, in this order.
 module wavycon_prepare_map
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_detrend, only: detrend_map
+   use wavycon_detrend, only: detrend_map, level_lines
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_fill_missing, only: fill_holes
@@ -22,7 +22,7 @@ module wavycon_prepare_map
 
    !> The preparation of a map that a deck asks for.
    type :: map_preparation
-      character(9) :: detrend = 'none'         !! the trend to be subtracted: 'none', 'mean', 'plane', 'quadratic'
+      character(9) :: detrend = 'none'         !! what is subtracted: 'none', 'mean', 'plane', 'quadratic', 'lines'
       character(8) :: fill_missing = 'none'    !! 'none': missing heights are an error; 'harmonic': (M3) fills them
       !> How the map continues beyond its borders. 'periodic': by itself, again and again. 'mirror': by its mirror
       !> images. 'window': as 'periodic', after a taper of the borders. 'free': the surface ends there.
@@ -30,7 +30,9 @@ module wavycon_prepare_map
       real(dp) :: window_width = usual_window_width   !! width of the taper over the side, 0 < window_width <= 1/2
       logical :: crop_missing = .false.        !! whether rows and columns at the border without any height are cut off
       logical :: despike = .false.             !! whether spikes (M8) are replaced by the median of their neighbours
-      real(dp) :: short_wavelength = 0.0_dp    !! shortest wavelength that stays [length]; 0: all waves stay
+      real(dp) :: short_wavelength = 0.0_dp    !! short cut-off wavelength [length]; 0: none
+      real(dp) :: long_wavelength = 0.0_dp     !! long cut-off wavelength [length]; 0: none
+      character(8) :: filter = 'sharp'         !! how waves are cut off: 'sharp', 'gaussian' (M9)
    end type map_preparation
 
    !> The preparation, and what it changed.
@@ -43,13 +45,14 @@ module wavycon_prepare_map
       integer :: cropped_from(2) = 0        !! numbers of points before the map was cropped; 0 if it was not
       integer :: spikes = 0                 !! number of heights that were replaced
       integer :: filled = 0                 !! number of missing heights that were filled
-      real(dp) :: rms_of_short = 0.0_dp     !! root mean square of the waves that were removed [length]
+      real(dp) :: rms_of_short = 0.0_dp     !! root mean square of the short waves that were removed [length]
+      real(dp) :: rms_of_long = 0.0_dp      !! the same of the long waves [length]
       real(dp) :: tapered = 0.0_dp          !! part of the points that the window changed
    end type map_changes
 
 contains
 
-   !> Prepares a map, except for the removal of short waves. With the edges 'mirror' and 'free' the heights at the
+   !> Prepares a map, except for the removal of waves. With the edges 'mirror' and 'free' the heights at the
    !> borders do not change: the surface adds the mirror images. A distributed map must have no holes and spikes to be
    !> treated. Errors: exit_bad_input if there are holes that are not to be filled, and if the heights do not determine
    !> the trend; exit_file_trouble if there is not enough memory.
@@ -82,6 +85,7 @@ contains
       if (allocated(error)) return
       if (preparation%despike) call find_spikes(map%height, map%missing, changes%spikes, replace=.true.)
       degree = findloc(trends, preparation%detrend, dim=1) - 1
+      if (preparation%detrend == 'lines') call level_lines(map%height, map%missing)
       if (degree >= 0) then
          call detrend_map(map, degree, changes%rise, is_determined)
          if (.not. is_determined) then
@@ -97,7 +101,7 @@ contains
          if (allocated(error)) return
       end if
       if (preparation%edges == 'window') call taper_borders(preparation%window_width, slab, map%height, changes%tapered)
-      if (degree < 0 .and. changes%filled == 0 .and. preparation%edges /= 'window') return
+      if (preparation%detrend == 'none' .and. changes%filled == 0 .and. preparation%edges /= 'window') return
       extremes = slab%extremes(map%height)
       if (sum(extremes) <= rounding*largest) map%height = 0.0_dp
    end subroutine prepare_map

@@ -4,7 +4,7 @@ module wavycon_height_map
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
-   use wavycon_map_filters, only: find_spikes, leave_out_short_waves
+   use wavycon_map_filters, only: find_spikes, leave_out_waves
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_map_tuning, only: spiky_kurtosis
    use wavycon_measured_map, only: measured_map
@@ -30,7 +30,7 @@ contains
       !> On entry heights that rise towards the other body. On exit the heights of the surface less their mean [length],
       !> without holes.
       type(measured_map), intent(inout) :: map
-      type(surface_type), intent(inout) :: surface
+      type(surface_type), intent(inout), optional :: surface   !! absent: the map is only prepared
       type(map_statistics), allocatable, intent(out) :: statistics   !! all components but the path are set
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: radii(2)    !! radii of the ball that the map lies on, as of surface_of_points
@@ -56,8 +56,11 @@ contains
       ! A map with free edges is stored as a mirrored one. Opposite borders are neighbours of each other in neither.
       repeats = all(preparation%edges /= ['mirror', 'free  '])
       if (preparation%short_wavelength > 0.0_dp) &
-         call leave_out_short_waves(slab%points, length, .not. repeats, preparation%short_wavelength, map%height, &
-                                    changes%rms_of_short)
+         call leave_out_waves(slab%points, length, .not. repeats, 'shorter', preparation%filter, &
+                              preparation%short_wavelength, map%height, changes%rms_of_short)
+      if (preparation%long_wavelength > 0.0_dp) &
+         call leave_out_waves(slab%points, length, .not. repeats, 'longer', preparation%filter, &
+                              preparation%long_wavelength, map%height, changes%rms_of_long)
       extremes = slab%extremes(map%height)
       if (sum(extremes) <= 0.0_dp) then
          ! All heights are equal. They are set to zero, because heights less their rounded mean would not be zero
@@ -77,9 +80,10 @@ contains
       end if
       changes%rise = unit*changes%rise
       changes%rms_of_short = unit*changes%rms_of_short
+      changes%rms_of_long = unit*changes%rms_of_long
       statistics = statistics_of(map%height, map%format, slab%points, length/slab%points, repeats)
-      surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
-                                  changes%edges == 'free', radii)
+      if (present(surface)) surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
+                                                        changes%edges == 'free', radii)
       statistics%changes = changes
       if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
          call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)

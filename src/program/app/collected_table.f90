@@ -9,7 +9,7 @@ module wavycon_collected_table
    use wavycon_key_table, only: integer_value, real_value
    use wavycon_memory_table, only: column_list
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped, newline
+   use wavycon_plain_text, only: escaped, lower_case, newline
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
    use wavycon_system, only: error_text, full_path, make_directories, path_directory, path_kind, refusal_to_write
@@ -29,6 +29,9 @@ module wavycon_collected_table
 
    !> The first words of the table, as of all tables.
    character(*), parameter :: table_mark = '# wavycon '
+
+   !> The first words of a table with commas, and the end of the name of its file.
+   character(*), parameter :: comma_mark = 'deck,case,', comma_ending = '.csv'
 
    !> A key of a deck and its value.
    type :: deck_key
@@ -71,7 +74,11 @@ contains
          call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(trouble))
          return
       end if
-      number = refusal_to_write(path//c_null_char, table_mark//c_null_char)
+      if (has_commas(path)) then
+         number = refusal_to_write(path//c_null_char, comma_mark//c_null_char)
+      else
+         number = refusal_to_write(path//c_null_char, table_mark//c_null_char)
+      end if
       if (number /= 0) trouble = error_text(number)
       if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
          trouble = 'this is a directory'
@@ -149,6 +156,8 @@ contains
    !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. Units are
    !> those of the summaries if all summaries have the same units, otherwise general names such as 'length'.
    !>
+   !> A file whose name ends in '.csv' has one line of names, with their units in brackets, and commas between words.
+   !>
    !> Errors: exit_file_trouble, also for a summary that cannot be read.
    subroutine write_collected_table(path, decks, settings, error)
       character(*), intent(in) :: path                !! path of the table
@@ -189,20 +198,23 @@ contains
          if (all([(solved(d)%units == solved(1)%units, d=1, size(solved))])) units = solved(1)%units
       end if
       call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
-      call file%put(table_mark//version//' ('//revision//')')
-      do d = 1, size(decks)
-         if (.not. decks(d)%is_written) call file%put('# failed: '//escaped(decks(d)%path))
-      end do
+      if (.not. has_commas(path)) then
+         call file%put(table_mark//version//' ('//revision//')')
+         do d = 1, size(decks)
+            if (.not. decks(d)%is_written) call file%put('# failed: '//escaped(decks(d)%path))
+         end do
+      end if
       line = ''
       do k = 1, size(width)
          line = line//cell(k, '[-]')
       end do
-      call file%put('#'//line(2:)//' '//units)
+      units = line(2:)//' '//units
+      if (.not. has_commas(path)) call file%put('#'//units)
       line = cell(1, 'deck')//cell(2, 'case')
       do k = 1, size(columns)
          line = line//cell(2 + k, trim(solved(1)%keys(columns(k))%name))
       end do
-      call file%put(line//names)
+      call put(line//names, units)
       do d = 1, size(solved)
          line = cell(1, without_blanks(solved(d)%path))//cell(2, solved(d)%case)
          do k = 1, size(columns)
@@ -211,7 +223,7 @@ contains
          ! All rows of a summary are as long as its line of names.
          associate (rows => solved(d)%rows, length => len(solved(d)%names))
             do k = 1, len(rows), length + 1
-               call file%put(line//rows(k:k + length - 1))
+               call put(line//rows(k:k + length - 1))
             end do
          end associate
       end do
@@ -228,7 +240,41 @@ contains
          text = repeat(' ', width(column) - len(word))//word
       end function cell
 
+      !> Writes a line of words, with commas between them if the name of the file asks for these.
+      subroutine put(line, units)
+         character(*), intent(in) :: line
+         character(*), intent(in), optional :: units   !! the line of the words' units: those that are not '[-]' are added
+
+         character(:), allocatable :: left, left_units, text, word
+
+         if (.not. has_commas(path)) then
+            call file%put(line)
+            return
+         end if
+         text = ''
+         left = adjustl(line)
+         left_units = ''
+         if (present(units)) left_units = adjustl(units(scan(units, '['):))
+         do while (left /= '')
+            word = left(:index(left//' ', ' ') - 1)
+            left = adjustl(left(len(word) + 1:))
+            if (left_units(:min(3, len(left_units))) /= '[-]') word = word//left_units(:index(left_units//' ', ' ') - 1)
+            left_units = adjustl(left_units(index(left_units//' ', ' '):))
+            ! Lists have commas between their numbers.
+            if (index(word, ',') > 0) word = '"'//word//'"'
+            text = text//','//word
+         end do
+         call file%put(text(2:))
+      end subroutine put
+
    end subroutine write_collected_table
+
+   !> Whether the name of a table asks for commas.
+   pure logical function has_commas(path)
+      character(*), intent(in) :: path
+
+      has_commas = index(lower_case(path), comma_ending, back=.true.) == len(path) - len(comma_ending) + 1
+   end function has_commas
 
    !> Reads a summary: a head whose last line has the units, a line of names, and rows. Errors: exit_file_trouble.
    subroutine read_summary(deck, error)

@@ -3,18 +3,18 @@ module wavycon_command_line
    use wavycon_deck_text, only: at_end, is_comma, next_token, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_group, only: key_group, key_list, key_value
-   use wavycon_key_reference, only: add_wrapped, key_reference
+   use wavycon_key_reference, only: add_wrapped, group_names, key_reference
    use wavycon_key_table, only: integer_value, key_type, logical_value, text_value
    use wavycon_key_values, only: must_be, read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_output_group, only: longest_directory
-   use wavycon_plain_text, only: escaped, integer_text, newline, quoted
+   use wavycon_plain_text, only: escaped, integer_text, listed, newline, quoted
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
 
-   public :: command_line_type, read_command_line, help_text
+   public :: command_line_type, make_help, read_command_line
 
    !> A run of a deck, with settings that replace keys of the deck.
    type :: run_type
@@ -61,7 +61,7 @@ contains
          'write the results to DIR, not to the directory of &output', longest=longest_directory))
       call keys%add(options%table, key_type(text_value, '--table', '', 'FILE', &
          'write one table of all decks: a row for each deck and load, with the values of the keys that are set or '// &
-         'differ, and the columns of the summary', longest=longest_directory))
+         'differ, and the columns of the summary; with commas, for spreadsheets, if FILE ends in .csv', longest=longest_directory))
       call keys%add(options%keep_going, key_type(logical_value, '--keep-going', '.false.', '', &
          'a bad deck does not keep the others from being run'))
       call keys%add(options%resume, key_type(logical_value, '--resume', '.false.', '', &
@@ -73,10 +73,11 @@ contains
          'work on large grids with N threads; 1 if not given', 1, most_processes))
       call keys%add(options%quiet, key_type(logical_value, '--quiet', '.false.', '', 'write nothing but problems'))
       call keys%add(options%version, key_type(logical_value, '--version', '.false.', '', 'show the version and stop'))
-      call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', 'show this and stop'))
+      call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', 'show this and stop; --help GROUP, such as '// &
+         '--help surface: only the keys of this group'))
    end subroutine list_options
 
-   !> Reads the command line. Words that do not begin with '-', and all words behind '--', are decks. Errors:
+   !> Reads the command line. Words that do not begin with '-', '-' alone, and all words behind '--', are decks. Errors:
    !> exit_bad_input for an unknown option, a bad value of an option, or a command without a deck.
    subroutine read_command_line(command_line, error)
       type(command_line_type), intent(out), target :: command_line
@@ -102,7 +103,7 @@ contains
       do while (i < command_argument_count() .and. .not. allocated(trouble))
          i = i + 1
          word = argument(i)
-         if (options_over .or. index(word, '-') /= 1) then
+         if (options_over .or. index(word, '-') /= 1 .or. word == '-') then
             if (word == '') trouble = 'the name of a deck is empty'
             decks = decks + 1
             deck(decks)%path = word
@@ -217,9 +218,36 @@ contains
       end do
    end subroutine make_runs
 
-   !> The text of --help: usage and options, then the reference of all keys.
+   !> Makes the text of --help: usage and options, then the reference of all keys; or the keys of groups. Errors:
+   !> exit_bad_input for a word beside --help that is neither a group nor, with a point or a slash, a deck.
+   subroutine make_help(command_line, is_parallel, text, error)
+      type(command_line_type), intent(in) :: command_line   !! with the names of groups in place of decks
+      logical, intent(in) :: is_parallel                    !! whether this is the parallel program
+      character(:), allocatable, intent(out) :: text
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: r
+
+      text = ''
+      if (all([(scan(command_line%runs(r)%path, './') > 0, r=1, size(command_line%runs))])) then
+         text = help_text(is_parallel)
+         return
+      end if
+      do r = 1, size(command_line%runs)
+         associate (word => command_line%runs(r)%path, groups => group_names())
+            if (all(groups /= word .and. '&'//groups /= word)) then
+               call fatal_error(error, exit_bad_input, "--help: there is no group '"//escaped(word)//"'"// &
+                                did_you_mean(word, groups, '', '', '; groups are '//listed(groups, ' and ')))
+               return
+            end if
+            text = text//key_reference(word(verify(word, '&'):))
+         end associate
+      end do
+   end subroutine make_help
+
+   !> Usage and options, then the reference of all keys.
    function help_text(is_parallel) result(text)
-      logical, intent(in) :: is_parallel   !! whether this is the parallel program
+      logical, intent(in) :: is_parallel   !! as of make_help
       character(:), allocatable :: text
 
       integer, parameter :: indent = 18
@@ -255,6 +283,7 @@ contains
          'among them, or else the loads. Each needs the memory of its part, and has N threads of its own. The '// &
          'results are those of wavycon.')
       if (is_parallel) text = text//newline
+      call add_wrapped(text, 0, 'The DECK - is standard input.'//newline)
       call add_wrapped(text, 0, 'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of '// &
                        'several decks the worst.')
       text = text//newline//key_reference()

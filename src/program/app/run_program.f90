@@ -6,12 +6,13 @@ module wavycon_run_program
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use wavycon_check_scene, only: check_scene
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
-   use wavycon_command_line, only: command_line_type, help_text, read_command_line
+   use wavycon_command_line, only: command_line_type, make_help, read_command_line
+   use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
    use wavycon_notes, only: outcome
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_ranks, only: comm, end_ranks, is_first_rank, share_error
-   use wavycon_read_deck, only: read_deck
+   use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
@@ -85,7 +86,8 @@ contains
          text = 'wavycon '//version//' ('//revision//')'
          if (allocated(comm)) text = text//', '//comm%library
       end if
-      if (command_line%options%help%is_true) text = help_text(allocated(comm))
+      if (command_line%options%help%is_true) call make_help(command_line, allocated(comm), text, error)
+      call stop_on(error)
       if (allocated(text)) then
          if (is_first_rank()) call say(text)
          call finish(exit_fine)
@@ -113,14 +115,21 @@ contains
       integer, intent(out) :: worst   !! the worst exit status
 
       type(error_type), allocatable :: error
+      type(deck_text_type) :: text
       integer :: i, j
+      logical :: is_read
 
       allocate (scenes(size(command_line%runs)))
       worst = exit_fine
+      is_read = .false.
       do i = 1, size(scenes)
          scenes(i)%path = command_line%runs(i)%path
          allocate (scenes(i)%scene)
-         call read_deck(scenes(i)%path, scenes(i)%scene, error, command_line%runs(i)%settings)
+         ! Runs of one deck follow one another. It is read once: standard input could not be read again.
+         if (is_read) is_read = text%path == scenes(i)%path
+         if (.not. is_read) call read_deck_text(scenes(i)%path, text, error)
+         is_read = .not. allocated(error)
+         if (is_read) call parse_deck(text, scenes(i)%scene, error, command_line%runs(i)%settings)
          if (allocated(error)) then
             if (is_first_rank()) write (error_unit, '(a)') error%message
             worst = max(worst, error%status)

@@ -88,16 +88,19 @@ contains
       last = end_before(self%content, position, line_ends)
    end subroutine line_bounds
 
-   !> Reads the text of a deck file: the first rank reads the file, and all get the text. Errors: exit_file_trouble.
+   !> Reads the text of a deck file, or of standard input: the first rank reads it, and all get the text. Errors:
+   !> exit_file_trouble.
    subroutine read_deck_text(path, text, error)
-      character(*), intent(in) :: path
+      character(*), intent(in) :: path   !! '-' is standard input
       type(deck_text_type), intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: content
+      character(:), allocatable :: content, file
 
-      if (is_first_rank()) call read_file(path, most_bytes, content, error)
-      call note_input(path//c_null_char)
+      file = path
+      if (path == '-') file = '/dev/stdin'
+      if (is_first_rank()) call read_file(file, most_bytes, content, error)
+      call note_input(file//c_null_char)
       call share_error(error)
       if (allocated(error)) return
       if (.not. allocated(content)) content = ''

@@ -11,7 +11,7 @@ module wavycon_key_reference
    implicit none (type, external)
    private
 
-   public :: add_wrapped, key_json, key_reference
+   public :: add_wrapped, group_names, key_json, key_reference
 
    integer, parameter, public :: widest_line = 100
 
@@ -20,8 +20,20 @@ module wavycon_key_reference
 
 contains
 
+   !> The names of all groups.
+   function group_names() result(names)
+      character(name_length) :: names(number_of_groups)
+
+      type(key_list) :: lists(number_of_groups)
+      type(scene_type), target :: no_scene   ! records without values, to which the lists point
+
+      call list_keys(no_scene, lists)
+      names = lists%name
+   end function group_names
+
    !> The reference as text: lines of at most `widest_line` characters, each with a newline.
-   function key_reference() result(reference)
+   function key_reference(group) result(reference)
+      character(*), intent(in), optional :: group   !! name of the only group; absent: all groups
       character(:), allocatable :: reference
 
       type(key_list) :: lists(number_of_groups)
@@ -31,11 +43,14 @@ contains
 
       reference = ''
       call list_keys(no_scene, lists)
-      call add_wrapped(reference, 0, &
+      if (.not. present(group)) call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
          "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
       do i = 1, size(lists)
+         if (present(group)) then
+            if (lists(i)%name /= group) cycle
+         end if
          reference = reference//newline
          line = '&'//trim(lists(i)%name)//'   '//trim(lists(i)%meaning)
          if (lists(i)%required) line = line//' (required)'

@@ -133,7 +133,7 @@ contains
          end if
          values%deck_unit = ''
          if (labels%length_unit%is_given) values%deck_unit = labels%length_unit%text
-         call make_surface(values, scene%surface, scene%map, error, heights)
+         call make_surface(values, scene%surface, scene%map, scene%two_maps, error, heights)
          if (allocated(error)) return
          if (allocated(scene%surface)) call check_sides(values, scene%surface)
          if (.not. allocated(scene%map)) return
@@ -198,7 +198,7 @@ contains
       type(scene_type), intent(inout), target :: scene
       type(key_list), intent(in) :: lists(:)   !! keys of all groups
 
-      character(:), allocatable :: file
+      character(:), allocatable :: file, file2
       integer :: i
 
       scene%roughness = scene%surface%roughness()
@@ -217,14 +217,17 @@ contains
          ! Leave out the first line, which has the path of the deck.
          scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
          call scene%output%directory%set(text=scene%directory)
-         ! The resolved deck names the map's file by its absolute path, so that a copy of the deck in another directory
-         ! finds the file. A map that was made, not read, has no file.
+         ! The resolved deck names the maps' files by their absolute paths, so that a copy of the deck in another
+         ! directory finds the files. A map that was made, not read, has no file.
          file = surface%file%text
+         file2 = surface%file2%text
+         if (allocated(scene%two_maps)) call surface%file2%set(text=scene%two_maps(2)%path)
          if (allocated(scene%map)) then
             if (scene%map%path /= '') call surface%file%set(text=scene%map%path)
          end if
          scene%resolved_deck = resolved_deck_text(scene)
          if (file /= '') call surface%file%set(text=file)
+         if (file2 /= '') call surface%file2%set(text=file2)
       end associate
       allocate (scene%asked_for(0))
       do i = 1, size(lists)

@@ -85,6 +85,14 @@ contains
          'a periodic map of heights, upwards to the other body; looked for beside the deck, then where the '// &
          "program is started. The last row and column are the cell's last, not copies of the first.", &
          longest=longest_path, required=.true.))
+      call keys%add(values%file2, key_type(text_value, 'file2', '', '', &
+         'a second map, of the other body, upwards to the first one: points and sides are those of `file`. The '// &
+         'surface has the sum of both heights. The keys below prepare each map by itself.', longest=longest_path))
+      call keys%add(values%file2_scale, key_type(real_value, 'file2_scale', 'height_scale', 'length', &
+         "length of one unit of file2's heights; beside a file with units a factor.", above=0, needs='file2'))
+      call keys%add(values%file2_flip, key_type(logical_value, 'file2_flip', '.true.', '', &
+         'whether the second map is turned over about the y axis, as its body is when it is laid on the first: '// &
+         'the last point along x becomes the first.', needs='file2'))
       call keys%add(values%file_format, key_type(choice_value, 'file_format', "'auto'", '', &
          "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
          "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if "// &
@@ -102,7 +110,8 @@ contains
          'whether spikes, heights far from all around them, become the median of their neighbours.'))
       call keys%add(values%detrend, key_type(choice_value, 'detrend', "'none'", '', &
          "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' "// &
-         "or 'quadratic', a polynomial of the second degree.", choices='none mean plane quadratic'))
+         "or 'quadratic', a polynomial of the second degree; 'lines', from each row along x its median.", &
+         choices='none mean plane quadratic lines'))
       call keys%add(values%fill_missing, key_type(choice_value, 'fill_missing', "'none'", '', &
          "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
          "smooth surface of Laplace's equation.", choices='none harmonic'))
@@ -119,6 +128,14 @@ contains
       call keys%add(values%short_wavelength, key_type(real_value, 'short_wavelength', '', 'length', &
          'shortest wave; without it all waves of a file stay, and the short cut-off of self_affine is '// &
          'rolloff_wavelength/64.', above=0))
+      call keys%add(values%long_wavelength, key_type(real_value, 'long_wavelength', 'as kind says', 'length', &
+         'longest wave, the long cut-off; without it all waves of a file stay, and that of self_affine is the '// &
+         'longer side of the cell.', above=0))
+      keys%of = 'file'
+      call keys%add(values%filter, key_type(choice_value, 'filter', "'sharp'", '', &
+         "how short_wavelength and long_wavelength cut off: 'sharp', waves beyond them are left out; 'gaussian', by "// &
+         'the filters of ISO 16610-61, which let half of a wave of this length pass.', choices='sharp gaussian'))
+      keys%of = 'file self_affine'
       call keys%add(values%form_radius, key_type(real_value, 'form_radius', '', 'length', &
          'radius of '//on_a_ball, above=0, way=30, needs="edges='free'"))
       call keys%add(values%form_radius_x, key_type(real_value, 'form_radius_x', '', 'length', &
@@ -134,9 +151,6 @@ contains
       call keys%add(values%spectral_density, key_type(real_value, 'spectral_density', '', 'length^4', &
          'in place of rms_height or rms_slope: the spectral density of waves longer than rolloff_wavelength, '// &
          'as &output spectrum has it; of a profile in length^3.', above=0, way=12))
-      call keys%add(values%long_wavelength, key_type(real_value, 'long_wavelength', 'the longer side of the cell', &
-         'length', &
-         'longest wave, the long cut-off.', above=0))
       call keys%add(values%rolloff_wavelength, key_type(real_value, 'rolloff_wavelength', 'long_wavelength', 'length', &
          'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', above=0))
       call keys%add(values%spectrum, key_type(choice_value, 'spectrum', "'ideal'", '', &
@@ -164,6 +178,16 @@ contains
       type(surface_group), intent(inout) :: values
 
       select case (values%kind%text)
+      case ('file')
+         if (values%file2%is_given) call values%file2_scale%set_default([values%height_scale%number])
+         if (values%file2%is_given .and. values%crop_missing%is_true) call values%complain(values%crop_missing, &
+            'crop_missing is for one map: borders cut off one of two maps would displace it against the other')
+         values%filter%in_effect = values%short_wavelength%is_given .or. values%long_wavelength%is_given
+         if (values%filter%is_given .and. .not. values%filter%in_effect) &
+            call values%complain(values%filter, 'filter needs short_wavelength or long_wavelength beside it')
+         if (values%short_wavelength%is_given .and. values%long_wavelength%is_given .and. &
+             values%short_wavelength%number >= values%long_wavelength%number) call values%complain( &
+            values%long_wavelength, 'long_wavelength must be above short_wavelength')
       case ('sum')
          call check_sum(values)
       case ('self_affine')
@@ -237,12 +261,13 @@ contains
 
    !> Makes the surface. Errors: exit_file_trouble for a height map that cannot be read; exit_bad_input for a bad height
    !> map, and for `heights` beside a kind that is not 'file'.
-   subroutine make_surface(values, surface, map, error, heights)
+   subroutine make_surface(values, surface, map, two_maps, error, heights)
       !> The values of the keys, without problems. Keys that have no effect because the file gives the same are marked,
       !> so that the resolved deck does not show them.
       type(surface_group), intent(inout) :: values
       type(surface_type), allocatable, intent(out) :: surface   !! not allocated in case of an error
       type(map_statistics), allocatable, intent(out) :: map     !! allocated for a height map
+      type(map_statistics), allocatable, intent(out) :: two_maps(:)   !! allocated for two maps, whose sum `map` is
       type(error_type), allocatable, intent(out) :: error
       !> Heights in place of those of the file, as in surface_of_heights.
       real(dp), intent(in), optional :: heights(:, :)
@@ -254,7 +279,7 @@ contains
       else
          select case (values%kind%text)
          case ('file')
-            call surface_of_file(values, surface, map, error)
+            call surface_of_file(values, surface, map, two_maps, error)
          case ('self_affine')
             call self_affine_of(values, surface, map, error)
          case default

@@ -24,6 +24,7 @@ contains
       character(:), allocatable :: lines
 
       character(:), allocatable :: words
+      integer :: i
       real(dp) :: side(2)
 
       lines = prefix//'wavycon '//version//' ('//revision//')'
@@ -50,13 +51,28 @@ contains
                         ', format = '//trim(map%format))
                if (map%assumed_sides /= '') call add('sides: '//map%assumed_sides)
                words = preparation_words(map%changes, length)
-               if (words /= '') call add('prepared: '//words)
+               if (words /= '' .and. .not. allocated(scene%two_maps)) call add('prepared: '//words)
                if (map%rms > 0.0_dp) call add('roughness: skewness[-] = '//text_of(map%skewness)// &
                   number('kurtosis', '-', map%kurtosis)//number('rms_slope', '-', roughness%slope)// &
                   number('rms_slope_by_differences', '-', map%slope_by_differences)// &
                   number('rms_curvature', '1/'//length, roughness%curvature)// &
                   number('rms_curvature_by_differences', '1/'//length, map%curvature_by_differences))
             end associate
+         end if
+         if (allocated(scene%two_maps)) then
+            do i = 1, 2
+               associate (map => scene%two_maps(i))
+                  words = ''
+                  if (i == 2 .and. scene%surface_values%file2_flip%is_true) words = 'turned over about the y axis'
+                  words = clauses(words, preparation_words(map%changes, length))
+                  if (words /= '') words = '; '//words
+                  call add('map of body '//integer_text(i)//': format = '//trim(map%format)// &
+                     number('lowest', length, map%lowest)//number('highest', length, map%highest)// &
+                     number('rms_height', length, map%rms)//number('skewness', '-', map%skewness)// &
+                     number('kurtosis', '-', map%kurtosis)// &
+                     number('rms_slope_by_differences', '-', map%slope_by_differences)//words)
+               end associate
+            end do
          end if
          words = 'e_star['//pressure//'] = '//text_of(scene%e_star)
          if (.not. surface%has_free_edges) words = words//number('p*', pressure, scene%p_star)
@@ -114,8 +130,9 @@ contains
          trend = 'mean'
          if (changes%detrend == 'quadratic') trend = 'quadratic trend'
          if (changes%detrend == 'plane') trend = 'plane'
+         if (changes%detrend == 'lines') trend = 'rows'' medians'
          words = clauses(words, 'without its '//trend)
-         if (changes%detrend /= 'mean') then
+         if (all(changes%detrend /= ['mean ', 'lines'])) then
             words = words//', which rises by '//short_number(changes%rise(1))
             if (changes%points(2) > 1) words = words//' along x and '//short_number(changes%rise(2))//' along y'
             words = words//' ['//length_unit//']'
@@ -127,9 +144,24 @@ contains
       if (changes%edges == 'free') words = clauses(words, 'with free edges: nothing continues it')
       if (changes%edges == 'window') words = clauses(words, 'tapered at its borders, which changes '// &
                                                     percent(changes%tapered)//' of its points')
-      if (changes%short_wavelength > 0.0_dp) words = clauses(words, 'without waves shorter than '// &
-         short_number(changes%short_wavelength)//', whose rms was '//short_number(changes%rms_of_short)// &
-         ' ['//length_unit//']')
+      if (changes%short_wavelength > 0.0_dp) &
+         words = clauses(words, without_waves('shorter', changes%short_wavelength, changes%rms_of_short))
+      if (changes%long_wavelength > 0.0_dp) &
+         words = clauses(words, without_waves('longer', changes%long_wavelength, changes%rms_of_long))
+
+   contains
+
+      !> Words about waves that were left out.
+      pure function without_waves(which, wavelength, rms) result(words)
+         character(*), intent(in) :: which   !! 'shorter' or 'longer' than the wavelength
+         real(dp), intent(in) :: wavelength, rms
+         character(:), allocatable :: words
+
+         words = 'without waves '//which//' than '//short_number(wavelength)
+         if (changes%filter == 'gaussian') words = words//' (Gaussian filter)'
+         words = words//', whose rms was '//short_number(rms)//' ['//length_unit//']'
+      end function without_waves
+
    end function preparation_words
 
    !> A number of things in words, such as '1 line' or '3 lines'.

@@ -24,12 +24,14 @@ module wavycon_spot_tables
    use wavycon_measure_tuning, only: line_samples, plane_samples
    use wavycon_output_file, only: output_file
    use wavycon_quantities, only: contact_area
+   use wavycon_plain_text, only: clauses, integer_text, short_number
    use wavycon_results, only: not_a_number, results_type
+   use wavycon_run_log, only: run_log
    use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
-   public :: spot_tables
+   public :: say_percolation, spot_tables
 
 contains
 
@@ -106,6 +108,42 @@ contains
                            [status_name(solution%status)])
       end associate
    end subroutine put_spots
+
+   !> Writes to the log at how many loads contact and gap percolate, and in which direction. In 1-D both always do along
+   !> y, and with free edges there is no next cell: nothing is written.
+   subroutine say_percolation(results, log)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: log
+
+      character(*), parameter :: names(2) = ['contact', 'gap    '], limits(2) = [', from ', ', up to']
+      character(:), allocatable :: words
+      integer :: i, kind, load
+      logical :: percolates(size(results%loads), 2, 2)   ! at each load, along x and y, contact and gap
+      real(dp) :: limit
+      type(contact_spots) :: regions
+
+      if (results%solver%surface%has_free_edges .or. results%solver%surface%dimension == 1 .or. log%quiet) return
+      percolates = .false.
+      do load = 1, size(results%loads)
+         call results%loads(load)%spots(results%solver%surface, regions)
+         if (.not. allocated(regions%spots)) cycle
+         percolates(load, :, 1) = [(any(regions%spots%percolates(i)), i=1, 2)]
+         percolates(load, :, 2) = [(any(regions%pools%percolates(i)), i=1, 2)]
+      end do
+      do kind = 1, 2
+         words = ''
+         do i = 1, 2
+            if (.not. any(percolates(:, i, kind))) cycle
+            limit = minval(results%loads%pbar_over_pstar, mask=percolates(:, i, kind))
+            if (kind == 2) limit = maxval(results%loads%pbar_over_pstar, mask=percolates(:, i, kind))
+            words = clauses(words, 'along '//'xy'(i:i)//' at '//integer_text(count(percolates(:, i, kind)))//' of '// &
+                            integer_text(size(results%loads))//' loads'//trim(limits(kind))//' pbar/p* = '// &
+                            short_number(limit))
+         end do
+         if (words == '') words = 'at no load'
+         call log%say(trim(names(kind))//' percolates '//words)
+      end do
+   end subroutine say_percolation
 
    !> Writes the block of a load: a row for each spot, then one for each pool.
    subroutine put_spot_sizes(results, load, file)

@@ -16,6 +16,7 @@ module wavycon_run_scene
    use wavycon_scene, only: by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
+   use wavycon_spot_tables, only: say_percolation
    use wavycon_system, only: full_path, has_memory_for, make_directories
    use wavycon_table, only: table_type
    use wavycon_tables, only: all_tables
@@ -156,6 +157,7 @@ contains
             call show_stresses(results, logger)
          end if
          if (allocated(results%scene%interface_setting)) call find_interface(results, logger, '')
+         if (any(tables%file == 'spots')) call say_percolation(results, logger)
       end if
       do i = 1, size(tables)
          if (results%sharing%is_first .and. .not. (by_all(i) .or. allocated(error))) &

@@ -22,21 +22,53 @@ module wavycon_height_map_kind
 
 contains
 
-   !> Reads the height map of a file and makes the surface. Errors: exit_file_trouble if the file cannot be read.
-   !> exit_bad_input if the file is not a map, if heights are missing and are not to be filled, if heights are out of
-   !> range, if the unit is unknown, or if deck and file both give the sides of the cell: their units may differ.
-   subroutine surface_of_file(values, surface, map, error)
+   !> Reads the height map of a file, or of two, and makes the surface. Errors: exit_file_trouble if a file cannot be
+   !> read. exit_bad_input if a file is not a map, if heights are missing and are not to be filled, if heights are out of
+   !> range, if the unit is unknown, if deck and file both give the sides of the cell, as their units may differ, and if
+   !> the two maps do not have the same points and sides.
+   subroutine surface_of_file(values, surface, map, two_maps, error)
       type(surface_group), intent(inout) :: values     !! the values of &surface, without problems
       type(surface_type), intent(out) :: surface
       type(map_statistics), allocatable, intent(out) :: map
+      type(map_statistics), allocatable, intent(out) :: two_maps(:)   !! of the first and second map; only for two files
       type(error_type), allocatable, intent(out) :: error
 
-      type(measured_map) :: heights
-      character(:), allocatable :: file, path
+      type(measured_map) :: heights, second
+      character(:), allocatable :: path, path2, unit
+
+      unit = values%deck_unit
+      call read_map(values, values%file%text, unit, heights, path, error)
+      if (.not. allocated(error)) then
+         if (values%file2%is_given) then
+            call read_map(values, values%file2%text, unit, second, path2, error)
+            if (.not. allocated(error)) call make_of_two(path, path2, values, heights, second, surface, map, two_maps, error)
+         else
+            call make_of(path, values, heights, surface, map, error)
+         end if
+      end if
+      if (allocated(error)) then
+         error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
+         return
+      end if
+      map%path = full_path(path)
+      map%lacks_missing_value = values%missing_value%is_given .and. &
+                                .not. (heights%has_missing_value .or. second%has_missing_value)
+      if (unit /= '' .and. (allocated(heights%length_unit) .or. allocated(second%length_unit))) map%length_unit = unit
+   end subroutine surface_of_file
+
+   !> Reads the height map of a file, which is beside the deck or, if not, in the directory where the program was
+   !> started. Errors: those of read_height_map and convert_lengths.
+   subroutine read_map(values, file, unit, heights, path, error)
+      type(surface_group), intent(in) :: values            !! the values of &surface
+      character(*), intent(in) :: file                     !! name of the file as the deck gives it
+      !> The deck's unit of lengths; empty if it is unknown. It is then the unit of the file on exit, if that names one.
+      character(:), allocatable, intent(inout) :: unit
+      type(measured_map), intent(out) :: heights
+      character(:), allocatable, intent(out) :: path       !! where the file was found
+      type(error_type), allocatable, intent(out) :: error
+
       real(dp), allocatable :: missing_value   ! if not allocated, the optional argument is absent
 
-      file = values%file%text
-      ! The file is beside the deck or, if not, in the directory where the program was started.
       path = file
       if (file(1:1) /= '/') path = values%deck_path(:index(values%deck_path, '/', back=.true.))//file
       if (path_kind(path) == path_absent) then
@@ -48,18 +80,11 @@ contains
       call read_height_map(path, values%file_format%text, heights, error, missing_value, &
                            in_slabs=values%fill_missing%text == 'none' .and. .not. &
                                     (values%crop_missing%is_true .or. values%despike%is_true))
-      if (.not. allocated(error)) call convert_lengths(path, values%deck_unit, heights, error)
+      if (.not. allocated(error)) call convert_lengths(path, unit, heights, error)
       if (path_kind(path) == path_absent .and. allocated(error) .and. file(1:1) /= '/') error%message = &
          escaped(file)//': there is no such file beside the deck, nor where the program was started'
-      if (.not. allocated(error)) call make_of(path, values, heights, surface, map, error)
-      if (allocated(error)) then
-         error%message = error%message//' (the height map of '//escaped(values%deck_path)//')'
-         return
-      end if
-      map%path = full_path(path)
-      map%lacks_missing_value = values%missing_value%is_given .and. .not. heights%has_missing_value
-      if (allocated(heights%length_unit)) map%length_unit = heights%length_unit
-   end subroutine surface_of_file
+      if (allocated(heights%length_unit)) unit = heights%length_unit
+   end subroutine read_map
 
    !> Makes the surface of heights in memory. They take the place of those of the key `file`, whose value serves as a
    !> name in messages. Errors: exit_bad_input for another kind of surface, for keys that only a file can have, and as
@@ -81,6 +106,7 @@ contains
          call fatal_error(error, exit_bad_input, 'missing_value is not for heights in memory')
       if (values%file_format%is_given) &
          call fatal_error(error, exit_bad_input, 'file_format is not for heights in memory')
+      if (values%file2%is_given) call fatal_error(error, exit_bad_input, 'file2 is not for heights in memory')
       if (values%kind%text /= 'file') call fatal_error(error, exit_bad_input, &
          "heights in memory are for kind = 'file', not '"//values%kind%text//"'")
       if (allocated(error)) return
@@ -107,19 +133,101 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: assumed_sides
-      type(map_preparation) :: preparation
       real(dp) :: length(2)
 
       call take_sides(values, source, heights, length, assumed_sides, error)
       if (allocated(error)) return
+      call surface_of_map(source, preparation_of(values), values%height_scale%number, length, heights, surface, map, &
+                          error, radii_of(values%form_radius, values%form_radius_x, values%form_radius_y))
+      if (.not. allocated(error)) map%assumed_sides = assumed_sides
+   end subroutine make_of
+
+   !> Prepares each of two maps as the keys say, turns the second one over, and makes the surface of the sum of their
+   !> heights. Errors: those of `surface_of_file`.
+   subroutine make_of_two(source, source2, values, first, second, surface, map, two_maps, error)
+      character(*), intent(in) :: source, source2     !! names of the maps' files, for messages
+      type(surface_group), intent(inout) :: values    !! the values of &surface
+      type(measured_map), intent(inout) :: first      !! on exit the sum
+      type(measured_map), intent(inout) :: second
+      type(surface_type), intent(out) :: surface
+      type(map_statistics), allocatable, intent(out) :: map, two_maps(:)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: assumed_sides, unused
+      type(map_preparation) :: preparation, preparation_of_sum
+      real(dp) :: sides(2, 2)
+      integer :: points(2, 2)
+      type(grid_slab) :: slab
+
+      ! A map without sides has those of the other one.
+      if (.not. values%length_x%is_given) then
+         if (all(first%step <= 0.0_dp)) first%step = second%step
+         if (all(second%step <= 0.0_dp)) second%step = first%step
+      end if
+      slab = first%columns()
+      points(:, 1) = slab%points
+      slab = second%columns()
+      points(:, 2) = slab%points
+      call take_sides(values, source, first, sides(:, 1), assumed_sides, error)
+      if (.not. allocated(error)) call take_sides(values, source2, second, sides(:, 2), unused, error)
+      if (allocated(error)) return
+      ! Sides of files are rounded. Points of the two maps may be half a step apart, which is at the last of them.
+      if (any(points(:, 1) /= points(:, 2)) .or. &
+          any(2*points(:, 1)*abs(sides(:, 1) - sides(:, 2)) > sides(:, 1) .and. points(:, 1) > 1)) then
+         call fatal_error(error, exit_bad_input, map_words(source, 1)//', and '//map_words(source2, 2)// &
+                          ': two maps must have the same points and sides')
+         return
+      end if
+      preparation = preparation_of(values)
+      allocate (two_maps(2))
+      call surface_of_map(source, preparation, values%height_scale%number, sides(:, 1), first, statistics=map, &
+                          error=error)
+      if (allocated(error)) return
+      two_maps(1) = map
+      call surface_of_map(source2, preparation, values%file2_scale%number, sides(:, 1), second, statistics=map, &
+                          error=error)
+      if (allocated(error)) return
+      two_maps(2) = map
+      two_maps(2)%path = full_path(source2)
+      if (values%file2_flip%is_true) second%height = second%height(size(second%height, 1):1:-1, :)
+      first%height = first%height + second%height
+      if (allocated(first%missing)) deallocate (first%missing)
+      ! The sum of two tapered maps is tapered.
+      if (preparation%edges /= 'window') preparation_of_sum%edges = preparation%edges
+      call surface_of_map(source//' and '//source2, preparation_of_sum, 1.0_dp, sides(:, 1), first, &
+                          surface, map, error, radii_of(values%form_radius, values%form_radius_x, values%form_radius_y))
+      if (allocated(error)) return
+      map%assumed_sides = assumed_sides
+      map%changes%map_preparation = preparation
+      if (preparation%despike) map%spikes = 0
+
+   contains
+
+      !> The name of a map with its points and sides.
+      function map_words(source, i) result(words)
+         character(*), intent(in) :: source
+         integer, intent(in) :: i   !! 1 or 2
+         character(:), allocatable :: words
+
+         words = escaped(source)//' has '//integer_text(points(1, i))
+         if (points(2, i) == 1) words = words//' points and the length '//short_number(sides(1, i))
+         if (points(2, i) > 1) words = words//' x '//integer_text(points(2, i))//' points and the sides '// &
+                                       short_number(sides(1, i))//' x '//short_number(sides(2, i))
+      end function map_words
+
+   end subroutine make_of_two
+
+   !> The preparation of a map that the keys ask for.
+   pure type(map_preparation) function preparation_of(values) result(preparation)
+      type(surface_group), intent(in) :: values    !! the values of &surface
+
       preparation = map_preparation(values%detrend%text, values%fill_missing%text, values%edges%text, &
                                     values%window_width%number, values%crop_missing%is_true, &
                                     values%despike%is_true)
       if (values%short_wavelength%is_given) preparation%short_wavelength = values%short_wavelength%number
-      call surface_of_map(source, preparation, values%height_scale%number, length, heights, surface, map, error, &
-                          radii_of(values%form_radius, values%form_radius_x, values%form_radius_y))
-      if (.not. allocated(error)) map%assumed_sides = assumed_sides
-   end subroutine make_of
+      if (values%long_wavelength%is_given) preparation%long_wavelength = values%long_wavelength%number
+      preparation%filter = values%filter%text
+   end function preparation_of
 
    !> Finds the sides of the cell: those of the file, or those of the deck, or assumed ones. A side for which the file
    !> has its format's default may be given by the deck. Errors: exit_bad_input if file and deck both give a side.
