@@ -3,7 +3,8 @@
 !>    bench_iterations LARGEST
 !>
 !> The grids have 512 to LARGEST points a side. A row is a surface and load: iterations on the last grid, and on all
-!> grids, each weighted by its points over those of the last. The last line has the most iterations on a last grid.
+!> grids, each weighted by its points over those of the last; and pairs of transforms, weighted likewise. The last line
+!> has the most iterations on a last grid.
 module bench_iteration_count
    use wavycon_kinds, only: dp
    use wavycon_solver_progress, only: solver_progress
@@ -68,7 +69,8 @@ program bench_iterations
    end if
    worst = 0
    write (output_unit, '(a)') &
-      '# points  shortest_wave      area  seed    contact  iterations_on_last_grid  iterations_weighted  transform_pairs  residual'
+      '# points  shortest_wave      area  seed    contact  iterations_on_last_grid  iterations_weighted  '// &
+      'transform_pairs  residual'
    side = 512
    do while (side <= largest)
       do j = 1, size(cutoffs)
@@ -87,8 +89,9 @@ program bench_iterations
                call solve_by_sequence(surface, inverse_erf(areas(i))*slope/(sqrt(2.0_dp)*pi*full), 0.0_dp, &
                                       surface%points, answer, progress, 1e-8_dp)
                weighted = sum(numbers(:grids)*(real(sides(:grids), dp)/side)**2)
-               write (output_unit, '(2x,i6,i15,f10.3,i6,f11.5,i25,f21.1,f17.2,es10.1)') side, cutoffs(j), areas(i), seed, &
-                  answer%value(contact_area_counted), numbers(grids), weighted, answer%transform_pairs, answer%state%residual
+               write (output_unit, '(2x,i6,i15,f10.3,i6,f11.5,i25,f21.1,f17.2,es10.1)') &
+                  side, cutoffs(j), areas(i), seed, answer%value(contact_area_counted), numbers(grids), weighted, &
+                  answer%transform_pairs, answer%state%residual
                flush (output_unit)
                worst = max(worst, numbers(grids))
             end do

@@ -128,7 +128,8 @@ contains
    end function window
 
    !> Removes the short or the long waves of the map's Fourier series, in whatever direction they run: sharply those
-   !> that are shorter or longer than the cut-off, or all waves in part, as the Gaussian filter (M9) does. The mean stays.
+   !> that are shorter or longer than the cut-off, or all waves in part, as the Gaussian filter (M9) does. The mean
+   !> stays.
    subroutine leave_out_waves(points, sides, mirrored, which, filter, cut_off, height, removed)
       integer, intent(in) :: points(2)                     !! M, N of the map
       real(dp), intent(in) :: sides(2)                     !! sides of the map along x and y, in one unit, > 0

@@ -243,7 +243,8 @@ contains
       !> Writes a line of words, with commas between them if the name of the file asks for these.
       subroutine put(line, units)
          character(*), intent(in) :: line
-         character(*), intent(in), optional :: units   !! the line of the words' units: those that are not '[-]' are added
+         !> The line of the words' units: those that are not '[-]' are added.
+         character(*), intent(in), optional :: units
 
          character(:), allocatable :: left, left_units, text, word
 

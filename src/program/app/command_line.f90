@@ -61,7 +61,8 @@ contains
          'write the results to DIR, not to the directory of &output', longest=longest_directory))
       call keys%add(options%table, key_type(text_value, '--table', '', 'FILE', &
          'write one table of all decks: a row for each deck and load, with the values of the keys that are set or '// &
-         'differ, and the columns of the summary; with commas, for spreadsheets, if FILE ends in .csv', longest=longest_directory))
+         'differ, and the columns of the summary; with commas, for spreadsheets, if FILE ends in .csv', &
+         longest=longest_directory))
       call keys%add(options%keep_going, key_type(logical_value, '--keep-going', '.false.', '', &
          'a bad deck does not keep the others from being run'))
       call keys%add(options%resume, key_type(logical_value, '--resume', '.false.', '', &
@@ -73,8 +74,8 @@ contains
          'work on large grids with N threads; 1 if not given', 1, most_processes))
       call keys%add(options%quiet, key_type(logical_value, '--quiet', '.false.', '', 'write nothing but problems'))
       call keys%add(options%version, key_type(logical_value, '--version', '.false.', '', 'show the version and stop'))
-      call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', 'show this and stop; --help GROUP, such as '// &
-         '--help surface: only the keys of this group'))
+      call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', &
+         'show this and stop; --help GROUP, such as --help surface: only the keys of this group'))
    end subroutine list_options
 
    !> Reads the command line. Words that do not begin with '-', '-' alone, and all words behind '--', are decks. Errors:

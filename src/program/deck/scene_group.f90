@@ -47,7 +47,8 @@ contains
       integer :: i
 
       usual = 'deck'
-      if (is_file .and. values%deck_path /= '-') usual = values%deck_path(index(values%deck_path, '/', back=.true.) + 1:)
+      if (is_file .and. values%deck_path /= '-') &
+         usual = values%deck_path(index(values%deck_path, '/', back=.true.) + 1:)
       if (len(usual) > 4 .and. index(usual, '.nml', back=.true.) == len(usual) - 3) usual = usual(:len(usual) - 4)
       call check_unit(values%pressure_unit, 'pressure_unit')
       call check_unit(values%length_unit, 'length_unit')

@@ -133,8 +133,8 @@ contains
          'longer side of the cell.', above=0))
       keys%of = 'file'
       call keys%add(values%filter, key_type(choice_value, 'filter', "'sharp'", '', &
-         "how short_wavelength and long_wavelength cut off: 'sharp', waves beyond them are left out; 'gaussian', by "// &
-         'the filters of ISO 16610-61, which let half of a wave of this length pass.', choices='sharp gaussian'))
+         "how short_wavelength and long_wavelength cut off: 'sharp', waves beyond them are left out; 'gaussian', "// &
+         'by the filters of ISO 16610-61, which let half of a wave of this length pass.', choices='sharp gaussian'))
       keys%of = 'file self_affine'
       call keys%add(values%form_radius, key_type(real_value, 'form_radius', '', 'length', &
          'radius of '//on_a_ball, above=0, way=30, needs="edges='free'"))

@@ -43,7 +43,8 @@ module wavycon_scene
       character(:), allocatable :: fingerprint
       type(surface_type), allocatable :: surface    !! not allocated once start_results has given it to the solver
       type(map_statistics), allocatable :: map      !! statistics of a height map; not allocated for other surfaces
-      !> Statistics of the first and the second of two maps, of which `map` is the sum; not allocated for other surfaces.
+      !> Statistics of the first and the second of two maps, of which `map` is the sum; not allocated for other
+      !> surfaces.
       type(map_statistics), allocatable :: two_maps(:)
       type(roughness_type) :: roughness             !! root mean squares of height, slope and curvature of the surface
       character(:), allocatable :: pressure_unit    !! label of the deck's unit of pressures, such as 'MPa'

@@ -23,9 +23,9 @@ module wavycon_height_map_kind
 contains
 
    !> Reads the height map of a file, or of two, and makes the surface. Errors: exit_file_trouble if a file cannot be
-   !> read. exit_bad_input if a file is not a map, if heights are missing and are not to be filled, if heights are out of
-   !> range, if the unit is unknown, if deck and file both give the sides of the cell, as their units may differ, and if
-   !> the two maps do not have the same points and sides.
+   !> read. exit_bad_input if a file is not a map, if heights are missing and are not to be filled, if heights are out
+   !> of range, if the unit is unknown, if deck and file both give the sides of the cell, as their units may differ, and
+   !> if the two maps do not have the same points and sides.
    subroutine surface_of_file(values, surface, map, two_maps, error)
       type(surface_group), intent(inout) :: values     !! the values of &surface, without problems
       type(surface_type), intent(out) :: surface
@@ -41,7 +41,8 @@ contains
       if (.not. allocated(error)) then
          if (values%file2%is_given) then
             call read_map(values, values%file2%text, unit, second, path2, error)
-            if (.not. allocated(error)) call make_of_two(path, path2, values, heights, second, surface, map, two_maps, error)
+            if (.not. allocated(error)) &
+               call make_of_two(path, path2, values, heights, second, surface, map, two_maps, error)
          else
             call make_of(path, values, heights, surface, map, error)
          end if
