@@ -111,18 +111,18 @@ contains
 
    !> Writes to the log at how many loads contact and gap percolate, and in which direction. In 1-D both always do along
    !> y, and with free edges there is no next cell: nothing is written.
-   subroutine say_percolation(results, log)
+   subroutine say_percolation(results, logger)
       type(results_type), intent(in) :: results
-      type(run_log), intent(inout) :: log
+      type(run_log), intent(inout) :: logger
 
       character(*), parameter :: names(2) = ['contact', 'gap    '], limits(2) = [', from ', ', up to']
       character(:), allocatable :: words
-      integer :: i, kind, load
+      integer :: i, region_kind, load
       logical :: percolates(size(results%loads), 2, 2)   ! at each load, along x and y, contact and gap
       real(dp) :: limit
       type(contact_spots) :: regions
 
-      if (results%solver%surface%has_free_edges .or. results%solver%surface%dimension == 1 .or. log%quiet) return
+      if (results%solver%surface%has_free_edges .or. results%solver%surface%dimension == 1 .or. logger%quiet) return
       percolates = .false.
       do load = 1, size(results%loads)
          call results%loads(load)%spots(results%solver%surface, regions)
@@ -130,18 +130,19 @@ contains
          percolates(load, :, 1) = [(any(regions%spots%percolates(i)), i=1, 2)]
          percolates(load, :, 2) = [(any(regions%pools%percolates(i)), i=1, 2)]
       end do
-      do kind = 1, 2
+      do region_kind = 1, 2
          words = ''
          do i = 1, 2
-            if (.not. any(percolates(:, i, kind))) cycle
-            limit = minval(results%loads%pbar_over_pstar, mask=percolates(:, i, kind))
-            if (kind == 2) limit = maxval(results%loads%pbar_over_pstar, mask=percolates(:, i, kind))
-            words = clauses(words, 'along '//'xy'(i:i)//' at '//integer_text(count(percolates(:, i, kind)))//' of '// &
-                            integer_text(size(results%loads))//' loads'//trim(limits(kind))//' pbar/p* = '// &
+            if (.not. any(percolates(:, i, region_kind))) cycle
+            limit = minval(results%loads%pbar_over_pstar, mask=percolates(:, i, region_kind))
+            if (region_kind == 2) limit = maxval(results%loads%pbar_over_pstar, mask=percolates(:, i, region_kind))
+            words = clauses(words, 'along '//'xy'(i:i)//' at '// &
+                            integer_text(count(percolates(:, i, region_kind)))//' of '// &
+                            integer_text(size(results%loads))//' loads'//trim(limits(region_kind))//' pbar/p* = '// &
                             short_number(limit))
          end do
          if (words == '') words = 'at no load'
-         call log%say(trim(names(kind))//' percolates '//words)
+         call logger%say(trim(names(region_kind))//' percolates '//words)
       end do
    end subroutine say_percolation
 
