@@ -59,7 +59,7 @@ contains
       end do
       plan%trusted = size(plan%grids, 2)
       if (all(points > 0)) then
-         ! A wave of less than two points looks like a longer one on all grids, and changes between them do not show it.
+         ! A wave of less than two points is left out on all grids, and changes between them do not show it.
          if (.not. surface%has_free_edges) plan%lacks_waves = any(2*surface%shape%last([1, 2]) > points)
          return
       end if

@@ -9,7 +9,7 @@ module wavycon_command_line
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_output_group, only: longest_directory
-   use wavycon_plain_text, only: escaped, integer_text, listed, newline, quoted
+   use wavycon_plain_text, only: escaped, integer_text, listed, lower_case, newline, quoted
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
@@ -227,6 +227,7 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: word
       integer :: r
 
       text = ''
@@ -235,7 +236,9 @@ contains
          return
       end if
       do r = 1, size(command_line%runs)
-         associate (word => command_line%runs(r)%path, groups => group_names())
+         if (scan(command_line%runs(r)%path, './') > 0) cycle
+         word = lower_case(command_line%runs(r)%path)
+         associate (groups => group_names())
             if (all(groups /= word .and. '&'//groups /= word)) then
                call fatal_error(error, exit_bad_input, "--help: there is no group '"//escaped(word)//"'"// &
                                 did_you_mean(word, groups, '', '', '; groups are '//listed(groups, ' and ')))

@@ -1,6 +1,7 @@
 !> The &load group: the loads to solve for, by force, mean pressure, mean gap, approach, contact area or stress.
 module wavycon_load_group
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+   use wavycon_full_contact, only: mean_compliance
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, key_type, real_value
    use wavycon_kinds, only: dp
@@ -113,11 +114,14 @@ contains
 
       character(:), allocatable :: key, limit   ! limit: the limit in words; empty: there is none to check
       integer :: position
-      real(dp) :: area, most   ! most: largest value allowed, and unit of the target, in the unit of the key
+      real(dp) :: area
+      real(dp) :: compression   ! of a layer under p* [Delta]
+      real(dp) :: most   ! largest value allowed, and unit of the target, in the unit of the key
 
       call given_loads(values, key, position, loads_by, target)
       limit = ''
       most = 1.0_dp
+      compression = 0.0_dp
       if (surface%has_free_edges .and. any(periodic_lists == key)) then
          call values%problems%add(position, key//' needs a surface that is repeated: one with free edges '// &
             'has no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
@@ -158,8 +162,13 @@ contains
          where (mean_pressure > 0.0_dp) target = ieee_value(1.0_dp, ieee_positive_inf)
          return
       end if
+      if (loads_by == by_approach .and. .not. surface%has_free_edges) compression = mean_compliance(surface)
       if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges .or. &
-                                         surface%kernel%has_layer())) then
+                                         compression > 0.0_dp)) then
+         ! Beyond full contact the approach grows by the layer's mean compression alone.
+         if (compression > 0.0_dp .and. maxval(target)/most > 1.0_dp + largest_pbar_over_pstar*compression) &
+            call values%problems%add(position, key//' = '//short_number(maxval(target))//' is more than that of '// &
+                                     short_number(largest_pbar_over_pstar)//' times p*. Do the units agree?')
          target = target/most
          return
       end if

@@ -356,8 +356,7 @@ contains
                ' contact areas are below the least that the grid shows, '//short_number(solution%value(contact_area))
          end associate
          call logger%note(integer_text(count(is_unreached))//' of '//integer_text(size(loads))//limit// &
-            ' where its highest points just touch: no load has them. Give more grid_points or a smaller '// &
-            "accuracy; solver = 'fitted' has no such limit")
+            ' where its highest points just touch: no load has them. Give more grid_points or a smaller accuracy')
       end subroutine note_unreached
 
       !> Notes how many loads have no error estimates, how many loads have values that are no larger than their errors,
@@ -382,7 +381,7 @@ contains
          end do
          if (unknown > 0) call logger%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: '// &
             'a grid has error estimates from 64 points a side on, if each wave of the surface has two points '// &
-            'or more. Give more grid_points, or an accuracy')
+            'or more; shorter waves are left out. Give more grid_points, or an accuracy')
          if (all(coarse == 0)) return
          do i = 1, size(values)
             values(i) = trim(values(i))//' at '//integer_text(coarse(i))
