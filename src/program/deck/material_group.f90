@@ -51,8 +51,8 @@ contains
       call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
          "Poisson's ratio of the layer, if e_star is given.", above=-1, most=0.5_dp, way=10, needs='layer_thickness'))
       call keys%add(values%base_e, key_type(real_value, 'base_e', '', 'pressure', &
-         "Young's modulus of the half-space that the layer is bonded to, within a factor of 1e6 of the layer's. "// &
-         'Without it the base is rigid.', above=0, &
+         "Young's modulus of the half-space that the layer is bonded to. Its shear modulus must be within a factor "// &
+         "of 1e6 of the layer's. Without it the base is rigid.", above=0, &
          needs='base_nu layer_thickness'))
       call keys%add(values%base_nu, key_type(real_value, 'base_nu', '', '-', &
          "Poisson's ratio of this half-space.", above=-1, most=0.5_dp, needs='base_e'))

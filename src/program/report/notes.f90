@@ -296,8 +296,8 @@ contains
          call note_unresolved()
          is_series = loads%solver == by_beale .or. loads%solver == by_series
          if (any(is_series)) call logger%note( &
-            "the errors of the paper's truncated series are not estimated: with its harmonics and points they are "// &
-            'up to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
+            "the errors of the paper's truncated series are not estimated: with the paper's harmonics and points "// &
+            'they are up to '//short_number(paper_errors(1))//' in gap/Delta, '//short_number(paper_errors(2))// &
             ' in area/A0 and '//short_number(paper_errors(3))//' in peak/p* from 0.05 to 0.9 p*, more at other '// &
             "loads. solver = 'auto' gives digits, with error estimates")
          call note_some(count(is_series .and. loads%value(mean_gap) < 0.0_dp), &

@@ -375,7 +375,7 @@ contains
          words = 'grids refined until mean gap, area and peak pressure are within '// &
                  short_number(values%accuracy%number)
       end if
-      if (surface%mirrored) then
+      if (surface%mirrored .and. .not. surface%has_free_edges) then
          words = words//', on the map without its mirror images'
       else if (surface%shape%is_even()) then
          words = words//', on a quarter of the cell'
