@@ -45,6 +45,8 @@ def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pres
     """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not given,
     and returns these. Loads that are not resolved or not solved as requested are open symbols, those whose error is
     not known too. style: as of errorbar."""
+    if not len(results):
+        raise ValueError("there are no loads to draw")
     names = results.table().dtype.names or ()
     for column in x, y:
         if column not in names:

@@ -12,6 +12,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from numbers import Integral
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -38,14 +39,15 @@ def program() -> str:
 
 
 def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[Any, Surface],
-          values: Mapping[str, Iterable[object]] = MappingProxyType({}), jobs: int | None = None,
+          values: Mapping[str, object] = MappingProxyType({}), jobs: int | None = None,
           directory: str | os.PathLike[str] | None = None, **options: Unpack[Options]) -> Any:
     """Solves a deck, or surfaces, once for each combination of values of keys, several at a time, each in a process.
 
     what: the file of a deck; or a surface, a list of surfaces, or a dictionary of them by names, with options as of
     solve. values: such as {"surface.seed": range(50), "load.mean_pressure": [1e6, 1e7]}; each value, a number, a text
-    or a list, is set as by the program's --set. jobs: processes at a time; as many as there are processors unless
-    given. directory: where the runs write their tables, which are lost without it. Shows a bar where tqdm is installed.
+    or a list, is set as by the program's --set; a number or a text in place of the values is the only one. jobs:
+    processes at a time, 1 or more; as many as there are processors unless given. directory: where the runs write their
+    tables, which are lost without it. Shows a bar where tqdm is installed.
 
     Returns a frame of pandas: a row for each run and load, with the name or number of the surface if there are several,
     the values, the columns of the summary, whose units are in frame.attrs["units"], and message, what the program
@@ -53,11 +55,16 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     key is a ValueError before anything starts.
     """
     pandas = need("pandas", "frames")
+    if not isinstance(values, Mapping):
+        raise ValueError("values must be a dictionary of keys and their values, such as {'surface.seed': [1, 2]}, got "
+                         f"{type(values).__name__}")
+    if jobs is not None and not (isinstance(jobs, Integral) and jobs >= 1):
+        raise ValueError(f"jobs must be a whole number, 1 or more, got {jobs!r}")
     known = [f"{group}.{key}" for group, own in keys().items() for key in own]
     for key in values:
         if str(key).lower() not in known:
             raise ValueError(unknown("key", key, known))
-    points = [dict(zip(values, one)) for one in itertools.product(*values.values())]
+    points = [dict(zip(values, one)) for one in itertools.product(*itertools.starmap(values_of, values.items()))]
     units: dict[str, str] = {}
     started: list[subprocess.Popen[str]] = []
     with tempfile.TemporaryDirectory() as own:
@@ -104,6 +111,18 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     frame = pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
     frame.attrs["units"] = {column: units[column] for column in frame if column in units}
     return frame
+
+
+def values_of(key: str, given: object) -> list[object]:
+    """The values of a key of a sweep; a number or a text is the only one."""
+    is_one = isinstance(given, (str, bytes, Mapping)) or getattr(given, "ndim", None) == 0
+    values = [given] if is_one or not isinstance(given, Iterable) else list(given)
+    try:
+        for value in values:
+            value_text(value)
+    except ValueError as trouble:
+        raise ValueError(f"{key}: {trouble}") from None
+    return values
 
 
 def decks_of(what: Any, folder: str, options: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, object]]]:

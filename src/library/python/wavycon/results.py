@@ -73,6 +73,9 @@ class Result(Columns[float, str]):
 
     __getitem__ = _column
 
+    def __contains__(self, name: object) -> bool:
+        return name in (self.table("summary").dtype.names or ())
+
     def __repr__(self) -> str:
         return (f"Result(load {self.load}: mean_pressure={self.mean_pressure:.6g}, contact_area_fraction="
                 f"{self.contact_area_fraction:.6g}, mean_gap={self.mean_gap:.6g}, status={self.status!r})")
@@ -184,9 +187,10 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
     those of the columns, and notes, a list of what the program's log notes of the surface, the loads and the tables;
     each was also a warning, wavycon.Note. A copy, also by pickle, has the tables that were asked for and the fields."""
 
-    def __init__(self, loads: Sequence[Result], facts: Facts) -> None:
+    def __init__(self, loads: Sequence[Result], facts: Facts, model: Result | None = None) -> None:
+        """model: a load that has the columns of the tables, where there is none here."""
         super().__init__(**vars(facts))
-        self._loads, self._facts = loads, facts
+        self._loads, self._facts, self._model = loads, facts, loads[0] if loads else model
 
     def __len__(self) -> int:
         return len(self._loads)
@@ -201,7 +205,13 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
     def __getitem__(self, load: int | slice | str) -> Result | Results | Rows:
         if isinstance(load, str):
             return column(self.table(), load)
-        return Results(self._loads[load], self._facts) if isinstance(load, slice) else self._loads[load]
+        if isinstance(load, slice):
+            return Results(self._loads[load], self._facts, self._model)
+        return self._loads[load]
+
+    def __contains__(self, one: object) -> bool:
+        """Whether there is a column of this name, or this load."""
+        return one in (self.table().dtype.names or ()) if isinstance(one, str) else one in self._loads
 
     def _column(self, name: str) -> Any:
         return self.table()[name]
@@ -220,12 +230,14 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
 
     def table(self, name: str = "summary") -> Rows:
         """The rows of a table of all loads, see Result.table."""
-        return locked(np.concatenate([load.table(name) for load in self]))
+        if self._model is None:
+            raise ValueError("there are no loads")
+        return locked(np.concatenate([load.table(name) for load in self] or [self._model.table(name)[:0]]))
 
     @cached_property
     def surface(self) -> Roughness:
         """Root mean square height, slope and curvature of the surface that was solved, and its spectrum."""
-        rows = self[0].table("spectrum")
+        rows = (self._model or self[0]).table("spectrum")
         last = rows[rows["direction"] == rows["direction"][0]][-1]
         height, slope, curvature = (float(last[f"rms_{name}_up_to"]) for name in ("height", "slope", "curvature"))
         return Roughness(height, slope, curvature, rows)
@@ -242,9 +254,11 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         data: dict[str, Any] = {name: ("load", rows[name], {"units": self.unit(name)})
                                 for name in rows.dtype.names or ()}
         with contextlib.suppress(ValueError):   # without fields
-            data |= {name: (("load", "y", "x"), np.stack([load._fields[name] for load in self]),
+            fields: dict[str, Array] = self._model._fields if self._model else {}
+            shape = len(self), *fields["pressure"].shape
+            data |= {name: (("load", "y", "x"), np.reshape([load._fields[name] for load in self], shape),
                             {"units": self.unit(name)}) for name in FIELDS}
-            data |= {axis: (axis, self[0]._fields[axis], {"units": self.length_unit}) for axis in "xy"}
+            data |= {axis: (axis, fields[axis], {"units": self.length_unit}) for axis in "xy"}
         return xarray.Dataset(data, attrs={"method": self.method, "deck": self.deck})
 
     plot = pictures.plot
