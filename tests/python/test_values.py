@@ -186,6 +186,24 @@ class Values(ValuesTest):
         results[1:].save("part.npz")
         self.assertEqual([2, 3], wc.load("part.npz").load.tolist())
 
+    def test_a_slice_of_no_loads(self):
+        results = self.solve_rough()
+        results[3:].surface
+        self.assertEqual((0, 0), (len(results[3:].mean_gap), len(results[3:][:1].table("spots"))))
+        frame, whole = results[3:].to_dataframe(), results.to_dataframe()
+        self.assertEqual((0, list(whole), whole.attrs), (len(frame), list(frame), frame.attrs))
+        self.refuse("there are no loads to draw", results[3:].plot)
+        if importlib.util.find_spec("xarray"):
+            data = results[3:].to_xarray()
+            self.assertEqual((0, *results[0].pressure.shape), data.pressure.shape)
+            self.assertEqual(0, data.mean_gap.size)
+
+    def test_what_is_in_a_result(self):
+        results = self.solve_rough()
+        for thing in results, results[0], results[3:]:
+            self.assertEqual([True, False], ["mean_gap" in thing, "mean_gab" in thing])
+        self.assertEqual([True, False], [results[0] in results, results[0] in results[1:]])
+
     def test_what_a_result_has_cannot_be_changed(self):
         results = self.solve_rough()
         for values in results.mean_gap, results["mean_gap"], results[0].pressure, results[0].table("spots")["perimeter"]:
@@ -332,12 +350,21 @@ class Sweeps(ValuesTest):
         self.assertEqual([0, 1], listed.surface.tolist())
         self.assertEqual(seeds.contact_area[0], listed.contact_area[0])
 
+    def test_one_value(self):
+        frame = wc.sweep(wc.wave_1d(), {"method.solver": "auto", "load.pbar_over_pstar": 0.1,
+                                        "surface.amplitude": numpy.array(2)}, 1)
+        self.assertEqual([["auto", 0.1, 2]], frame.iloc[:, :3].values.tolist())
+
     def test_a_wrong_key_is_an_error_before_anything_starts(self):
         with unittest.mock.patch("subprocess.Popen", side_effect=AssertionError):
             self.refuse("'surface.sed'; did you mean 'surface.seed'", wc.sweep, self.rough, {"surface.sed": [1]})
             self.refuse("did you mean 'e_star'", wc.sweep, self.rough, e_sta=1)
             self.refuse("must be a surface", wc.sweep, [1], pbar_over_pstar=1)
             self.refuse("has its own keys", wc.sweep, "deck.nml", e_star=1)
+            self.refuse("values must be a dictionary .*, got list", wc.sweep, self.rough, ["surface.seed"])
+            self.refuse("surface.seed: a value must be a number", wc.sweep, self.rough, {"surface.seed": None})
+            for jobs in -1, 0, 1.5:
+                self.refuse(f"jobs must be a whole number, 1 or more, got {jobs}", wc.sweep, self.rough, jobs=jobs)
 
     def test_the_module_is_the_program(self):
         (self.folder/"deck.nml").write_text("&surface kind = 'wave_1d' / &load pbar_over_pstar = 0.5 /")

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 from program import ProgramTest, main
 from tables import Table
@@ -119,8 +120,13 @@ class Verify(ProgramTest):
                                 "wave_2d", "--solve", status=int(factor > 1))
             self.assertIn(f"\nsolved now (1): {load + 1e-6}\n", found)
             self.assertIn(f"\nrows in both (1): {load + 1e-6}\n", found)
-        self.assertIn("verify: the loads that the reference lacks are not solved:\ndeck.nml:2:",
-                      self.verify("pbar_over_pstar,perimeter\n-1,1\n", "wave_2d", "--solve", status=1))
+        with unittest.mock.patch.object(type(self), "program", shutil.which("false")):
+            self.assertIn("verify: the loads that the reference lacks are not solved:\n",
+                          self.verify("pbar_over_pstar,perimeter\n0.123,1\n", "wave_2d", "--solve", status=1))
+            for load in "-1", "1.5", "inf":
+                found = self.verify(f"pbar_over_pstar,perimeter\n0.123,1\n{load},1\n", "wave_2d", "--solve", status=1)
+                self.assertEqual(f"verify: mine.csv:3: the load {load} is not between 0 and 1, and --solve cannot "
+                                 "solve it\n", found)
         self.assertIn("--solve needs the program wavycon, and the table wave_2d or hexagonal", self.verify(
             "surface,pbar_over_pstar,compliance\nwave_2d,0.123,1\n", "interface", "--solve", status=1))
 
@@ -147,6 +153,12 @@ class Verify(ProgramTest):
                 ("pbar_over_pstar,perimeter\n,1\n", "wave_2d", "mine.csv:2: '' in the column 'pbar_over_pstar' is not a"),
                 ("pbar_over_pstar perimeter\n0.1\n", "wave_2d", "mine.csv:2: 1 words, but there are 2 columns"),
                 ("perimeter,pbar_over_pstar,perimeter\n", "wave_2d", "there are several columns 'perimeter'"),
+                ("P,area\n0.1,1\n", "wave_2d", "Columns are found by their names, and may be renamed, such as P to"),
+                ("\n", "wave_2d", "mine.csv: the file is empty"),
+                ("# nothing\n", "wave_2d", "mine.csv: the file has no rows"),
+                ("pbar_over_pstar,perimeter\n", "wave_2d", "mine.csv: the file has no rows"),
+                ("pbar_over_pstar,perimeter\n0.1,NaN\n", "wave_2d", "mine.csv: line 2: perimeter is not a number\n"),
+                ("pbar_over_pstar\0perimeter\n", "wave_2d", "mine.csv: the file is no text"),
                 ("0.1,1\n", "wave_2d", "mine.csv:1: names of the columns must stand above the numbers"),
                 ("pbar_over_pstar,perimeter\n0.123,1\n", "wave_2d", "no row of the file is in the reference")):
             with self.subTest(message):
@@ -155,6 +167,10 @@ class Verify(ProgramTest):
                 self.assertIn(message, found)
         self.assertIn("nothing.csv: No such file", subprocess.run(
             [self.script, "nothing.csv", "wave_2d"], capture_output=True, text=True, check=False).stderr)
+        binary = self.folder/"mine.npy"
+        binary.write_bytes(b"\x93NUMPY\xff")
+        self.assertIn("mine.npy: the file is no text", subprocess.run(
+            [self.script, binary, "wave_2d"], capture_output=True, text=True, check=False).stderr)
 
     def test_installed(self):
         """As `cmake --install` and the wheel have it; and a table that was changed."""

@@ -115,8 +115,8 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
 
 def values_of(key: str, given: object) -> list[object]:
     """The values of a key of a sweep; a number or a text is the only one."""
-    is_list = isinstance(given, Iterable) and not isinstance(given, (str, bytes, Mapping)) and getattr(given, "ndim", 1)
-    values = list(given) if is_list else [given]
+    is_one = isinstance(given, (str, bytes, Mapping)) or getattr(given, "ndim", None) == 0
+    values = [given] if is_one or not isinstance(given, Iterable) else list(given)
     try:
         for value in values:
             value_text(value)
