@@ -1,5 +1,5 @@
 !> The tuned constants of this directory. README.md, "Constants", says what a change of each one does;
-!> `scripts/constants --room stress` measures this.
+!> `scripts/constants --directory stress` measures this.
 module wavycon_stress_tuning
    use wavycon_kinds, only: dp
    implicit none (type, external)
