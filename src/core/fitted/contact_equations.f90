@@ -125,7 +125,7 @@ contains
    subroutine linearise(self, lattice, now)
       class(contact_equations), intent(inout) :: self
       type(wave_lattice), intent(in) :: lattice
-      type(fitted_function), intent(in) :: now!! the approximation, of the kind that the equations were started for
+      type(fitted_function), intent(in) :: now   !! the approximation, of the kind that the equations were started for
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
       real(dp) :: known, shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
