@@ -143,12 +143,12 @@ contains
 
    !> Two clauses of a sentence, 'first; second'.
    pure function clauses(first, second) result(words)
-      character(*), intent(in) :: first    !! if empty, the result is `second`
-      character(*), intent(in) :: second
+      character(*), intent(in) :: first, second   !! if one is empty, the result is the other
       character(:), allocatable :: words
 
       words = second
-      if (first /= '') words = first//'; '//second
+      if (second == '') words = first
+      if (first /= '' .and. second /= '') words = first//'; '//second
    end function clauses
 
    !> A fraction in per cent, such as '2.5 %', rounded to 0.1 %.

@@ -25,9 +25,9 @@ import unittest
 import unittest.mock
 import warnings
 
-from program import ProgramTest, main, skip, take_options
+from program import ProgramTest, main
 from tables import Table
-from virtual_environment import go_on_with
+from virtual_environment import go_on_with_package
 
 # Half a unit of the last of the 16 digits that tables have.
 DIGITS, STRESS_DIGITS = 1e-15, 1e-11
@@ -725,12 +725,7 @@ class Files(PackageTest):
 
 
 if __name__ == "__main__":
-    if sys.version_info < (3, 10):
-        skip("the package needs Python 3.10")
-    # Kept on the command line: another Python may be started with it.
-    go_on_with(*sys.argv[sys.argv.index("--needs") + 1].split(","))
-    given = take_options("package", "needs")
-    sys.path.insert(0, os.path.abspath(given.package))
+    given = go_on_with_package()
     import matplotlib
     matplotlib.use("agg")
     import matplotlib.pyplot

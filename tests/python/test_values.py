@@ -18,8 +18,8 @@ import unittest
 import unittest.mock
 import warnings
 
-from program import ProgramTest, main, skip, take_options
-from virtual_environment import go_on_with
+from program import ProgramTest, main
+from virtual_environment import go_on_with_package
 
 # Half a unit of the last of the 16 digits that tables have.
 DIGITS = 1e-15
@@ -403,12 +403,7 @@ class Progress(ValuesTest):
 
 
 if __name__ == "__main__":
-    if sys.version_info < (3, 10):
-        skip("the package needs Python 3.10")
-    # Kept on the command line: another Python may be started with it.
-    go_on_with(*sys.argv[sys.argv.index("--needs") + 1].split(","))
-    given = take_options("package", "needs")
-    sys.path.insert(0, os.path.abspath(given.package))
+    given = go_on_with_package()
     import matplotlib
     matplotlib.use("agg")
     import matplotlib.pyplot

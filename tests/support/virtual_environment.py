@@ -46,6 +46,18 @@ def go_on_with(*packages):
         os.execve(python, [python, *words], dict(variables, PYTHONPYCACHEPREFIX=os.path.join(home, "cache")))
 
 
+def go_on_with_package():
+    """Returns the options --package and --needs in a Python that has the packages of --needs and finds wavycon in the
+    folder of --package; the test is skipped if that fails."""
+    if sys.version_info < (3, 10):
+        skip("the package needs Python 3.10")
+    # Kept on the command line: another Python may be started with it.
+    go_on_with(*sys.argv[sys.argv.index("--needs") + 1].split(","))
+    given = take_options("package", "needs")
+    sys.path.insert(0, os.path.abspath(given.package))
+    return given
+
+
 def succeeds(command, log):
     try:
         return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, timeout=PATIENCE,

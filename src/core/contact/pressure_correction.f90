@@ -223,27 +223,17 @@ contains
 
       !> A pressure below this part of the numbers that it is the sum of is zero but for rounding.
       real(sp), parameter :: rounding = 4*epsilon(1.0_sp)
-      real(dp) :: sums(2)
-      real(dp), allocatable :: chunk_sums(:, :)
+      real(dp) :: curvature    ! (d, S d)
       real(sp) :: best, step   ! part of the change with the least energy, and the part that is taken
       real(sp), dimension(longest_chunk) :: image, least
+      real(sp) :: unused
       integer :: c, n
 
-      allocate (chunk_sums(size(sums), state%region%chunks))
-      !$omp parallel do num_threads(state%region%threads) private(image, n)
-      do c = 1, state%region%chunks
-         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
-            n = b - a + 1
-            call state%region%take_chunk(c, field, image)
-            chunk_sums(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1)]
-         end associate
-      end do
-      sums = state%totals(chunk_sums)
-      best = 0.0_sp
-      if (sums(1) > 0.0_dp) best = real(max(sums(2)/sums(1), 0.0_dp), sp)
+      call find_least_energy(state, residuals, direction, field, best, curvature, unused)
+      best = max(best, 0.0_sp)
       step = best
       if (best > whole_step) step = 1.0_sp
-      descent = step*sums(1)
+      descent = step*curvature
       expected_step = expected_step*best
       if (best < least_foreseen) expected_step = 0.0_sp
       !$omp parallel do num_threads(state%region%threads) private(image, least, n)
@@ -275,26 +265,10 @@ contains
       real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
       real(sp), intent(out) :: step                        !! tau of (C6)
 
-      real(dp) :: sums(4)
-      real(dp), allocatable :: chunk_sums(:, :)
-      real(sp) :: image(longest_chunk), mean   ! S d; mean gap over the free points after the step (C8b)
-      integer :: c, n
+      real(dp) :: curvature, sums(4)   ! curvature: (d, S d)
+      real(sp) :: mean                 ! mean gap over the free points after the step (C8b)
 
-      allocate (chunk_sums(3, state%region%chunks))
-      !$omp parallel do num_threads(state%region%threads) private(image, n)
-      do c = 1, state%region%chunks
-         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
-            n = b - a + 1
-            call state%region%take_chunk(c, field, image)
-            chunk_sums(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
-                                sdot(n, state%contact(a:b), 1, image, 1)]
-         end associate
-      end do
-      sums(:3) = state%totals(chunk_sums)
-      ! If only one point is free the direction and the step are zero, but points may still enter the contact.
-      step = 0.0_sp
-      if (sums(1) > 0.0_dp) step = real(sums(2)/sums(1), sp)
-      mean = real(-step*sums(3)/max(state%contact_points, 1.0_dp), sp)
+      call find_least_energy(state, residuals, direction, field, step, curvature, mean)
       sums = sums_after(state, direction, step)
       if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) then
          call state%update_contact(mean, step, direction, field)
@@ -309,6 +283,38 @@ contains
       call state%displace(half_space, field)
       call state%update_contact(state%mean_gap(field))
    end subroutine take_step
+
+   !> The step to the least energy along the direction (C6), and the mean gap over the free points after it (C8b).
+   subroutine find_least_energy(state, residuals, direction, field, step, curvature, mean)
+      type(correction_state), intent(in) :: state
+      real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d, shape (region%points)
+      real(sp), intent(in), contiguous :: field(:, :)   !! S d, shape (M, slab%columns())
+      real(sp), intent(out) :: step                     !! tau of (C6)
+      real(dp), intent(out) :: curvature                !! (d, S d)
+      real(sp), intent(out) :: mean                     !! [Delta], over the scale of the correction
+
+      real(dp), allocatable :: chunk_sums(:, :)
+      real(dp) :: sums(3)
+      real(sp) :: image(longest_chunk)
+      integer :: c, n
+
+      allocate (chunk_sums(size(sums), state%region%chunks))
+      !$omp parallel do num_threads(state%region%threads) private(image, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
+            n = b - a + 1
+            call state%region%take_chunk(c, field, image)
+            chunk_sums(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
+                                sdot(n, state%contact(a:b), 1, image, 1)]
+         end associate
+      end do
+      sums = state%totals(chunk_sums)
+      ! If only one point is free the direction and the step are zero, but points may still enter the contact.
+      step = 0.0_sp
+      if (sums(1) > 0.0_dp) step = real(sums(2)/sums(1), sp)
+      curvature = sums(1)
+      mean = real(-step*sums(3)/max(state%contact_points, 1.0_dp), sp)
+   end subroutine find_least_energy
 
    !> Sums over the grid after a step that keeps the pressure at zero or above: number of the free points whose pressure
    !> stays above zero, sum of their pressures, sum of the changes since the start, and number of the points that

@@ -64,8 +64,7 @@ contains
                associate (map => scene%two_maps(i))
                   words = ''
                   if (i == 2 .and. scene%surface_values%file2_flip%is_true) words = 'turned over about the y axis'
-                  if (preparation_words(map%changes, length) /= '') &
-                     words = clauses(words, preparation_words(map%changes, length))
+                  words = clauses(words, preparation_words(map%changes, length))
                   if (words /= '') words = '; '//words
                   call add('map of body '//integer_text(i)//': format = '//trim(map%format)// &
                      number('lowest', length, map%lowest)//number('highest', length, map%highest)// &
