@@ -78,7 +78,7 @@ set bmargin at screen 0.155
 set tmargin at screen 0.915
 set xlabel load offset 0, 0.3
 set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
-set xrange [-0.4:0.8]
+set xrange [-0.4:1.05]
 set yrange [0:1]
 set xtics 0.2 format '%.1f'
 set ytics 0.2 format '%.1f'

@@ -87,7 +87,7 @@ set border 3
 set lmargin at screen 0.48
 set rmargin at screen 0.965
 set xlabel load offset 0, 0.3
-set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
+set ylabel '{/:Italic A} / {/:Italic A}_0' offset -0.2, 0
 set xrange [-0.1:0.3]
 set yrange [0:1]
 set xtics 0.1 format '%.1f'
