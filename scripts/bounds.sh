@@ -41,18 +41,19 @@ set logscale xy
 set format x '10^{%T}'
 set format y '10^{%T}'
 set xlabel 'time [s]'
-set xrange [1e-3:10]
+# Decades that hold the times of this machine, at least these.
+set xrange [*<1e-3:1<*]
 set yrange [1e-10:1]
-set multiplot layout 1, 2
+set multiplot layout 1, 2 margins 0.1, 0.985, 0.16, 0.9 spacing 0.1
 do for [deck in 'bounds bounds_rough'] {
    table = 'outputs/bounds/'.deck.'.width.dat'
    set title deck eq 'bounds' ? 'wave, '.p_bar.' = 0.2 '.p_star : 'rough, '.p_bar.' = 0.02 '.p_star
    if (deck eq 'bounds') {
       set ylabel 'relative to the energy'
-      set key top right
+      unset key
    } else {
       unset ylabel
-      unset key
+      set key bottom left font ',12'
    }
    plot table using 'seconds_all':'width' with linespoints ls 11 title 'width of the bounds', \
         '' using 'seconds_solved':'error' with linespoints ls 12 title 'error of the energy', \

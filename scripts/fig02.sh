@@ -5,7 +5,7 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig02 'Fig. 2, the pressures of the one-dimensional wave,' "$@"
 run_decks fig02
-draw_figure 480 400 "edge_level = $(header_value fig02 lines 'edge_level[p*]')" <<'EOF'
+draw_figure 480 420 "edge_level = $(header_value fig02 lines 'edge_level[p*]')" <<'EOF'
 lines = table('fig02', 'lines')
 theory = table('fig02', 'theory_lines')
 dundurs_load = 0.4
@@ -14,11 +14,12 @@ loads = STATS_blocks
 set xlabel '{/:Italic x}/'.lambda
 set ylabel p.'/'.p_star
 set xrange [-0.5:0.5]
-set yrange [-0.1:2.05]
+set yrange [-0.1:2]
 set xtics 0.1 format '%.1f'
 set ytics 0, 0.5 format '%.1f'
 set mytics 5
-set key top left samplen 3 font ',12'
+set tmargin at screen 0.885
+set key at graph 0.5, 1.02 center bottom horizontal maxrows 2 samplen 3
 
 # A load is named under its crest, the highest beside it.
 do for [i = 0:loads - 1] {

@@ -16,8 +16,9 @@ set mxtics 2
 set mytics 2
 set format '%.1f'
 set key top right
+set border back
 plot table('fig03_curve', 'theory') using "pbar_over_pstar":"kuznetsov_mean_gap_over_amplitude" \
         with lines ls 31 title 'converged: equation (20), Kuznetsov', \
      table('fig03', 'summary') using "pbar_over_pstar":"mean_gap_over_amplitude" \
-        with points ls 13 title 'numerical, equation (19)'
+        with points ls 11 title 'numerical, equation (19)'
 EOF

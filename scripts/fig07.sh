@@ -24,8 +24,8 @@ plot curves using "pbar_over_pstar":"hertz_contact_area_fraction" with lines ls 
      curves using "pbar_over_pstar":"crack_contact_area_fraction" with lines ls 2 title 'asymptotes (23), (24)', \
      'outputs/reference/wave_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with lines ls 31 \
         title 'converged', \
+     table('fig07', 'summary') using "pbar_over_pstar":"contact_area_fraction" with points ls 12 ps 0.85*mark \
+        title sprintf('numerical, %s ≥ %.1f %s', p, edge_level, p_star), \
      'inputs/reference_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with points ls 14 \
-        title 'converged, other methods', \
-     table('fig07', 'summary') using "pbar_over_pstar":"contact_area_fraction" with points ls 13 \
-        title sprintf('numerical, %s ≥ %.1f %s', p, edge_level, p_star)
+        title 'converged, other methods'
 EOF

@@ -52,8 +52,13 @@ set ytics 0.5 format '%.1f'
 unset key
 loops = table('slip_loop', 'slip_loop')
 limit = 0.5*0.4*p_star_loop
+do for [i = 1:3] {
+   stats loops index i - 1 using (1e6*column('displacement')):(column('tangential_load')/limit) nooutput
+   set label sprintf('%.1f', STATS_max_y) at STATS_pos_max_y + 7, STATS_max_y - 0.03 left tc ls 30 + i font ',11'
+}
 plot for [i = 1:3] loops index i - 1 using (1e6*column('displacement')):(column('tangential_load')/limit) \
         with lines ls 30 + i dt solid
+unset label
 
 # Below left: where the contact sticks and slips under the middle load.
 set lmargin at screen 0.095
@@ -72,7 +77,9 @@ set title '{/:Italic Q} = 0.7 {/:Italic f p̄}: stick, slip, open' offset 0, -0.
 eval of_contact
 set cbrange [1:2.7]
 unset colorbox
-plot table('slip_loop', 'slip_map') index 1 using 'x':'y':(column('slip_state') > 0 ? column('slip_state') : NaN) with image
+# The map ends before its first row and column come again.
+plot for [k = 0:1] for [l = 0:1] table('slip_loop', 'slip_map') index 1 \
+        using (k + column('x')):(l + column('y')):(column('slip_state') > 0 ? column('slip_state') : NaN) with image
 
 # Below right: adhesion.
 set size noratio
@@ -80,8 +87,8 @@ set border 3
 set lmargin at screen 0.48
 set rmargin at screen 0.965
 set xlabel load offset 0, 0.3
-set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
-set xrange [-0.1:0.5]
+set ylabel '{/:Italic A} / {/:Italic A}_0' offset -0.2, 0
+set xrange [-0.1:0.3]
 set yrange [0:1]
 set xtics 0.1 format '%.1f'
 set ytics 0.2 format '%.1f'

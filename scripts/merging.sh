@@ -38,7 +38,9 @@ set ylabel 'd ln {/:Italic g}_{saddle} / d ln ({/:Italic p̄}_m − '.p_bar.')'
 set yrange [1:1.6]
 set ytics 0.1 format '%.1f'
 set key top left
+visible = 0.006   # error bars that are longer than their point is high
 plot 1.2 with lines ls 2 title '6/5', \
      exponents using 'distance':(by_law(column('gap'))) with lines ls 31 title 'logarithmic law', \
-     '' using 'distance':'exponent':'error' with yerrorbars ls 12 ps 0.6*mark title 'between neighbouring loads'
+     '' using 'distance':'exponent':(column('error') > visible ? column('error') : NaN) with yerrorbars ls 12 ps 0.6*mark, \
+     '' using 'distance':'exponent' with points ls 12 ps 0.6*mark title 'between neighbouring loads'
 EOF

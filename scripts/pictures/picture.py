@@ -19,7 +19,7 @@ MOST_PANELS, MOST_CURVES, MOST_EDGES = 4, 8, 20
 # Sizes of the letters of titles in points, and the width of a letter over its size, about.
 LARGEST, SMALLEST, LETTER = 15.0, 10.0, 0.45
 SMALL = "font ',12'"
-KEY = f"spacing 1.15 samplen 3.2 noautotitle Left reverse {SMALL}"
+KEY = f"spacing 1.25 samplen 3.2 noautotitle Left reverse {SMALL}"
 RIGHT = "at graph 1.03, 1 left top samplen 1.5"   # the place of a key that names loads
 # Points that are not accurate, and that are not solved.
 STYLES = ["set style line 41 lc rgb red lw 1.3 pt 2 ps mark", "set style line 42 lc rgb red lw 1.3 pt 6 ps 1.3*mark"]

@@ -22,10 +22,11 @@ gap = 0.014
 
 # The logit, which shows light loads and loads near full contact alike. NaN leaves out what did not reach the residual.
 logit(x) = log(x/(1 - x))
-reached(i) = strcol(5) eq 'reached' ? column(i) : NaN
+reached(i) = strcol(5) eq 'reached' && column(7) <= most ? column(i) : NaN
+most = 0.99999   # of the points in contact; beyond it all times are those of full contact
 
 set logscale y
-set xrange [logit(4e-4):logit(0.99998)]
+set xrange [logit(4e-4):logit(most)]
 set xtics () font small
 set ytics font small
 unset mxtics
@@ -48,7 +49,7 @@ do for [row = 1:2] {
       set yrange [0.005:200]
       set format y (panel == 1 ? '%g' : '')
       set ylabel (panel == 1 ? 'processor time [s]' : '') offset 0.8, 0
-      set xlabel (row == 2 ? 'points in contact / %' : '') offset 0, 0.3
+      set xlabel (row == 2 ? 'points in contact [%]' : '') offset 0, 0.3
       set xtics ()
       do for [i = 1:8] { set xtics add ((row == 2 ? label[i] : '') logit(share[i])) }
       unset label

@@ -28,24 +28,32 @@ do for [j = 1:3] {
    start[j] = points_intercept
 }
 
-set multiplot layout 1, 2 margins 0.09, 0.98, 0.17, 0.94 spacing 0.12
-set key left center Left reverse samplen 2 font small
-set xlabel 'fraction of the points in contact' offset 0, 0.3
-set ylabel 'processor time [s];  transform pairs' offset 1.2, 0
+set multiplot layout 1, 2 margins 0.085, 0.98, 0.17, 0.94 spacing 0.185
+set key left top Left reverse samplen 2 font small
+set xlabel 'fraction {/:Italic A} of the points in contact' offset 0, 0.3
+set ylabel 'processor time [s]' offset 1.2, 0
+set yrange [*:3<*]
+set ytics nomirror
+set y2label 'transforms, there and back' offset -1.2, 0
+set y2range [0:*]
+set y2tics font small
 set xrange [5e-5:1.5]
 set format x '10^{%T}'
 set format y '%g'
 plot runs index contacts using 7:(reached(8)) with points ls 31 title sprintf('time, %d^2 points', grid), \
    [7e-5:light] line(x, contact_intercept, contact_slope) with lines ls 31 \
-   title sprintf('contact^{%.2f}', contact_slope), \
-   runs index contacts using 7:(reached(10)) with points ls 32 title 'transform pairs'
-set key left top
-set xlabel 'points along a side' offset 0, 0.3
+   title sprintf('{/:Italic A}^{%.2f}, to 10 %%', contact_slope), \
+   runs index contacts using 7:(reached(10)) axes x1y2 with points ls 32 title 'transforms (right axis)'
+set ytics mirror
+unset y2label
+unset y2tics
+set yrange [*:*]
+set xlabel 'points {/:Italic N} along a side' offset 0, 0.3
 set ylabel 'processor time [s]' offset 1.2, 0
 set xrange [200:5200]
 set xtics (256, 512, 1024, 2048, 4096)
 set format x '%g'
 plot for [j = 1:3] runs using (of_series(j)):8 with points ls 30 + j \
-   title share[j].sprintf(' %% in contact, N^{%.2f}', slope[j]), \
+   title share[j].sprintf(' %% in contact, {/:Italic N}^{ %.2f}', slope[j]), \
    for [j = 1:3] line(x, start[j], slope[j]) with lines ls 30 + j notitle
 unset multiplot

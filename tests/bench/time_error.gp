@@ -57,7 +57,7 @@ do for [row = 1:3] {
       set format y (panel == 1 ? '10^{%T}' : '')
       set format x (row == 3 ? '10^{%T}' : '')
       set ylabel (panel == 1 ? '{/*0.85 error of '.quantity[row].'}' : '') offset 1.6, 0
-      set xlabel (row == 3 ? '{/*0.85 time / ms}' : '') offset 0, 0.3
+      set xlabel (row == 3 ? '{/*0.85 time [ms]}' : '') offset 0, 0.3
       unset label
       if (row == 1) {
          set label 1 load.' = '.load_text[panel] at graph 0.5, 1.07 center font small
