@@ -5,6 +5,7 @@
 !> App. 1). On a surface with free edges the displacement is that of (E15). There the inverse is not exact: it is that
 !> of the periodic mirror images, which is good enough for a preconditioner.
 module wavycon_compliance_operator
+   use wavycon_constants, only: pi
    use wavycon_free_kernel, only: free_kernel, transform_of_kernel
    use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
    use wavycon_grid_convolution_sp, only: convolution_sp => grid_convolution
@@ -31,6 +32,7 @@ module wavycon_compliance_operator
       type(convolution_sp), private :: with_images   !! inverse with mirror images, for free edges only
    contains
       procedure :: start
+      procedure :: frequency_of_step
       !> S: replaces a pressure [p*] by its displacement [Delta], u - ubar on a periodic surface, u with free edges.
       generic :: displacement => displacement_dp, displacement_sp
       procedure :: pressure
@@ -74,6 +76,13 @@ contains
          call self%in_single%start(self%points, self%even, self%kernel, per_wave)
       end if
    end subroutine start
+
+   !> Frequency of the wave whose wave number is one over the shorter step, in the unit of `kernel`.
+   pure real(dp) function frequency_of_step(self) result(frequency)
+      class(compliance_operator), intent(in) :: self
+
+      frequency = maxval(self%stiffness_per_step)/(2*pi)
+   end function frequency_of_step
 
    !> S in double precision.
    subroutine displacement_dp(self, field, nonzero, wanted)
