@@ -57,7 +57,7 @@ contains
       if (slab%points(2) == 1) per_step(2) = per_step(1)
       self%exists = maxval(per_step) <= largest_step_ratio*minval(per_step) .and. &
                     all(slab%points >= 2*stencil_reach .or. (slab%points == 1 .and. [.false., .true.])) .and. &
-                    half_space%kernel%order(half_space%frequency_of_step()) <= 0.0_dp
+                    half_space%kernel%order(half_space%frequency_of_step) <= 0.0_dp
       if (.not. self%exists) return
       associate (m => slab%points(1), n => slab%columns(), r => stencil_reach)
          allocate (self%field(1 - r:m + r, 1 - r:n + r), source=0.0_sp)

@@ -26,11 +26,10 @@ module wavycon_multilevel_preconditioner
       logical, private :: even = .false.       !! whether the grid continues by mirror images, otherwise periodically
       !> c of (C4c) without (C4e), the factor for each doubling of the distance from the contact.
       real(sp), private :: decay = 1.0_sp
-      real(sp), private :: reach = 1.0_sp      !! min(1, max(0, -n_j)) of (C4e), a factor of c
-      !> Whether a finer grid balances, and so this one too: its field is then q_j of (C4f) and becomes s_j.
-      logical, private :: is_balance = .false.
-      logical, private :: balances = .false.   !! whether the field on the next grid is q and becomes s
-      !> Of (C4f), in balances: -b_j, and the weights of q and of I s, each a + b w_j for the numbers (a, b).
+      real(sp), private :: reach = 1.0_sp      !! factor (C4e) of c
+      real(sp), private :: factor = 1.0_sp     !! of the values that the next grid fills in: c, or 1 of (C4f)
+      logical, private :: is_balance = .false.   !! whether the field is q_j of (C4f), which becomes s_j
+      !> Of (C4f): -b_j, and the weights of q and of I s, each a + b w_j for the numbers (a, b).
       real(sp), private :: own = 1.0_sp, taken(2) = [1.0_sp, 0.0_sp], filled(2) = [1.0_sp, -1.0_sp]
       type(grid_slab), private :: slab         !! columns of this grid that this process has
       !> w_j of (C4b): the part of a point's area that is in contact, on the finest grid 1 or 0, shape (M,
@@ -79,8 +78,7 @@ contains
       grid%even = even
       grid%slab = slab
       order = real(kernel%order(frequency), sp)
-      grid%reach = min(1.0_sp, max(0.0_sp, -order))
-      grid%balances = grid%is_balance .or. order > 0.0_sp
+      grid%reach = min(1.0_sp, max(0.0_sp, -order))/max(1.0_sp, -order)
       if (grid%is_balance) then
          grid%own = -min(1.0_sp, max(0.0_sp, 0.5_sp*order))
          grid%taken = [1.0_sp + grid%own, -grid%own]
@@ -90,7 +88,7 @@ contains
       if (.not. all((mod(slab%points, 2) == 0 .and. slab%points >= 2*least_points) .or. slab%points == 1)) return
       grid%averaged = slab%coarser()
       allocate (grid%coarser)
-      grid%coarser%is_balance = grid%balances
+      grid%coarser%is_balance = grid%is_balance .or. order > 0.0_sp
       call start_on(distributed_or_whole(grid%averaged), even, kernel, 0.5_dp*frequency, grid%coarser)
       allocate (grid%values(grid%averaged%points(1), 0:grid%coarser%slab%columns() + 1))
    end subroutine start_on
@@ -115,6 +113,8 @@ contains
          call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
          self%decay = self%coarser%decay
+         self%factor = self%decay*self%reach
+         if (self%coarser%is_balance) self%factor = 1.0_sp
       else
          total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
          self%decay = real(min(1.0_dp, decay_alone &
@@ -123,8 +123,8 @@ contains
    end subroutine average_contact
 
    !> Applies J: continues a field to the points outside the contact (C4b), (C4c). The field is averaged over the grids,
-   !> from fine to coarse, divided by the contact on the last grid, and filled in from coarse to fine. On grids that
-   !> balance both are by (C4f).
+   !> from fine to coarse, divided by the contact on the last grid, and filled in from coarse to fine. From the first
+   !> grid on whose compliance rises both are by (C4f).
    recursive subroutine extend(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
       !> On entry r, zero outside the contact; on return J r; shape (M, slab%columns()). In the recursion this is r_j,
@@ -133,7 +133,7 @@ contains
 
       if (allocated(self%coarser)) then
          associate (coarse => self%values(:, 1:self%coarser%slab%columns()))
-            if (self%balances) then
+            if (self%coarser%is_balance) then
                call adjoint_fill(self, self%taken, 0.25_sp, field)
             else
                call average(field, self%averaged, self%coarser%slab, coarse)
@@ -142,7 +142,7 @@ contains
          end associate
       end if
       call keep_own(self, field)
-      if (allocated(self%coarser)) call fill(self, self%filled, factor_of(self), field)
+      if (allocated(self%coarser)) call fill(self, self%filled, self%factor, field)
    end subroutine extend
 
    !> Applies J', the adjoint of `extend`: adds the values outside the contact to those in contact, with the weights of
@@ -153,18 +153,19 @@ contains
       real(sp), intent(inout), contiguous :: field(:, :)
 
       if (allocated(self%coarser)) then
-         call adjoint_fill(self, self%filled, factor_of(self), field)
+         call adjoint_fill(self, self%filled, self%factor, field)
          call self%coarser%collect(self%values(:, 1:self%coarser%slab%columns()))
       end if
       call keep_own(self, field)
-      if (self%balances .and. allocated(self%coarser)) then
+      if (.not. allocated(self%coarser)) return
+      if (self%coarser%is_balance) then
          call fill(self, self%taken, 0.25_sp, field)
-      else if (allocated(self%coarser)) then
+      else
          call adjoint_average(self, field)
       end if
    end subroutine collect
 
-   !> What a grid itself adds to J and J': the field, on the last grid over the contact, and in balances times -b_j.
+   !> What a grid itself adds to J and J': the field, on the last grid over the contact, in balances times -b_j.
    subroutine keep_own(grid, field)
       class(multilevel_preconditioner), intent(in) :: grid
       real(sp), intent(inout), contiguous :: field(:, :)
@@ -175,14 +176,6 @@ contains
          call normalise(grid%contact, field)
       end if
    end subroutine keep_own
-
-   !> The factor of the values that the next grid fills in: c of (C4c), or 1 of (C4f).
-   pure real(sp) function factor_of(grid) result(factor)
-      class(multilevel_preconditioner), intent(in) :: grid
-
-      factor = grid%decay*grid%reach
-      if (grid%balances) factor = 1.0_sp
-   end function factor_of
 
    !> Divides each value by the part of the point's area that is in contact. Points without contact get zero.
    pure subroutine normalise(contact, values)
@@ -245,11 +238,11 @@ contains
       end do
    end subroutine adjoint_average
 
-   !> Adds the second term of (C4c) to a field: the values of the coarser grid times the decay, interpolated linearly by
-   !> I and weighted with the open part of each point, 1 - w_j.
+   !> Adds the second term of (C4c) to a field: the values of the coarser grid times a factor, interpolated linearly by
+   !> I and weighted, by (C4c) with the open part of each point, 1 - w_j.
    subroutine fill(grid, weight, factor, fine)
       class(multilevel_preconditioner), intent(inout) :: grid
-      real(sp), intent(in) :: weight(2), factor           !! a and b of the weight a + b w_j; of the values, the decay
+      real(sp), intent(in) :: weight(2), factor           !! a and b of the weight a + b w_j; factor of the values
       real(sp), intent(inout), contiguous :: fine(:, :)   !! shape (M, slab%columns())
 
       real(sp) :: line(0:size(grid%values, 1) + 1)

@@ -26,13 +26,14 @@ module wavycon_compliance_operator
       type(wave_stiffness) :: kernel               !! kernel of the surface, unit of length surface%stiffness
       !> Stiffness of a harmonic of the half-space whose wavelength is one step along x or along y [p*/Delta].
       real(dp) :: stiffness_per_step(2) = 0.0_dp
+      !> Frequency of the wave whose wave number is one over the shorter step, in the unit of `kernel`.
+      real(dp) :: frequency_of_step = 0.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
       type(convolution_dp), private :: in_double     !! S in double precision
       type(convolution_sp), private :: in_single     !! S, on periodic surfaces also its inverse, in single precision
       type(convolution_sp), private :: with_images   !! inverse with mirror images, for free edges only
    contains
       procedure :: start
-      procedure :: frequency_of_step
       !> S: replaces a pressure [p*] by its displacement [Delta], u - ubar on a periodic surface, u with free edges.
       generic :: displacement => displacement_dp, displacement_sp
       procedure :: pressure
@@ -61,6 +62,7 @@ contains
       step = surface%length/(merge(2, 1, self%even)*points)
       if (points(2) == 1) step(2) = surface%length(2)
       self%stiffness_per_step = surface%stiffness/step
+      self%frequency_of_step = maxval(self%stiffness_per_step)/(2*pi)
       ! Frequencies are multiplied by the stiffness sigma: then they are p*/Delta, of the order of one in any unit of
       ! length.
       per_wave = surface%stiffness/(merge(2, 1, self%even .and. self%points > 1)*self%points*step)
@@ -76,13 +78,6 @@ contains
          call self%in_single%start(self%points, self%even, self%kernel, per_wave)
       end if
    end subroutine start
-
-   !> Frequency of the wave whose wave number is one over the shorter step, in the unit of `kernel`.
-   pure real(dp) function frequency_of_step(self) result(frequency)
-      class(compliance_operator), intent(in) :: self
-
-      frequency = maxval(self%stiffness_per_step)/(2*pi)
-   end function frequency_of_step
 
    !> S in double precision.
    subroutine displacement_dp(self, field, nonzero, wanted)
