@@ -52,7 +52,7 @@ CASES = {
                                     ("area", "contact_area_fraction = 0.1", ""),
                                     ("hardness", "pbar_over_pstar = 0.4", "&material hardness = 5 /\n"),
                                     ("film", "pbar_over_pstar = 0.3",
-                                     "&material e1 = 1, nu1 = 0.5, layer_thickness = 0.02 /\n"))},
+                                     "&material e1 = 1, nu1 = 0.5, layer_thickness = 5e-4 /\n"))},
     # Height maps: of odd size, mirrored, on other points, with more ranks than columns, made.
     "odd": Case(f"{SURFACE}'file', file = 'odd.npy', length_x = 3, length_y = 2.6 /\n"
                 f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES}, height = t /\n", GRIDS, ALL_RANKS, LAST_DIGIT),
