@@ -50,7 +50,9 @@ CASES = {
                   f"&method solver = 'grid', grid_points = 768 /\n{material}", GRIDS)
        for name, load, material in (("gap", "mean_gap_over_amplitude = 0.1", ""),
                                     ("area", "contact_area_fraction = 0.1", ""),
-                                    ("hardness", "pbar_over_pstar = 0.4", "&material hardness = 5 /\n"))},
+                                    ("hardness", "pbar_over_pstar = 0.4", "&material hardness = 5 /\n"),
+                                    ("film", "pbar_over_pstar = 0.3",
+                                     "&material e1 = 1, nu1 = 0.5, layer_thickness = 5e-4 /\n"))},
     # Height maps: of odd size, mirrored, on other points, with more ranks than columns, made.
     "odd": Case(f"{SURFACE}'file', file = 'odd.npy', length_x = 3, length_y = 2.6 /\n"
                 f"&load pbar_over_pstar = 0.05, 0.4 /\n&output {TABLES}, height = t /\n", GRIDS, ALL_RANKS, LAST_DIGIT),

@@ -23,7 +23,8 @@ module wavycon_local_stiffness
    real(dp), parameter :: largest_step_ratio = 1.5_dp
 
    type :: local_stiffness
-      !> Whether the grid allows a stencil: the steps are nearly equal, and the grid is larger than the stencil.
+      !> Whether there is a stencil: the steps are nearly equal, the grid is larger than the stencil, and the compliance
+      !> does not rise with the wave number.
       logical :: exists = .false.
       !> Displacements to which the stencil is applied, zero outside the region: the columns of this process and
       !> `stencil_reach` rows and columns on each side, shape (1-r:M+r, 1-r:slab%columns()+r).
@@ -39,7 +40,7 @@ module wavycon_local_stiffness
 
 contains
 
-   !> Computes the weights, if the grid allows a stencil: S^-1 is applied to a displacement of one at a single point.
+   !> Computes the weights, if there is a stencil: S^-1 is applied to a displacement of one at a single point.
    subroutine start(self, half_space, slab)
       class(local_stiffness), intent(out) :: self
       type(compliance_operator), intent(in) :: half_space   !! S, started on the grid
@@ -55,7 +56,8 @@ contains
       per_step = half_space%stiffness_per_step
       if (slab%points(2) == 1) per_step(2) = per_step(1)
       self%exists = maxval(per_step) <= largest_step_ratio*minval(per_step) .and. &
-                    all(slab%points >= 2*stencil_reach .or. (slab%points == 1 .and. [.false., .true.]))
+                    all(slab%points >= 2*stencil_reach .or. (slab%points == 1 .and. [.false., .true.])) .and. &
+                    half_space%kernel%order(half_space%frequency_of_step) <= 0.0_dp
       if (.not. self%exists) return
       associate (m => slab%points(1), n => slab%columns(), r => stencil_reach)
          allocate (self%field(1 - r:m + r, 1 - r:n + r), source=0.0_sp)

@@ -1,5 +1,5 @@
 !> The multilevel preconditioner: the continuation J of a field from the contact to the points outside, and its adjoint
-!> J', equations (C4a) to (C4c) of README.md in this directory. `precondition` of pressure_correction applies J' T J.
+!> J', equations (C4a) to (C4f) of README.md in this directory. `precondition` of pressure_correction applies J' T J.
 !>
 !> The continuation uses a sequence of grids, each with half the points of the one before in each direction. A point of
 !> a coarser grid has the mean of two by two points of the finer one. The sequence ends where a number of points is odd
@@ -12,6 +12,7 @@ module wavycon_multilevel_preconditioner
    use wavycon_grid_slab, only: grid_slab, least_distributed_points
    use wavycon_kinds, only: dp, sp
    use wavycon_threads, only: threads_for
+   use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private
 
@@ -23,8 +24,13 @@ module wavycon_multilevel_preconditioner
    !> One grid of the sequence, with all coarser ones in its component `coarser`.
    type :: multilevel_preconditioner
       logical, private :: even = .false.       !! whether the grid continues by mirror images, otherwise periodically
-      real(sp), private :: decay = 1.0_sp      !! c of (C4c), factor for each doubling of the distance from the contact
-      real(dp), private :: reach = 0.0_dp      !! as of `start`, in steps of this grid
+      !> c of (C4c) without (C4e), the factor for each doubling of the distance from the contact.
+      real(sp), private :: decay = 1.0_sp
+      real(sp), private :: reach = 1.0_sp      !! factor (C4e) of c
+      real(sp), private :: factor = 1.0_sp     !! of the values that the next grid fills in: c, or 1 of (C4f)
+      logical, private :: is_balance = .false.   !! whether the field is q_j of (C4f), which becomes s_j
+      !> Of (C4f): -b_j, and the weights of q and of I s, each a + b w_j for the numbers (a, b).
+      real(sp), private :: own = 1.0_sp, taken(2) = [1.0_sp, 0.0_sp], filled(2) = [1.0_sp, -1.0_sp]
       type(grid_slab), private :: slab         !! columns of this grid that this process has
       !> w_j of (C4b): the part of a point's area that is in contact, on the finest grid 1 or 0, shape (M,
       !> slab%columns()). `start` allocates this array; the caller sets it on the finest grid.
@@ -45,34 +51,45 @@ module wavycon_multilevel_preconditioner
 contains
 
    !> Allocates a grid and all coarser ones, without any point in contact.
-   subroutine start(self, points, even, reach)
+   subroutine start(self, points, even, kernel, frequency)
       class(multilevel_preconditioner), intent(out) :: self
       integer, intent(in) :: points(2)   !! M, N of the grid; N = 1 in 1-D
       logical, intent(in) :: even        !! whether the points are those of a quarter of an even field's cell
-      !> Steps beyond which no displacement reaches, the thickness of a layer; 0 or absent: there is no limit.
-      real(dp), intent(in), optional :: reach
+      type(wave_stiffness), intent(in) :: kernel   !! of the bodies
+      !> Of the wave whose wave number is one over a step, > 0: one over 2 pi steps, in the kernel's unit.
+      real(dp), intent(in) :: frequency
 
       type(grid_slab) :: slab
 
       call slab%start(points)
-      if (present(reach)) self%reach = reach
-      call start_on(slab, even, self)
+      call start_on(slab, even, kernel, frequency, self)
    end subroutine start
 
    !> Allocates a grid on a slab and, if it can be halved, all coarser ones.
-   recursive subroutine start_on(slab, even, grid)
+   recursive subroutine start_on(slab, even, kernel, frequency, grid)
       type(grid_slab), intent(in) :: slab
       logical, intent(in) :: even
+      type(wave_stiffness), intent(in) :: kernel
+      real(dp), intent(in) :: frequency   !! as in `start`, with a step of this grid
       class(multilevel_preconditioner), intent(inout) :: grid
+
+      real(sp) :: order   ! n_j
 
       grid%even = even
       grid%slab = slab
+      order = real(kernel%order(frequency), sp)
+      grid%reach = min(1.0_sp, max(0.0_sp, -order))/max(1.0_sp, -order)
+      if (grid%is_balance) then
+         grid%own = -min(1.0_sp, max(0.0_sp, 0.5_sp*order))
+         grid%taken = [1.0_sp + grid%own, -grid%own]
+         grid%filled = [1.0_sp, 0.0_sp]
+      end if
       allocate (grid%contact(slab%points(1), slab%columns()), source=0.0_sp)
       if (.not. all((mod(slab%points, 2) == 0 .and. slab%points >= 2*least_points) .or. slab%points == 1)) return
       grid%averaged = slab%coarser()
       allocate (grid%coarser)
-      grid%coarser%reach = 0.5_dp*grid%reach
-      call start_on(distributed_or_whole(grid%averaged), even, grid%coarser)
+      grid%coarser%is_balance = grid%is_balance .or. order > 0.0_sp
+      call start_on(distributed_or_whole(grid%averaged), even, kernel, 0.5_dp*frequency, grid%coarser)
       allocate (grid%values(grid%averaged%points(1), 0:grid%coarser%slab%columns() + 1))
    end subroutine start_on
 
@@ -96,18 +113,18 @@ contains
          call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
          self%decay = self%coarser%decay
-         if (self%reach > 0.0_dp) self%decay = self%decay* &
-            real(min(1.0_dp, self%reach)/min(1.0_dp, self%coarser%reach), sp)
+         self%factor = self%decay*self%reach
+         if (self%coarser%is_balance) self%factor = 1.0_sp
       else
          total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
          self%decay = real(min(1.0_dp, decay_alone &
                                        + decay_growth*sqrt(total(1)/product(real(self%slab%points, dp)))), sp)
-         if (self%reach > 0.0_dp) self%decay = self%decay*real(min(1.0_dp, self%reach), sp)
       end if
    end subroutine average_contact
 
    !> Applies J: continues a field to the points outside the contact (C4b), (C4c). The field is averaged over the grids,
-   !> from fine to coarse, divided by the contact on the last grid, and filled in from coarse to fine.
+   !> from fine to coarse, divided by the contact on the last grid, and filled in from coarse to fine. From the first
+   !> grid on whose compliance rises both are by (C4f).
    recursive subroutine extend(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
       !> On entry r, zero outside the contact; on return J r; shape (M, slab%columns()). In the recursion this is r_j,
@@ -116,13 +133,16 @@ contains
 
       if (allocated(self%coarser)) then
          associate (coarse => self%values(:, 1:self%coarser%slab%columns()))
-            call average(field, self%averaged, self%coarser%slab, coarse)
+            if (self%coarser%is_balance) then
+               call adjoint_fill(self, self%taken, 0.25_sp, field)
+            else
+               call average(field, self%averaged, self%coarser%slab, coarse)
+            end if
             call self%coarser%extend(coarse)
          end associate
-         call fill(self, field)
-      else
-         call normalise(self%contact, field)
       end if
+      call keep_own(self, field)
+      if (allocated(self%coarser)) call fill(self, self%filled, self%factor, field)
    end subroutine extend
 
    !> Applies J', the adjoint of `extend`: adds the values outside the contact to those in contact, with the weights of
@@ -133,13 +153,29 @@ contains
       real(sp), intent(inout), contiguous :: field(:, :)
 
       if (allocated(self%coarser)) then
-         call adjoint_fill(self, field)
+         call adjoint_fill(self, self%filled, self%factor, field)
          call self%coarser%collect(self%values(:, 1:self%coarser%slab%columns()))
-         call adjoint_average(self, field)
+      end if
+      call keep_own(self, field)
+      if (.not. allocated(self%coarser)) return
+      if (self%coarser%is_balance) then
+         call fill(self, self%taken, 0.25_sp, field)
       else
-         call normalise(self%contact, field)
+         call adjoint_average(self, field)
       end if
    end subroutine collect
+
+   !> What a grid itself adds to J and J': the field, on the last grid over the contact, in balances times -b_j.
+   subroutine keep_own(grid, field)
+      class(multilevel_preconditioner), intent(in) :: grid
+      real(sp), intent(inout), contiguous :: field(:, :)
+
+      if (grid%is_balance) then
+         field = grid%own*field
+      else if (.not. allocated(grid%coarser)) then
+         call normalise(grid%contact, field)
+      end if
+   end subroutine keep_own
 
    !> Divides each value by the part of the point's area that is in contact. Points without contact get zero.
    pure subroutine normalise(contact, values)
@@ -202,10 +238,11 @@ contains
       end do
    end subroutine adjoint_average
 
-   !> Adds the second term of (C4c) to a field: the values of the coarser grid times the decay, interpolated linearly by
-   !> I and weighted with the open part of each point, 1 - w_j.
-   subroutine fill(grid, fine)
+   !> Adds the second term of (C4c) to a field: the values of the coarser grid times a factor, interpolated linearly by
+   !> I and weighted, by (C4c) with the open part of each point, 1 - w_j.
+   subroutine fill(grid, weight, factor, fine)
       class(multilevel_preconditioner), intent(inout) :: grid
+      real(sp), intent(in) :: weight(2), factor           !! a and b of the weight a + b w_j; factor of the values
       real(sp), intent(inout), contiguous :: fine(:, :)   !! shape (M, slab%columns())
 
       real(sp) :: line(0:size(grid%values, 1) + 1)
@@ -219,29 +256,32 @@ contains
       !$omp parallel do num_threads(threads_for(size(fine))) private(i, line)
       do j = 1, size(fine, 2)
          associate (values => grid%values, near => before + (j + 1)/2, other => before + (j + 1)/2 + 1 - 2*mod(j, 2))
-            line(1:m) = grid%decay*(0.75_sp*values(:, near) + 0.25_sp*values(:, other))
+            line(1:m) = factor*(0.75_sp*values(:, near) + 0.25_sp*values(:, other))
          end associate
          line(0) = line(image_of_point(0, m, grid%even))
          line(m + 1) = line(image_of_point(m + 1, m, grid%even))
          associate (contact => grid%contact(:, j))
             do i = 1, m
-               fine(2*i - 1, j) = fine(2*i - 1, j) + (1.0_sp - contact(2*i - 1))*(0.75_sp*line(i) + 0.25_sp*line(i - 1))
-               fine(2*i, j) = fine(2*i, j) + (1.0_sp - contact(2*i))*(0.75_sp*line(i) + 0.25_sp*line(i + 1))
+               fine(2*i - 1, j) = fine(2*i - 1, j) + (weight(1) + weight(2)*contact(2*i - 1)) &
+                                                     *(0.75_sp*line(i) + 0.25_sp*line(i - 1))
+               fine(2*i, j) = fine(2*i, j) + (weight(1) + weight(2)*contact(2*i)) &
+                                             *(0.75_sp*line(i) + 0.25_sp*line(i + 1))
             end do
          end associate
       end do
    end subroutine fill
 
    !> Sets the values on the coarser grid to the adjoint of the term that `fill` adds, applied to a field.
-   subroutine adjoint_fill(grid, fine)
+   subroutine adjoint_fill(grid, weight, factor, fine)
       class(multilevel_preconditioner), intent(inout) :: grid
+      real(sp), intent(in) :: weight(2), factor       !! as in `fill`
       real(sp), intent(in), contiguous :: fine(:, :)   !! shape (M, slab%columns())
 
       !> The neighbouring columns of `contact` and `fine`: after and before those of this process.
       real(sp), dimension(size(fine, 1), 1) :: contact_high, contact_low, high, low
       real(sp) :: line(0:size(fine, 1) + 1)
-      !> Weights of the four fine columns that a coarse column interpolates.
-      real(sp), parameter :: weights(4) = [0.25_sp, 0.75_sp, 0.75_sp, 0.25_sp]
+      !> Parts of a coarse column in the four fine columns that it is interpolated to.
+      real(sp), parameter :: parts(4) = [0.25_sp, 0.75_sp, 0.75_sp, 0.25_sp]
       integer :: before, i, j, k, m
 
       m = size(fine, 1)
@@ -252,20 +292,20 @@ contains
       do j = 1, grid%averaged%columns()
          line = 0.0_sp
          do k = 2*j - 2, 2*j + 1
-            associate (weight => weights(k - 2*j + 3))
+            associate (part => parts(k - 2*j + 3))
                if (k < 1) then
-                  line(1:m) = line(1:m) + weight*(1.0_sp - contact_low(:, 1))*low(:, 1)
+                  line(1:m) = line(1:m) + part*(weight(1) + weight(2)*contact_low(:, 1))*low(:, 1)
                else if (k > size(fine, 2)) then
-                  line(1:m) = line(1:m) + weight*(1.0_sp - contact_high(:, 1))*high(:, 1)
+                  line(1:m) = line(1:m) + part*(weight(1) + weight(2)*contact_high(:, 1))*high(:, 1)
                else
-                  line(1:m) = line(1:m) + weight*(1.0_sp - grid%contact(:, k))*fine(:, k)
+                  line(1:m) = line(1:m) + part*(weight(1) + weight(2)*grid%contact(:, k))*fine(:, k)
                end if
             end associate
          end do
          line(0) = line(image_of_point(0, m, grid%even))
          line(m + 1) = line(image_of_point(m + 1, m, grid%even))
          do i = 1, m/2
-            grid%values(i, before + j) = grid%decay*(0.75_sp*(line(2*i - 1) + line(2*i)) &
+            grid%values(i, before + j) = factor*(0.75_sp*(line(2*i - 1) + line(2*i)) &
                                                      + 0.25_sp*(line(2*i - 2) + line(2*i + 1)))
          end do
       end do

@@ -8,8 +8,8 @@ module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: longest_chunk
-   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, reach_of_layer, &
-      stencil_fraction, whole_step
+   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, stencil_fraction, &
+      whole_step
    use wavycon_correction_state, only: correction_state
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -107,8 +107,8 @@ contains
       end if
       field = 0.0_sp
       call state%put_residual(field)
-      if (.not. allocated(extension%contact)) call extension%start(state%slab%points, half_space%even, &
-         reach=reach_of_layer*half_space%kernel%layer%thickness*maxval(half_space%stiffness_per_step))
+      if (.not. allocated(extension%contact)) &
+         call extension%start(state%slab%points, half_space%even, half_space%kernel, half_space%frequency_of_step)
       if (state%contact_is_new) then
          !$omp parallel do num_threads(state%region%threads)
          do c = 1, state%region%chunks

@@ -57,11 +57,6 @@ module wavycon_contact_tuning
    !> of a point load; in a gap that contact surrounds it should be 1.
    real(dp), parameter, public :: decay_alone = 0.65_dp
    real(dp), parameter, public :: decay_growth = 1.2_dp
-   !> On a layer it falls faster, in proportion to the distance, beyond this part of the thickness. On a rough map of
-   !> 256 x 256 points, t/L = .1, .01 and .001, nu = .3: 25, 18, 19 iterations; with .5 28, 18, 19, with 1 50, 21, 19,
-   !> without a limit 60, 97, 90. On half-spaces ten times softer than the layer it takes up to twice as many as
-   !> without, on a thousand times softer ones it converges where it did not.
-   real(dp), parameter, public :: reach_of_layer = 0.25_dp
    !> The preconditioner is applied again if (C4d) excludes more than this part of the points in contact. With a larger
    !> part the number of iterations grows by up to a half where many points enter at once. With a smaller part the
    !> second application costs more than the few points are worth. On 2048 x 2048 points with 4 or 16 points to the

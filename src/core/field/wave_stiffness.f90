@@ -18,6 +18,7 @@ module wavycon_wave_stiffness
       procedure, private :: of_dp, of_sp
       procedure :: has_layer
       procedure :: in_unit
+      procedure :: order
    end type wave_stiffness
 
 contains
@@ -37,6 +38,18 @@ contains
       kernel%layer = self%layer
       kernel%layer%thickness = kernel%layer%thickness/unit
    end function in_unit
+
+   !> The power of the wave number with which the compliance goes about a wave, (E33): exactly -1 on half-spaces.
+   pure real(dp) function order(self, frequency)
+      class(wave_stiffness), intent(in) :: self
+      real(dp), intent(in) :: frequency   !! of the wave, > 0
+
+      real(dp) :: waves(2)
+
+      waves = frequency**2*[0.5_dp, 2.0_dp]
+      call self%of(waves)
+      order = log(waves(1)/waves(2))/log(2.0_dp)
+   end function order
 
    !> The half-space, (E9) of the page of src/core/half_space, over the factor of the layer, (E27).
    pure subroutine of_dp(self, waves)

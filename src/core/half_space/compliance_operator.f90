@@ -5,6 +5,7 @@
 !> App. 1). On a surface with free edges the displacement is that of (E15). There the inverse is not exact: it is that
 !> of the periodic mirror images, which is good enough for a preconditioner.
 module wavycon_compliance_operator
+   use wavycon_constants, only: pi
    use wavycon_free_kernel, only: free_kernel, transform_of_kernel
    use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
    use wavycon_grid_convolution_sp, only: convolution_sp => grid_convolution
@@ -25,6 +26,8 @@ module wavycon_compliance_operator
       type(wave_stiffness) :: kernel               !! kernel of the surface, unit of length surface%stiffness
       !> Stiffness of a harmonic of the half-space whose wavelength is one step along x or along y [p*/Delta].
       real(dp) :: stiffness_per_step(2) = 0.0_dp
+      !> Frequency of the wave whose wave number is one over the shorter step, in the unit of `kernel`.
+      real(dp) :: frequency_of_step = 0.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
       type(convolution_dp), private :: in_double     !! S in double precision
       type(convolution_sp), private :: in_single     !! S, on periodic surfaces also its inverse, in single precision
@@ -59,6 +62,7 @@ contains
       step = surface%length/(merge(2, 1, self%even)*points)
       if (points(2) == 1) step(2) = surface%length(2)
       self%stiffness_per_step = surface%stiffness/step
+      self%frequency_of_step = maxval(self%stiffness_per_step)/(2*pi)
       ! Frequencies are multiplied by the stiffness sigma: then they are p*/Delta, of the order of one in any unit of
       ! length.
       per_wave = surface%stiffness/(merge(2, 1, self%even .and. self%points > 1)*self%points*step)

@@ -50,8 +50,8 @@ contains
 
    !> The fraction of the nominal area in contact by the linear law of rough surfaces at light loads, A/A0 = kappa
    !> pbar/(E* h'). It serves for comparison with computed areas. The law is evaluated at all loads, so the result
-   !> exceeds 1 at heavy ones. As the law is that of random surfaces, the result is `unknown` if the surface is not a
-   !> height map in 2-D, is flat, or has free edges.
+   !> exceeds 1 at heavy ones. As the law is that of random surfaces on half-spaces, the result is `unknown` if the
+   !> surface is not a height map in 2-D, is flat, has free edges, or lies on a layer.
    pure real(dp) function linear_area_fraction(surface, rms_slope, pbar_over_pstar) result(fraction)
       type(surface_type), intent(in) :: surface
       !> Root mean square slope h' of the surface. It is an argument because its computation takes a sum over all waves.
@@ -60,7 +60,7 @@ contains
 
       fraction = unknown
       if (surface%dimension == 1 .or. .not. surface%is_height_map() .or. .not. surface%amplitude > 0.0_dp) return
-      if (surface%has_free_edges) return
+      if (surface%has_free_edges .or. surface%kernel%has_layer()) return
       fraction = area_coefficient*pbar_over_pstar*surface%full_contact_pressure(e_star=1.0_dp)/rms_slope
    end function linear_area_fraction
 
