@@ -1,7 +1,7 @@
 !> Derivatives of mean gap and area with respect to the load, for a solution on a grid. They are differences of
 !> solutions on the same grid at loads near by: (C29) to (C29c) of README.md in this directory.
 module wavycon_grid_derivatives
-   use wavycon_contact_tuning, only: area_kept_change, change_safety, load_difference
+   use wavycon_contact_tuning, only: area_kept_change, change_safety, kept_scatter, load_difference
    use wavycon_grid_error, only: change_history
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
@@ -53,8 +53,8 @@ contains
       if (.not. solved) return
       if (with_changes) call add_changes(y)
       call differentiate(record%pbar_over_pstar, bound, y, load_difference, values, errors, too_far)
-      ! If all solutions have the same points in contact the gap is linear in the load, and the differences show nothing
-      ! of the growth of the contact: A' and G'' are unknown.
+      ! If all solutions on the last grid have the same points in contact the gap is linear in the load, and the
+      ! differences show nothing of the growth of the contact: A' and G'' are unknown.
       if (all(abs(counted - counted(0)) <= 0.0_dp)) values(2:) = unknown
       if (too_far) then
          y(:, :, [-2, 2]) = y(:, :, [-1, 1])
@@ -187,8 +187,6 @@ contains
       !> distance from the middle load the fourth term is zero, and only the third shows the truncation.
       real(dp), parameter :: least_ratio(2) = [0.1_dp, 0.3_dp]
       real(dp) :: change(0:4), scatter, sums(3, 0:4), third, fourth
-      !> Part of the scatter of the changes before the last ones that is still in the last grid.
-      real(dp), parameter :: kept_scatter = 0.4_dp
 
       sums = matmul(y, weights)
       terms = sums(1, :2)
