@@ -29,7 +29,7 @@ FITTED = {SQUARE: (0.01, 0.05, 0.1, 0.2, 0.228, 0.24, 0.3, 0.5, 0.7, 0.9),
             HEXAGONAL: (0.01, 0.1, 0.3, 0.5, 0.7, 0.72, 0.8, 0.9)}
 POWERS, FINEST = (2, 3, 4, 5, 6, 8, 10), 12   # powers of ten of the accuracies, and of that of the reference
 SWEEP = 99
-PROCESS_RUNS, MAP_SIDE = 20, 1024
+PROCESS_RUNS, MAP_RUNS, MAP_SIDE = 20, 10, 1024   # runs of the program and of each phase of a map
 MAP_SIDES, MAP_LOADS = (128, 257, 1025), (0.05, 0.2, 0.3, 0.6, 0.9)
 STRESS_LOADS = 1e-3, 0.1, 0.3, 0.9
 STRESSES = ("&stress nu = 0.3, section = 'x', depth_from = 0, depth_to = 1, depth_steps = 64 / "
@@ -66,9 +66,9 @@ def program(build):
     """The program, and what it does before the first load."""
     program, bench = pathlib.Path(build)/"wavycon", pathlib.Path(build)/"tests"/"bench"/"bench_map"
     print(f"# Processes from start to finish, {PROCESS_RUNS} runs of each: medians [ms], least wall time. start_up: the "
-          "program with\n# --version; sweep: inputs/paper_2d_sweep.nml. Of a map of "
-          f"{MAP_SIDE} x {MAP_SIDE} heights the phases one after another, each\n# less the one before: load of a "
-          "process; reading of the file; surface through its points; statistics and roughness.\n"
+          f"program with\n# --version; sweep: inputs/paper_2d_sweep.nml. {MAP_RUNS} runs for the phases of a map of "
+          f"{MAP_SIDE} x {MAP_SIDE} heights, each less\n# the one before: start of a process; reading of the file; "
+          "surface through the points; statistics and roughness.\n"
           "#           phase      wall      user    system     least")
     with tempfile.TemporaryDirectory() as folder:
         def row(name, times):
@@ -87,7 +87,7 @@ def program(build):
         for path in gsf, text:
             last = [0.0]*4
             for phase in "start", "read", "surface", "statistics":
-                times = process_times([bench, path, phase])
+                times = process_times([bench, path, phase], MAP_RUNS)
                 row(path.suffix[1:] + "_" + phase, [now - before for now, before in zip(times, last)])
                 last = times
     print("\n")
