@@ -65,8 +65,8 @@ def process_times(command, runs=PROCESS_RUNS):
 def program(build):
     """The program, and what it does before the first load."""
     program, bench = pathlib.Path(build)/"wavycon", pathlib.Path(build)/"tests"/"bench"/"bench_map"
-    print(f"# Processes from start to finish, {PROCESS_RUNS} runs of each: medians [ms], least wall time. start_up: the "
-          f"program with\n# --version; sweep: inputs/paper_2d_sweep.nml. {MAP_RUNS} runs for the phases of a map of "
+    print(f"# Processes from start to finish, {PROCESS_RUNS} runs of each: medians [ms], least wall time. start_up: "
+          f"the program with\n# --version; sweep: inputs/paper_2d_sweep.nml. {MAP_RUNS} runs for the phases of a map of "
           f"{MAP_SIDE} x {MAP_SIDE} heights, each less\n# the one before: start of a process; reading of the file; "
           "surface through the points; statistics and roughness.\n"
           "#           phase      wall      user    system     least")
@@ -133,8 +133,8 @@ def orders(own, surface, exact, sides):
     """Errors on grids of ever more points, and the slopes of straight lines through their logarithms."""
     loads = [i/10 for i in range(1, 10)]
     truth = {load: own.values(own.solved(surface, exact, load)[0])[0] for load in loads}
-    print(f"\n\n# Grids: absolute errors of {name_of(surface)}, gap in Delta and peak in p*, root mean squares over nine "
-          "loads\n# P = 0.1 .. 0.9\n"
+    print(f"\n\n# Grids: absolute errors of {name_of(surface)}, gap in Delta and peak in p*, root mean squares over "
+          "nine\n# loads P = 0.1 .. 0.9\n"
           "# points a side   mean_gap       area       peak")
     rows = []
     for side in sides:

@@ -27,28 +27,26 @@ contains
       type(change_history), intent(in) :: history    !! main values of this solution on the last three grids
       type(quantities), intent(out) :: answer        !! gap_slope, area_slope and gap_curvature with their errors
 
-      integer :: grid(2), grid_before(2), i, maps_in_cell(2)
+      !> Points on the whole cell of the last grid for the load in the middle, those beside it, and the outer loads.
+      integer :: grid_of(2, 0:2)
+      integer :: i, maps_in_cell(2)
       real(dp) :: bound   !! theta of (C29)
       real(dp) :: y(3, 2, -2:2)   !! y of approach and area on the last three grids, the finest first, at the five loads
       real(dp) :: counted(-1:1)   !! number of points in contact over number of points, at the inner three loads
       real(dp), dimension(3) :: errors, moved, near_errors, near_values, values   !! G', A', G''
       logical :: solved, too_far, unused, with_changes
 
-      grid = points
-      if (surface%dimension == 1) grid(2) = 1
-      bound = 1.0_dp
-      if (surface%has_free_edges) bound = 0.0_dp
+      grid_of = spread(points, 2, 3)
+      if (surface%dimension == 1) grid_of(2, :) = 1
       maps_in_cell = 1
       if (surface%shape%is_even()) maps_in_cell(:surface%dimension) = 2
-      grid_before = maps_in_cell*((grid/maps_in_cell + 1)/2)
       with_changes = all(is_known(history%before(:2, :)))
-      if (.not. with_changes) grid_before = grid
+      if (with_changes) grid_of(:, 2) = maps_in_cell*((grid_of(:, 2)/maps_in_cell + 1)/2)
+      bound = 1.0_dp
+      if (surface%has_free_edges) bound = 0.0_dp
       solved = .true.
-      do i = -1, 1
-         if (solved) call solve_near(i, i*load_difference, grid)
-      end do
-      do i = -2, 2, 4
-         if (solved) call solve_near(i, i*load_difference, grid_before)
+      do i = -2, 2
+         if (solved) call solve_near(i, i*load_difference, grid_of(:, abs(i)))
       end do
       if (.not. solved) return
       if (with_changes) call add_changes(y)
@@ -58,8 +56,8 @@ contains
       if (all(abs(counted - counted(0)) <= 0.0_dp)) values(2:) = unknown
       if (too_far) then
          y(:, :, [-2, 2]) = y(:, :, [-1, 1])
-         call solve_near(-1, -0.5_dp*load_difference, grid)
-         if (solved) call solve_near(1, 0.5_dp*load_difference, grid)
+         call solve_near(-1, -0.5_dp*load_difference, grid_of(:, 1))
+         if (solved) call solve_near(1, 0.5_dp*load_difference, grid_of(:, 1))
          if (.not. solved) return
          call differentiate(record%pbar_over_pstar, bound, y, 0.5_dp*load_difference, near_values, near_errors, unused)
          ! Where a derivative grows without bound the two estimates differ by more than the error that either tells.
