@@ -8,8 +8,8 @@ module wavycon_find_yield
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
-   use wavycon_contact_tuning, only: coarse_fraction, largest_stress_error, largest_stress_miss, least_fraction, &
-      longest_rise, most_solves, part_of_stress_error
+   use wavycon_contact_tuning, only: coarse_fraction, fraction_of_error, largest_fraction, largest_stress_error, &
+      largest_stress_miss, least_fraction, longest_rise, most_solves, part_of_stress_error
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: unknown
    use wavycon_solution_record, only: no_solution
@@ -110,7 +110,10 @@ contains
             largest = miss
             at_largest = log_p
          end if
-         tolerance = min(max(part_of_stress_error*error, least_fraction), largest_stress_miss)
+         tolerance = min(max(fraction_of_error*error, least_fraction), largest_fraction)
+         ! A solution on a grid that has coarser ones is expensive.
+         if (traits%coarser_levels > 0) &
+            tolerance = min(max(part_of_stress_error*error, least_fraction), largest_stress_miss)
          if (solver%level > 0) tolerance = max(tolerance, min(error, coarse_fraction))
          if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)
