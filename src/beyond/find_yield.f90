@@ -9,7 +9,7 @@ module wavycon_find_yield
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, fraction_of_error, largest_fraction, largest_stress_error, &
-      least_fraction, longest_rise, most_solves
+      largest_stress_miss, least_fraction, longest_rise, most_solves, part_of_stress_error
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: unknown
    use wavycon_solution_record, only: no_solution
@@ -89,6 +89,9 @@ contains
       low = -huge(low)
       at_hardness = log(solver%surface%hardness)
       high = at_hardness
+      ! On coarser grids no load of full contact is tried: there the stress is that of the finest grid, and its series
+      ! has all waves of the surface.
+      if (solver%level > 0 .and. .not. (solver%surface%has_hardness() .or. solver%surface%has_free_edges)) high = 0.0_dp
       last_log_p = log_p
       last_miss = 0.0_dp
       largest = -huge(largest)
@@ -108,6 +111,9 @@ contains
             at_largest = log_p
          end if
          tolerance = min(max(fraction_of_error*error, least_fraction), largest_fraction)
+         ! A solution on a grid that has coarser ones is expensive.
+         if (traits%coarser_levels > 0) &
+            tolerance = min(max(part_of_stress_error*error, least_fraction), largest_stress_miss)
          if (solver%level > 0) tolerance = max(tolerance, min(error, coarse_fraction))
          if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)

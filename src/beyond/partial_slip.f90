@@ -42,9 +42,7 @@ contains
 
       !> Q = f P up to this relative rounding is full slip, P* = 0.
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
-      type(contact_solution) :: on_curve
       real(dp) :: stick_load   ! P*
-      integer :: i
 
       slip%tangential = tangential
       stick_load = solution%pbar_over_pstar - tangential/friction
@@ -56,18 +54,76 @@ contains
       if (slip%slides .or. .not. solution%has_numbers()) return
       call solver%solve(stick_load, slip%stick)
       if (solution%is_good()) slip%status = slip%stick%status
-      if (.not. with_curve) return
-      allocate (slip%approach_change(curve_points), source=0.0_dp)
-      associate (change => slip%approach_change)
-         do i = 2, curve_points - 1
-            associate (part => real(i - 1, dp)/(curve_points - 1))
-               call solver%solve(solution%pbar_over_pstar - part*tangential/friction, on_curve)
-            end associate
-            change(i) = solution%value(approach) - approach_of(on_curve)
-         end do
-         change(curve_points) = solution%value(approach) - approach_of(slip%stick)
-      end associate
+      if (with_curve) call solve_curve(solver, friction, solution, slip)
    end subroutine solve_partial_slip
+
+   !> Computes the loading curve. The approach at P less the tangential load over f is solved at the middle point, then
+   !> in the middle between the points before, and so on. Where cubic interpolation foretells a point far within its error
+   !> estimate, the points beside it are not solved but interpolated. None is extrapolated. Where solutions have no error or no estimate of it,
+   !> all points are solved.
+   subroutine solve_curve(solver, friction, solution, slip)
+      class(contact_solver), intent(inout) :: solver    !! that of the normal load
+      real(dp), intent(in) :: friction                  !! coefficient of friction f > 0
+      type(contact_solution), intent(in) :: solution    !! solution of the normal load P
+      type(partial_slip), intent(inout) :: slip         !! with the stick contact; gets approach_change
+
+      !> Largest difference of a foretold approach from the solved one, over the latter's error estimate.
+      real(dp), parameter :: part_of_error = 0.1_dp
+      type(contact_solution) :: on_curve
+      real(dp), dimension(curve_points) :: load, x, y   ! P - Q/f of the point, its logarithm, approach [Delta]
+      real(dp) :: foretold
+      logical, dimension(curve_points) :: foreseen, known   ! whether y needs no points beside it; whether it is solved
+      integer :: i, middle, step   ! middle: of the interval before, in which i is; step: between the points to be solved
+
+      load = [(solution%pbar_over_pstar - real(i - 1, dp)/(curve_points - 1)*slip%tangential/friction, i=1, curve_points)]
+      x = log(max(load, tiny(load)))
+      y(1) = solution%value(approach)
+      y(curve_points) = approach_of(slip%stick)
+      known = .false.
+      known(1) = .true.
+      known(curve_points) = slip%stick%pbar_over_pstar > 0.0_dp .and. slip%stick%has_numbers()
+      step = 1
+      if (is_known(solution%error(mean_gap)) .and. solution%error(mean_gap) > 0.0_dp) step = (curve_points - 1)/2
+      foreseen = .false.
+      do while (step > 0)
+         do i = 1 + step, curve_points - 1, step
+            if (known(i) .or. foreseen(i)) cycle
+            middle = i - step
+            if (mod((middle - 1)/step, 4) /= 2) middle = i + step
+            foreseen(i) = foreseen(middle)
+            if (foreseen(i)) cycle
+            foretold = interpolated(pack(x, known), pack(y, known), x(i))
+            call solver%solve(load(i), on_curve)
+            y(i) = approach_of(on_curve)
+            known(i) = on_curve%has_numbers()
+            if (known(i) .and. any(known(i + 1:)) .and. count(known) > 3 .and. is_known(on_curve%error(mean_gap))) &
+               foreseen(i) = abs(foretold - y(i)) < part_of_error*on_curve%error(mean_gap)
+         end do
+         step = step/2
+      end do
+      do i = 2, curve_points - 1
+         if (foreseen(i) .and. .not. known(i)) y(i) = interpolated(pack(x, known), pack(y, known), x(i))
+      end do
+      slip%approach_change = y(1) - y
+   end subroutine solve_curve
+
+   !> The cubic through the four nearest points, two on each side where there are so many.
+   pure real(dp) function interpolated(x, y, place)
+      real(dp), intent(in) :: x(:), y(:)   !! the points, at least one, with falling x
+      real(dp), intent(in) :: place        !! x of the answer, none of x(:)
+
+      real(dp) :: terms(size(x))
+      integer :: first, i, j, last
+
+      first = max(1, min(count(x > place) - 1, size(x) - 3))
+      last = min(first + 3, size(x))
+      terms = 0.0_dp
+      do i = first, last
+         terms(i) = y(i)*product([((place - x(j))/(x(i) - x(j)), j=first, i - 1), &
+                                  ((place - x(j))/(x(i) - x(j)), j=i + 1, last)])
+      end do
+      interpolated = sum(terms)
+   end function interpolated
 
    !> The approach of a solution [Delta]; NaN if it has no numbers.
    pure real(dp) function approach_of(solution)

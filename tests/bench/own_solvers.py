@@ -1,16 +1,21 @@
 #!/usr/bin/env python3
-"""Times and errors of wavycon's own solvers, in blocks for gnuplot. Times are processor times [ms].
+"""Times and errors of wavycon's own solvers, in blocks for gnuplot. Times are processor times, user and system [ms].
 
 usage: own_solvers.py BUILD
 
-The program from start to finish, with the deck of the paper's sweep. 'fitted': a load of the two-dimensional and of
-the hexagonal wave to ever smaller accuracies, and 99 loads, each from the one before. Grids: a load of the 2-D wave to
-three accuracies, and how the errors of the 1-D and the 2-D wave fall with the step. Maps, and stresses, beside the solution that they show: a section of 128 x 64 points, the search for the
-largest stresses, a plane.
+The program from start to finish, its start-up, and reading, surface and statistics of a map, in wall, user and system
+time. 'fitted': a load of the two-dimensional and of the hexagonal wave to ever smaller accuracies, and 99 loads, each
+from the one before. Grids: a load of the 2-D wave to three accuracies, and how the errors of the 1-D and the 2-D wave
+fall with the step. Maps, and stresses, beside the solution that they show: a section of 128 x 64 points, the search for
+the largest stresses, a plane.
 """
+import array
 import ctypes
 import math
 import pathlib
+import random
+import resource
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -24,6 +29,7 @@ FITTED = {SQUARE: (0.01, 0.05, 0.1, 0.2, 0.228, 0.24, 0.3, 0.5, 0.7, 0.9),
             HEXAGONAL: (0.01, 0.1, 0.3, 0.5, 0.7, 0.72, 0.8, 0.9)}
 POWERS, FINEST = (2, 3, 4, 5, 6, 8, 10), 12   # powers of ten of the accuracies, and of that of the reference
 SWEEP = 99
+PROCESS_RUNS, MAP_RUNS, MAP_SIDE = 20, 10, 1024   # runs of the program and of each phase of a map
 MAP_SIDES, MAP_LOADS = (128, 257, 1025), (0.05, 0.2, 0.3, 0.6, 0.9)
 STRESS_LOADS = 1e-3, 0.1, 0.3, 0.9
 STRESSES = ("&stress nu = 0.3, section = 'x', depth_from = 0, depth_to = 1, depth_steps = 64 / "
@@ -44,16 +50,47 @@ def pairs(values, errors, truth):
     return "".join(f"{value/true - 1:11.1e}{error/true:10.1e}" for value, error, true in zip(values, errors, truth))
 
 
-def program(build, runs=20):
-    print(f"# The program from start to finish, {runs} runs of inputs/paper_2d_sweep.nml, wall time: median, least [ms]")
-    times = []
+def process_times(command, runs=PROCESS_RUNS):
+    """Medians of wall, user and system time [ms] of a command, and its least wall time."""
+    rows = []
+    for _ in range(runs):
+        before, used = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        wall, now = time.perf_counter() - before, resource.getrusage(resource.RUSAGE_CHILDREN)
+        rows.append((1000*wall, 1000*(now.ru_utime - used.ru_utime), 1000*(now.ru_stime - used.ru_stime)))
+    columns = list(zip(*rows))
+    return [statistics.median(column) for column in columns] + [min(columns[0])]
+
+
+def program(build):
+    """The program, and what it does before the first load."""
+    program, bench = pathlib.Path(build)/"wavycon", pathlib.Path(build)/"tests"/"bench"/"bench_map"
+    print(f"# Processes from start to finish, {PROCESS_RUNS} runs of each: medians [ms], least wall time. start_up: "
+          f"the program with\n# --version; sweep: inputs/paper_2d_sweep.nml. {MAP_RUNS} runs for the phases of a map of "
+          f"{MAP_SIDE} x {MAP_SIDE} heights, each less\n# the one before: start of a process; reading of the file; "
+          "surface through the points; statistics and roughness.\n"
+          "#           phase      wall      user    system     least")
     with tempfile.TemporaryDirectory() as folder:
-        for _ in range(runs):
-            before = time.perf_counter()
-            subprocess.run([pathlib.Path(build)/"wavycon", ROOT/"inputs"/"paper_2d_sweep.nml", "--quiet", "--output",
-                            folder], check=True)
-            times.append(1000*(time.perf_counter() - before))
-    print(middle_and_least(times) + "\n\n", flush=True)
+        def row(name, times):
+            print(f"{name:>17}" + "".join(f"{value:10.3f}" for value in times), flush=True)
+
+        row("start_up", process_times([program, "--version"]))
+        row("sweep", process_times([program, ROOT/"inputs"/"paper_2d_sweep.nml", "--quiet", "--output", folder]))
+        numbers = random.Random(1)
+        heights = array.array("d", (numbers.gauss(0, 1) for _ in range(MAP_SIDE**2)))
+        gsf, text = pathlib.Path(folder)/"map.gsf", pathlib.Path(folder)/"map.txt"
+        head = f"Gwyddion Simple Field 1.0\nXRes = {MAP_SIDE}\nYRes = {MAP_SIDE}\n".encode()
+        gsf.write_bytes(head + b"\0"*(4 - len(head) % 4) + array.array("f", heights).tobytes())
+        with open(text, "w", encoding="ascii") as out:
+            for i in range(0, MAP_SIDE**2, MAP_SIDE):
+                out.write(" ".join(f"{height:.6e}" for height in heights[i:i + MAP_SIDE]) + "\n")
+        for path in gsf, text:
+            last = [0.0]*4
+            for phase in "start", "read", "surface", "statistics":
+                times = process_times([bench, path, phase], MAP_RUNS)
+                row(path.suffix[1:] + "_" + phase, [now - before for now, before in zip(times, last)])
+                last = times
+    print("\n")
 
 
 def fitted_loads(own):
@@ -96,7 +133,8 @@ def orders(own, surface, exact, sides):
     """Errors on grids of ever more points, and the slopes of straight lines through their logarithms."""
     loads = [i/10 for i in range(1, 10)]
     truth = {load: own.values(own.solved(surface, exact, load)[0])[0] for load in loads}
-    print(f"\n\n# Grids: errors of {name_of(surface)}, root mean squares over nine loads P = 0.1 .. 0.9\n"
+    print(f"\n\n# Grids: absolute errors of {name_of(surface)}, gap in Delta and peak in p*, root mean squares over "
+          "nine\n# loads P = 0.1 .. 0.9\n"
           "# points a side   mean_gap       area       peak")
     rows = []
     for side in sides:

@@ -7,7 +7,8 @@ Surfaces are self-affine with the Hurst exponent 0.8, on a square cell of N x N 
 cell, their shortest has so many points. A load is given by the fraction of the points in contact, to 1 %, or by P, the
 mean pressure over p*, which closes the gap. Each program gets the tolerance with which it is fastest to the residual
 wanted, found by trial. The time is processor time from the heights to the pressures; it is the median of three
-solutions if they do not take long. All residuals are computed by the same routine from the pressures.
+solutions if they do not take long; user, system and wall time are those of the whole process, with its start and its
+files, at the first of them. All residuals are computed by the same routine from the pressures.
 
 bytes_a_point is the most memory of the whole process. With --table the rows go to a file too, from which those of other
 cases are kept: the cases can be measured in parts.
@@ -26,9 +27,10 @@ import rough_surface  # noqa: E402
 
 CODES = [rough_runs.OWN, 'aspher', 'tamaas', 'contactmechanics', 'slippy']
 COLUMNS = ['points', 'shortest_wave', 'load', 'code', 'status', 'P', 'contact', 'time[s]', 'iterations',
-           'transform_pairs', 'residual', 'complementarity', 'load_error', 'mean_gap', 'tolerance', 'bytes_a_point']
+           'transform_pairs', 'residual', 'complementarity', 'load_error', 'mean_gap', 'tolerance', 'bytes_a_point',
+           'user[s]', 'system[s]', 'wall[s]']
 KEY = 4       # columns that name a row
-WIDTHS = [7, 14, 9, 17, 12, 22, 11, 10, 11, 16, 10, 16, 11, 11, 10, 15]
+WIDTHS = [7, 14, 9, 17, 12, 22, 11, 10, 11, 16, 10, 16, 11, 11, 10, 15, 9, 11, 9]
 
 
 def numbers(kind):
@@ -124,7 +126,8 @@ def words_of(key, full, load, run, residual):
                                             found.mean_gap]
     return [*key, status, f'{load/full:.14e}', f'{values[0]:.6f}', f'{run.seconds:.3f}', f'{run.iterations:g}',
             f'{run.pairs:.1f}', f'{values[1]:.2e}', f'{values[2]:.2e}', f'{values[3]:.1e}', f'{values[4]:.3e}',
-            f'{run.tolerance:.1e}', f'{run.megabytes*1024**2/int(key[0])**2:.1f}']
+            f'{run.tolerance:.1e}', f'{run.megabytes*1024**2/int(key[0])**2:.1f}',
+            *(f'{seconds:.3f}' for seconds in run.process)]
 
 
 class Measurement:
@@ -155,11 +158,15 @@ class Measurement:
                     self.solve(case, key, full)
 
     def contact_load(self, case, key, fraction, full):
-        """The mean pressure for a contact fraction: that of the other rows of the case, if there are any."""
-        for other, words in self.rows.items():
-            if other[:3] == key:
-                return float(words[COLUMNS.index('P')])*full
-        case.load = rough_surface.pressure_for_contact(case.heights, fraction)
+        """The mean pressure for a contact fraction: that of the other rows of the case, if there are any.
+
+        The search begins with that of the same surface on the finest other grid in the table."""
+        same = [(int(other[0]), float(words[COLUMNS.index('P')])*full) for other, words in self.rows.items()
+                if other[2] == key[2] and int(other[0])*int(key[1]) == int(key[0])*int(other[1])]
+        for points, load in same:
+            if points == int(key[0]):
+                return load
+        case.load = max(same)[1] if same else rough_surface.pressure_for_contact(case.heights, fraction)
         return rough_runs.load_for_contact(case, self.own, fraction)
 
     def solve(self, case, key, full):

@@ -11,6 +11,7 @@ import signal
 import statistics
 import subprocess
 import sys
+import time
 
 import numpy
 import rough_surface
@@ -34,6 +35,7 @@ class Run:
     iterations: float = math.nan
     pairs: float = math.nan        # transforms there and back, in units of one on the last grid
     megabytes: float = math.nan    # most memory of the process
+    process: tuple = (math.nan,)*3   # user, system and wall time of the whole process [s]
     tolerance: float = math.nan
     judgement: rough_surface.Judgement = None
 
@@ -56,10 +58,12 @@ class Case:
         arguments = [self.input, *[repr(number) for number in numbers], self.output]
         environment = dict(os.environ, OMP_NUM_THREADS='1', OPENBLAS_NUM_THREADS='1', MKL_NUM_THREADS='1',
                            NUMBA_NUM_THREADS='1')
+        before = time.perf_counter()
         with subprocess.Popen([*command, *arguments], env=environment, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, preexec_fn=restrain) as child:
             words = child.stdout.read().decode().splitlines()
             _, status, usage = os.wait4(child.pid, 0)
+            process = usage.ru_utime, usage.ru_stime, time.perf_counter() - before
             child.returncode = os.waitstatus_to_exitcode(status)
         if child.returncode == -signal.SIGXCPU:
             return Run('limit', self.limit, tolerance=tolerance)
@@ -71,7 +75,8 @@ class Case:
         scale = 1024**2 if sys.platform == 'darwin' else 1024
         pressures = numpy.fromfile(self.output).reshape(self.heights.shape)
         return Run('good' if good == 'T' else 'unconverged', float(seconds), float(effort[0]), float(effort[-1]),
-                   usage.ru_maxrss/scale, tolerance, rough_surface.judge(self.heights, pressures, self.load))
+                   usage.ru_maxrss/scale, process, tolerance,
+                   rough_surface.judge(self.heights, pressures, self.load))
 
 
 def command_of(code, bench, pythons):

@@ -134,8 +134,8 @@ def write_runs(out, results, floors):
         for solver in [*OWN, *PEERS]:
             out.write(f'# P = {load}, {solver}\n')
             if load == next(iter(floors)) and solver == OWN[0]:
-                out.write('# fineness  time[ms], errors of gap, area, peak; their errors that count; '
-                          'the floors of these\n')
+                out.write('# fineness  time[ms] of user and system, relative errors of gap, area, peak; those that '
+                          'count;\n# the floors of these\n')
             runs = results.get(solver, {}).get(load, [])
             # gnuplot counts blocks: an empty one must be there.
             for fineness, milliseconds, errors, worst in runs or [(0, math.nan, [math.nan]*3, [math.nan]*3)]:

@@ -1,7 +1,7 @@
 !> Derivatives of mean gap and area with respect to the load, for a solution on a grid. They are differences of
 !> solutions on the same grid at loads near by: (C29) to (C29c) of README.md in this directory.
 module wavycon_grid_derivatives
-   use wavycon_contact_tuning, only: area_kept_change, change_safety, load_difference
+   use wavycon_contact_tuning, only: area_kept_change, change_safety, kept_scatter, load_difference
    use wavycon_grid_error, only: change_history
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp
@@ -16,8 +16,9 @@ module wavycon_grid_derivatives
 
 contains
 
-   !> Solves two loads below and two above that of a solution and takes differences. If the five loads are too far from
-   !> one another, two nearer loads are solved too, and the better of both differences is taken. Derivatives that the
+   !> Solves two loads below and two above that of a solution and takes differences. The outer two loads are solved on
+   !> the grid before alone (C29d). If the five loads are too far from one another, two nearer loads are solved too, and
+   !> the better of both differences is taken. Derivatives that the
    !> differences do not show are unknown; all are unknown if one of the loads is not solved.
    subroutine differentiate_on_grid(surface, points, record, history, answer)
       type(surface_type), intent(in) :: surface      !! surface on the cell that was solved
@@ -26,30 +27,37 @@ contains
       type(change_history), intent(in) :: history    !! main values of this solution on the last three grids
       type(quantities), intent(out) :: answer        !! gap_slope, area_slope and gap_curvature with their errors
 
-      integer :: grid(2), i
+      !> Points on the whole cell of the last grid for the load in the middle, those beside it, and the outer loads.
+      integer :: grid_of(2, 0:2)
+      integer :: i, maps_in_cell(2)
       real(dp) :: bound   !! theta of (C29)
       real(dp) :: y(3, 2, -2:2)   !! y of approach and area on the last three grids, the finest first, at the five loads
-      real(dp) :: counted(-2:2)   !! number of points in contact over number of points, at the five loads
+      real(dp) :: counted(-1:1)   !! number of points in contact over number of points, at the inner three loads
       real(dp), dimension(3) :: errors, moved, near_errors, near_values, values   !! G', A', G''
-      logical :: solved, too_far, unused
+      logical :: solved, too_far, unused, with_changes
 
-      grid = points
-      if (surface%dimension == 1) grid(2) = 1
+      grid_of = spread(points, 2, 3)
+      if (surface%dimension == 1) grid_of(2, :) = 1
+      maps_in_cell = 1
+      if (surface%shape%is_even()) maps_in_cell(:surface%dimension) = 2
+      with_changes = all(is_known(history%before(:2, :)))
+      if (with_changes) grid_of(:, 2) = maps_in_cell*((grid_of(:, 2)/maps_in_cell + 1)/2)
       bound = 1.0_dp
       if (surface%has_free_edges) bound = 0.0_dp
       solved = .true.
       do i = -2, 2
-         if (solved) call solve_near(i, i*load_difference)
+         if (solved) call solve_near(i, i*load_difference, grid_of(:, abs(i)))
       end do
       if (.not. solved) return
+      if (with_changes) call add_changes(y)
       call differentiate(record%pbar_over_pstar, bound, y, load_difference, values, errors, too_far)
-      ! If all solutions have the same points in contact the gap is linear in the load, and the differences show nothing
-      ! of the growth of the contact: A' and G'' are unknown.
+      ! If all solutions on the last grid have the same points in contact the gap is linear in the load, and the
+      ! differences show nothing of the growth of the contact: A' and G'' are unknown.
       if (all(abs(counted - counted(0)) <= 0.0_dp)) values(2:) = unknown
       if (too_far) then
          y(:, :, [-2, 2]) = y(:, :, [-1, 1])
-         call solve_near(-1, -0.5_dp*load_difference)
-         if (solved) call solve_near(1, 0.5_dp*load_difference)
+         call solve_near(-1, -0.5_dp*load_difference, grid_of(:, 1))
+         if (solved) call solve_near(1, 0.5_dp*load_difference, grid_of(:, 1))
          if (.not. solved) return
          call differentiate(record%pbar_over_pstar, bound, y, 0.5_dp*load_difference, near_values, near_errors, unused)
          ! Where a derivative grows without bound the two estimates differ by more than the error that either tells.
@@ -67,9 +75,10 @@ contains
 
       !> Solves a load near that of the record and sets its y and its number of points in contact. The load i = 0 is
       !> that of the record and needs no solution. On return `solved` tells whether the load was solved.
-      subroutine solve_near(i, difference)
+      subroutine solve_near(i, difference, grid)
          integer, intent(in) :: i               !! number of the load, -2 .. 2
          real(dp), intent(in) :: difference     !! x of the load less that of the record
+         integer, intent(in) :: grid(2)         !! points of the last grid on the whole cell
 
          real(dp) :: grids(3, 3), odds
          type(sequence_answer) :: nearby
@@ -83,7 +92,7 @@ contains
             solved = nearby%state%converged .and. allocated(nearby%edge)
             if (.not. solved) return
          end if
-         counted(i) = nearby%value(contact_area_counted)
+         if (abs(i) < 2) counted(i) = nearby%value(contact_area_counted)
          grids = reshape([nearby%history%values, nearby%history%before], [3, 3])
          y(:, 2, i) = log_ratio(grids(2, :), 1.0_dp - bound*grids(2, :))
          y(:, 1, i) = log_ratio(1.0_dp - grids(1, :), grids(1, :))
@@ -91,6 +100,24 @@ contains
       end subroutine solve_near
 
    end subroutine differentiate_on_grid
+
+   !> Moves y of the outer two loads, which are on the three grids from the last but one on, to the grids of the others.
+   !> On the last grid they follow from the changes at the inner three loads, (C29d).
+   pure subroutine add_changes(y)
+      real(dp), intent(inout) :: y(3, 2, -2:2)   !! as in differentiate_on_grid
+
+      integer :: q
+
+      y(2:, :, [-2, 2]) = y(:2, :, [-2, 2])
+      y(1, :, [-2, 2]) = unknown
+      do q = 1, 2
+         if (.not. (all(is_known(y(2, q, :))) .and. all(is_known(y(1, q, -1:1))))) cycle
+         associate (change => y(1, q, -1:1) - y(2, q, -1:1))
+            y(1, q, -2) = y(2, q, -2) + 3*(change(1) - change(2)) + change(3)
+            y(1, q, 2) = y(2, q, 2) + 3*(change(3) - change(2)) + change(1)
+         end associate
+      end do
+   end subroutine add_changes
 
    !> ln(part/rest). It is unknown unless both are positive and known.
    elemental real(dp) function log_ratio(part, rest)
@@ -163,8 +190,11 @@ contains
       terms = sums(1, :2)
       change = abs(sums(1, :) - sums(2, :))
       error = change_safety*change(:2)
-      if (all(is_known(y(3, :)))) error = max(error, change_safety*area_kept_change*abs(sums(2, :2) - sums(3, :2)))
       scatter = maxval(change(3:)/of_random(3:))
+      if (all(is_known(y(3, :)))) then
+         error = max(error, change_safety*area_kept_change*abs(sums(2, :2) - sums(3, :2)))
+         scatter = max(scatter, kept_scatter*maxval(abs(sums(2, 3:) - sums(3, 3:))/of_random(3:)))
+      end if
       error(1:) = max(error(1:), scatter*of_random(1:2))
       third = abs(sums(1, 3))
       fourth = abs(sums(1, 4))

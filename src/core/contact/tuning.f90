@@ -138,6 +138,11 @@ module wavycon_contact_tuning
    !> than this part of min(t, 1 - t) or of the stress: the value of the next finer level differs by more. The search
    !> also ends when the two loads of the bracket differ by this part, because the value then jumps between them.
    real(dp), parameter, public :: coarse_fraction = 0.02_dp
+   !> On grids with coarser levels the search for first yield ends when the stress differs from its target by this part
+   !> of the stress's error estimate, but at most by the second constant, relative. On 1024 x 1024 points of self-affine
+   !> maps the last coarser level leads so close to the load that one or two solutions on these points are then enough.
+   !> With .01 and 1e-4 it took two or three, each with a search for the largest stress, which takes as long.
+   real(dp), parameter, public :: part_of_stress_error = 0.1_dp, largest_stress_miss = 1e-3_dp
    !> The load of first yield has the status not_accurate if the relative error of the stress is larger than this. This
    !> includes grids of a height map's own points: the largest stress may be that below a single point.
    real(dp), parameter, public :: largest_stress_error = 0.5_dp
@@ -174,6 +179,9 @@ module wavycon_contact_tuning
    !> points that enter the contact one after another: at 256 points a side the relative errors of G'' on the two
    !> lattices were 6e-2 and 3e-2 with .1, but 4e-3 and 2e-2 with .2.
    real(dp), parameter, public :: load_difference = 0.2_dp
+   !> The scatter of the last changes is at least this part of the scatter of those before (C29d). The scatter falls as
+   !> the step to the power 3/2, to .35, from grid to grid; so the constant is a little more.
+   real(dp), parameter, public :: kept_scatter = 0.4_dp
 
    ! Collocation fitted to the edge.
 
