@@ -311,6 +311,21 @@ class Problems(ValuesTest):
         # Results stay when the problem has ended.
         self.assertEqual(0, one.gap.min())
 
+    def test_a_load_of_percolation(self):
+        with wc.problem(self.rough, e_star=3) as p:
+            tight = p.find(percolates="gap")
+            found = tight.table("percolation")
+            self.assertEqual(tight.mean_pressure, found["percolation"][0])
+            self.assertLess(found["last_before"][0], tight.mean_pressure)
+            for load, percolates in (tight, 0), (p.find(mean_pressure=found["last_before"][0]), 1):
+                spots = load.table("spots")
+                self.assertEqual(percolates, max(spots["gap_percolates_x"][0], spots["gap_percolates_y"][0]))
+                self.assertEqual(spots["spots"][0], (load.table("spot_sizes")["region"] == "spot").sum())
+            other = p.find(mean_pressure=tight.mean_pressure).table("percolation")["percolation"]
+            self.assertTrue(numpy.isnan(other[0]))
+            self.refuse("'gab'; did you mean 'gap'", p.find, percolates="gab")
+            self.refuse("percolates must be 'contact'", p.find, percolates=1)
+
     def test_misuse(self):
         self.refuse("loads belong to the solve", wc.problem, self.rough, mean_pressure=1)
         self.refuse("did you mean 'e_star'", wc.problem, self.rough, e_sta=1)

@@ -71,15 +71,15 @@ contains
       call keys%add(values%percolates, key_type(choice_value, 'percolates', '', '', &
          'The least load at which the contact percolates, has a path from cell to cell, or from which on the gap '// &
          'does not; along x or y, or along one axis.', choices='contact contact_x contact_y gap gap_x gap_y', &
-         way=110))
+         way=109))
       call keys%add(values%sweep_from, key_type(real_value, 'sweep_from', '', '-', &
-         'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=109, &
+         'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=110, &
          needs='sweep_to sweep_steps'))
       call keys%add(values%sweep_to, key_type(real_value, 'sweep_to', '', '-', &
          'Last mean pressure over p* of the sweep, above or below the first.', least=0, &
-         most=largest_pbar_over_pstar, way=109, needs='sweep_from'))
+         most=largest_pbar_over_pstar, way=110, needs='sweep_from'))
       call keys%add(values%sweep_steps, key_type(integer_value, 'sweep_steps', '', '', &
-         'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=109, &
+         'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=110, &
          needs='sweep_from'))
    end subroutine list_load_keys
 
@@ -100,8 +100,7 @@ contains
          key//' = '//short_number(minval(loads))//' is a '//word// &
          ': without work_of_adhesion of &interface it is >= 0')
       if (with_adhesion .and. any(loads_by == [by_yield, by_percolation])) call values%problems%add(position, &
-         'the load that '//key//' asks for is found without adhesion: leave '//key// &
-         ' or work_of_adhesion of &interface out')
+         'the load of '//key//' is found without adhesion: leave '//key//' or work_of_adhesion of &interface out')
       if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &
          call values%complain(values%sweep_steps, &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
