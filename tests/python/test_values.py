@@ -292,6 +292,24 @@ class Pictures(ValuesTest):
         numpy.testing.assert_array_equal(plain[0].gap == 0, shown.mask.reshape(plain[0].gap.shape))
 
 
+    def test_regions(self):
+        """What the picture says of percolation is what the table of spots says, also of a mirrored map."""
+        rough = numpy.random.default_rng(3).normal(size=(24, 32))
+        seen = set()
+        for edges in "periodic", "mirror":
+            surface = wc.heights(rough, length_x=1.0, edges=edges, short_wavelength=0.2)
+            for one in wc.solve(surface, contact_area_fraction=[0.2, 0.35, 0.4, 0.45, 0.5, 0.6]):
+                ax, spots = one.plot_map("regions"), one.table("spots")[0]
+                named = {text.get_text() for text in ax.get_legend().get_texts()}
+                for part in "contact", "gap":
+                    percolates = max(spots[f"{part}_percolates_{axis}"] for axis in "xy") > 0
+                    self.assertEqual(percolates, f"{part} that percolates" in named)
+                    seen.add((edges, part, percolates))
+                self.assertEqual(spots["closed_pools"] > 0, "closed gap" in named)
+        self.assertEqual(8, len(seen))
+        self.refuse("there is no field 'regions'", wc.solve(wc.wave_1d(), pbar_over_pstar=0.2)[0].plot_map, "regions")
+
+
 class Problems(ValuesTest):
     def test_loads_have_the_digits_of_solve(self):
         loads = [0.02, 0.2, 0.1]

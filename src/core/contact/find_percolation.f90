@@ -7,8 +7,8 @@ module wavycon_find_percolation
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_spots
    use wavycon_contact_status, only: not_found
-   use wavycon_contact_tuning, only: change_safety, coarse_fraction, lightest_load, longest_step, most_solves, &
-      part_of_area_error, value_roundings
+   use wavycon_contact_tuning, only: coarse_fraction, lightest_load, most_solves, part_of_area_error, &
+      percolation_safety, value_roundings
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: contact_area, is_known, last_before, percolation
    implicit none (type, external)
@@ -31,8 +31,9 @@ contains
    !>
    !> The solution is that of the least load found at which the contact percolates, or the gap does not, and has two
    !> quantities more. `last_before` is the largest load below for which the contrary was found. `percolation` is the
-   !> load of the solution, with the error (C18b). The status is not_found, and both quantities are unknown, if no load or every load
-   !> is past the jump; the load is then the last one tried. A load without spots ends the search with its status.
+   !> load of the solution, with the error (C18b). The status is not_found, and both quantities are unknown, if no load
+   !> or every load is past the jump; the load is then the last one tried. A load without spots ends the search with its
+   !> status.
    subroutine solve_for_percolation(solver, what, solution)
       class(contact_solver), intent(inout) :: solver    !! started with keep_fields, on a periodic surface in 2-D
       integer, intent(in) :: what                       !! place in `percolations`
@@ -50,8 +51,7 @@ contains
       do level = traits%coarser_levels, 0, -1
          last = solution%pbar_over_pstar
          solver%level = level
-         call halve_bracket(solver, what, merge(longest_step, coarse_fraction, level == traits%coarser_levels), &
-                            logit_p, before, solution)
+         call halve_bracket(solver, what, logit_p, before, solution)
          if (before < 0.0_dp) exit
          if (level < traits%coarser_levels) change = abs(solution%pbar_over_pstar - last)
       end do
@@ -62,17 +62,16 @@ contains
       solution%value(percolation) = solution%pbar_over_pstar
       if (.not. is_known(solution%error(contact_area))) return
       associate (a => solution%value(contact_area), p => solution%pbar_over_pstar)
-         solution%error(percolation) = p - before + max(change_safety*change, &
+         solution%error(percolation) = p - before + percolation_safety*max(change, &
             p*abs(1.0_dp - p)*solution%error(contact_area)/(least_slope*max(a*(1.0_dp - a), epsilon(a))))
       end associate
    end subroutine solve_for_percolation
 
    !> Searches at one level. Steps away from the first load double until a bracket is found, which is then halved until
    !> it is shorter than the error of the area tells.
-   subroutine halve_bracket(solver, what, first_step, logit_p, before, solution)
+   subroutine halve_bracket(solver, what, logit_p, before, solution)
       class(contact_solver), intent(inout) :: solver
       integer, intent(in) :: what                       !! place in `percolations`
-      real(dp), intent(in) :: first_step                !! in logit P
       real(dp), intent(inout) :: logit_p                !! logit P: of the first load, on return of the solution
       real(dp), intent(out) :: before                   !! P of the last load before the jump; -1: not found
       type(contact_solution), intent(out) :: solution   !! past the jump
@@ -85,7 +84,7 @@ contains
       most = min(1.0_dp, solver%surface%hardness)
       low = -huge(low)
       high = huge(high)
-      step = first_step
+      step = coarse_fraction
       before = -1.0_dp
       do i = 1, most_solves
          call solver%solve(most/(1.0_dp + exp(-logit_p)), now)
@@ -111,13 +110,10 @@ contains
          else
             logit_p = logit_p + merge(step, -step, low > -huge(low))
             step = 2*step
-            if (abs(logit_p) > abs(log(lightest_load))) then
-               now%status = not_found
-               exit
-            end if
+            if (abs(logit_p) > abs(log(lightest_load))) now%status = not_found
+            if (now%status == not_found) exit
          end if
       end do
-      ! Neither was the bracket found nor can its end be told.
       before = -1.0_dp
       call now%move_to(solution)
    end subroutine halve_bracket
@@ -127,19 +123,15 @@ contains
       type(contact_spots), intent(in) :: regions
       integer, intent(in) :: what   !! place in `percolations`
 
-      integer :: i, way
+      integer :: axis, i
       logical :: along(2)
 
-      way = mod(what - 1, 3)
       along = [(any(regions%spots%percolates(i)), i=1, 2)]
       if (what > 3) along = [(.not. any(regions%pools%percolates(i)), i=1, 2)]
-      if (way > 0) then
-         is_past = along(way)
-      else if (what > 3) then
-         is_past = all(along)
-      else
-         is_past = any(along)
-      end if
+      axis = mod(what - 1, 3)
+      if (axis > 0) along = along(axis)
+      is_past = any(along)
+      if (what > 3) is_past = all(along)
    end function is_past
 
 end module wavycon_find_percolation

@@ -98,14 +98,15 @@ def connected(mask: Any, corners: bool) -> Any:
     """Numbers of the connected parts of a mask whose sides are joined, 0 outside. corners: whether points that touch at
     a corner are connected."""
     numbers = np.where(mask, np.arange(1, mask.size + 1).reshape(mask.shape), 0)
+    joined = np.arange(mask.size + 1)   # the number that each number has become
     steps = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if corners or abs(i + j) == 1]
     while True:
         largest = np.max([np.roll(numbers, step, (0, 1)) for step in [(0, 0), *steps]], axis=0)*mask
-        # The number of a point names another one of its part, whose number may have grown too.
-        largest = np.append(0, largest)[largest]
         if np.array_equal(largest, numbers):
             return numbers
-        numbers = largest
+        np.maximum.at(joined, numbers, largest)
+        joined = joined[joined]
+        numbers = joined[numbers]
 
 
 def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
@@ -130,7 +131,7 @@ def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
     for kind, (name, colour) in enumerate(REGIONS.items()):
         if (colours == kind).any():
             ax.plot([], [], "s", color=colour, label=name)
-    ax.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=len(REGIONS), frameon=False)
     ax.set(title=title(result), aspect="equal", **{f"{axis}label": scaled(result._facts, axis)[1] for axis in "xy"})
     return ax
 
