@@ -3,11 +3,12 @@ module wavycon_deck_session
    use, intrinsic :: iso_c_binding, only: c_int
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
+   use wavycon_contact_spots, only: contact_spots
    use wavycon_deck_groups, only: unknown_key
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: key_index
+   use wavycon_key_table, only: choice_value, key_index
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, list_load_keys, take_loads
    use wavycon_memory_table, only: memory_table, of_words
@@ -18,7 +19,7 @@ module wavycon_deck_session
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: start_results
-   use wavycon_scene, only: by_pressure, by_yield, scene_type
+   use wavycon_scene, only: by_percolation, by_pressure, by_yield, scene_type
    use wavycon_scene_groups, only: load_group
    use wavycon_settings, only: read_setting, setting_type
    use wavycon_solution_record, only: solution_record
@@ -72,6 +73,7 @@ module wavycon_deck_session
       integer :: loads_by = by_pressure               !! how the load was given: by_pressure or another of the scene
       real(dp) :: target = 0.0_dp                     !! the value that was given, as in scene_type
       type(memory_table) :: summary                   !! the summary, with one row
+      type(contact_spots), allocatable :: spots(:)    !! one element, made at its first use
       class(contact_fields), allocatable :: fields    !! made at their first use
       class(stress_fields), allocatable :: stresses   !! made at their first use
    end type solved_load
@@ -142,12 +144,14 @@ contains
    !> Errors: exit_bad_input for a quantity that does not exist, or a value that the quantity cannot have.
    subroutine solve(self, quantity, value, answer, error)
       class(deck_session), intent(inout) :: self
-      character(*), intent(in) :: quantity   !! a key of &load, such as pbar_over_pstar, mean_pressure, mean_gap, yield
-      real(dp), intent(in) :: value          !! value of the quantity, in the unit of that key
+      !> A key of &load, such as pbar_over_pstar, mean_pressure, mean_gap, yield; a key that takes a word with '=' and
+      !> the word, such as percolates=gap.
+      character(*), intent(in) :: quantity
+      real(dp), intent(in) :: value          !! value of the quantity, in the unit of that key; unused for a word
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: k, loads_by
+      integer :: equals, k, loads_by
       real(dp), allocatable :: mean_pressure(:), target(:)
       type(key_list) :: keys(1)
       type(load_group), target :: values
@@ -156,14 +160,19 @@ contains
       if (allocated(error)) return
       call list_load_keys(values, keys(1))
       call keys(1)%start('')
-      k = key_index(keys(1)%rows, quantity)
+      equals = index(quantity//'=', '=')
+      k = key_index(keys(1)%rows, quantity(:equals - 1))
       if (k == 0) then
-         call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity, keys(1), keys))
+         call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity(:equals - 1), keys(1), keys))
          return
       end if
       ! The checks skip a group that the deck does not have: mark the group as given.
       values%position = 1
-      call keys(1)%take_value(k, number=value)
+      if (keys(1)%rows(k)%kind == choice_value) then
+         call keys(1)%take_value(k, text=quantity(min(equals, len(quantity)) + 1:))
+      else
+         call keys(1)%take_value(k, number=value)
+      end if
       call keys(1)%check_relations()
       call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)
       if (values%problems%number == 0) call take_loads(values, self%results%solver%surface, self%scale%p_star, &
@@ -196,8 +205,8 @@ contains
       if (.not. allocated(error)) self%records(load) = answer%solution%solution_record
    end subroutine solve_load
 
-   !> Solves one load of a list, and makes its summary. Errors: exit_bad_input if the load is given by yield and the
-   !> session has no yield stress or no fields.
+   !> Solves one load of a list, and makes its summary. Errors: exit_bad_input if the load is given by yield or
+   !> percolation and the session has no fields or, for yield, no yield stress.
    subroutine solve_one(self, loads_by, load, target, mean_pressure, answer, error)
       class(deck_session), intent(inout) :: self
       integer, intent(in) :: loads_by                             !! by_pressure or another name of wavycon_scene
@@ -209,11 +218,12 @@ contains
 
       type(memory_table) :: summary
 
-      if (loads_by == by_yield) then
-         if (.not. self%results%scene%stress%yield_stress%is_given) then
+      if (any(loads_by == [by_yield, by_percolation])) then
+         if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
             call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
          else if (.not. self%results%keeps_fields) then
-            call fatal_error(error, exit_bad_input, 'yield needs fields: the session was opened without them')
+            call fatal_error(error, exit_bad_input, 'yield and percolates need fields: the session was opened '// &
+               'without them')
          end if
          if (allocated(error)) return
       end if
@@ -248,6 +258,7 @@ contains
       if (allocated(error)) return
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
+         call move_alloc(solved%spots, results%spots)
          results%scene%mean_pressure = solved%mean_pressure
          if (name == 'stress_largest') then
             if (allocated(results%largest_stresses)) deallocate (results%largest_stresses)
@@ -269,6 +280,7 @@ contains
          call writer%write(results, error)
          nullify (results%memory)
          call results%loads(1)%move_to(solved%solution)
+         call move_alloc(results%spots, solved%spots)
       end associate
    end subroutine make_table
 

@@ -91,7 +91,8 @@ int wavycon_set_progress(wavycon_error error, wavycon_scene scene, wavycon_progr
 
 /* Solves one load.
    quantity: a key of &load, such as "pbar_over_pstar", "mean_pressure", "mean_gap_over_amplitude", "mean_gap",
-   "contact_area_fraction" or, with keep_fields and a yield_stress in &stress, "yield".
+   "contact_area_fraction" or, with keep_fields and a yield_stress in &stress, "yield". With keep_fields also
+   "percolates=contact" and so on, whose value is not used.
    Loads are solved fastest in the order from high to low. A load that cannot be solved as requested is not an error:
    its "status_code" says so. */
 wavycon_solution wavycon_solve(wavycon_error error, wavycon_scene scene, const char *quantity, double value);

@@ -16,7 +16,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
 # Headings of outputs/README.md, each with the table that it explains.
 SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
-            "contour": "Contours", "spots": "Spots", "spot_sizes": "Spot sizes", "histogram": "Histograms",
+            "contour": "Contours", "spots": "Spots", "spot_sizes": "Spot sizes", "percolation": "Percolation",
+            "histogram": "Histograms",
             "coefficients": "Coefficients", "theory": "Theory", "details": "Details", "spectrum": "Power spectrum",
             "stress_largest": "Largest stresses", "stress_line": "Stresses below the crest",
             "stress_section": "Stresses on a section", "stress_planes": "Stresses on planes",
@@ -32,6 +33,7 @@ TABLE_DECKS = {
              f"&output {ALL_TABLES} /\n",
     "expansion": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.5 /\n"
                  "&method solver = 'fitted' /\n&output details = t /\n",
+    "percolation": "&surface kind = 'wave_2d' /\n&load percolates = 'gap' /\n&method solver = 'fitted' /\n",
     "stresses": "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.5 /\n&method solver = 'auto' /\n"
                 "&stress nu = 0.3, line = t, section = 'x', planes = t, depths = 0, 0.1 /\n&output map_points = 8 /\n",
     **{f"interface_{dimension}": f"&surface kind = 'wave_{dimension}' /\n&load pbar_over_pstar = 0.5 /\n"

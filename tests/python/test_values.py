@@ -292,6 +292,24 @@ class Pictures(ValuesTest):
         numpy.testing.assert_array_equal(plain[0].gap == 0, shown.mask.reshape(plain[0].gap.shape))
 
 
+    def test_regions(self):
+        """What the picture says of percolation is what the table of spots says, also of a mirrored map."""
+        rough = numpy.random.default_rng(3).normal(size=(24, 32))
+        seen = set()
+        for edges in "periodic", "mirror":
+            surface = wc.heights(rough, length_x=1.0, edges=edges, short_wavelength=0.2)
+            for one in wc.solve(surface, contact_area_fraction=[0.2, 0.35, 0.4, 0.45, 0.5, 0.6]):
+                ax, spots = one.plot_map("regions"), one.table("spots")[0]
+                named = {text.get_text() for text in ax.get_legend().get_texts()}
+                for part in "contact", "gap":
+                    percolates = max(spots[f"{part}_percolates_{axis}"] for axis in "xy") > 0
+                    self.assertEqual(percolates, f"{part} that percolates" in named)
+                    seen.add((edges, part, percolates))
+                self.assertEqual(spots["closed_pools"] > 0, "closed gap" in named)
+        self.assertEqual(8, len(seen))
+        self.refuse("there is no field 'regions'", wc.solve(wc.wave_1d(), pbar_over_pstar=0.2)[0].plot_map, "regions")
+
+
 class Problems(ValuesTest):
     def test_loads_have_the_digits_of_solve(self):
         loads = [0.02, 0.2, 0.1]
@@ -310,6 +328,21 @@ class Problems(ValuesTest):
             self.assertEqual(one.mean_pressure, p.find(mean_pressure=one.mean_pressure).mean_pressure)
         # Results stay when the problem has ended.
         self.assertEqual(0, one.gap.min())
+
+    def test_a_load_of_percolation(self):
+        with wc.problem(self.rough, e_star=3) as p:
+            tight = p.find(percolates="gap")
+            found = tight.table("percolation")
+            self.assertEqual(tight.mean_pressure, found["percolation"][0])
+            self.assertLess(found["last_before"][0], tight.mean_pressure)
+            for load, percolates in (tight, 0), (p.find(mean_pressure=found["last_before"][0]), 1):
+                spots = load.table("spots")
+                self.assertEqual(percolates, max(spots["gap_percolates_x"][0], spots["gap_percolates_y"][0]))
+                self.assertEqual(spots["spots"][0], (load.table("spot_sizes")["region"] == "spot").sum())
+            other = p.find(mean_pressure=tight.mean_pressure).table("percolation")["percolation"]
+            self.assertTrue(numpy.isnan(other[0]))
+            self.refuse("'gab'; did you mean 'gap'", p.find, percolates="gab")
+            self.refuse("percolates must be 'contact'", p.find, percolates=1)
 
     def test_misuse(self):
         self.refuse("loads belong to the solve", wc.problem, self.rough, mean_pressure=1)

@@ -146,6 +146,13 @@ module wavycon_contact_tuning
    !> The load of first yield has the status not_accurate if the relative error of the stress is larger than this. This
    !> includes grids of a height map's own points: the largest stress may be that below a single point.
    real(dp), parameter, public :: largest_stress_error = 0.5_dp
+   !> The bracket of the load at which contact or gap begins or ends to percolate is halved until it is shorter than
+   !> this part of the relative error of the area (C18a): closer loads are not told apart by the grid.
+   real(dp), parameter, public :: part_of_area_error = 0.1_dp
+   !> Factor of (C18b) on the change of that load from the next coarser level, and on what the error of the area makes
+   !> of it. Contact closes the last neck across a rough cell late by a distance of the order of a step, so that the
+   !> load may converge with the step, not with its square: with 1.25 and 1 the largest error was .96 of its estimate.
+   real(dp), parameter, public :: percolation_safety = 2.0_dp
    !> If grids are refined to an accuracy, coarser levels of a search have 10, 100, ... times the error, up to this one.
    !> Less accurate solutions do not help the search, because their areas differ too much from the final ones.
    real(dp), parameter, public :: worst_search_accuracy = 1e-2_dp

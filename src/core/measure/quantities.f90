@@ -41,7 +41,10 @@ module wavycon_quantities
    !> Derivatives by the load, from `contact_solution%derivatives`: G'(P) <= 0 [Delta/p*], A'(P) of the area fraction
    !> [1/p*], G''(P) >= 0 [Delta/p*^2]. src/beyond/README.md derives what follows from them.
    integer, parameter, public :: gap_slope = 18, area_slope = 19, gap_curvature = 20
-   integer, parameter, public :: number_of_quantities = 20
+   !> Of a load that was found by percolation: the load itself, whose error estimate is that of the load, and the
+   !> largest lower load at which the contact did not percolate yet or the gap still did [p*].
+   integer, parameter, public :: percolation = 21, last_before = 22
+   integer, parameter, public :: number_of_quantities = 22
 
    !> Kinds of quantities. Tables have a quantity without unit in a column of its name with the ending `behind_name`, or
    !> in the deck's units in a column of its name alone.
@@ -75,7 +78,9 @@ module wavycon_quantities
       quantity_type(saddle_pressure, 'saddle_pressure', of_pressure, 'details'), &
       quantity_type(elastic_energy, 'elastic_energy', of_energy, 'summary details'), &
       quantity_type(perimeter, 'perimeter', in_length, 'details'), &
-      quantity_type(polynomial_degree, 'degree', of_count, 'details')]
+      quantity_type(polynomial_degree, 'degree', of_count, 'details'), &
+      quantity_type(percolation, 'percolation', of_pressure), &
+      quantity_type(last_before, 'last_before', of_pressure)]
 
    !> The three quantities that every solver computes to the requested accuracy.
    integer, parameter, public :: main_quantities(3) = [mean_gap, contact_area, peak_pressure]

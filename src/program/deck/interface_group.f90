@@ -38,9 +38,9 @@ contains
          'slips.', above=0))
       call keys%add(values%tangential_load, key_type(real_value, 'tangential_load', '', 'unit of e_star', &
          'Mean tangential tractions Q, over the nominal area, at most friction times the mean pressure.', least=0, &
-         most_values=most_loads, way=10, needs='friction'))
+         most_values=most_loads, way=100, needs='friction'))
       call keys%add(values%tangential_over_normal, key_type(real_value, 'tangential_over_normal', '', '-', &
-         'The same over the mean pressure: at most the friction.', least=0, most_values=most_loads, way=11, &
+         'The same over the mean pressure: at most the friction.', least=0, most_values=most_loads, way=101, &
          needs='friction'))
       call keys%add(values%shear_direction, key_type(choice_value, 'shear_direction', "'x'", '', &
          "direction of the tangential load on a surface that does not change along y: 'x', across its ridges; "// &

@@ -1,12 +1,15 @@
-!> The &load group: the loads to solve for, by force, mean pressure, mean gap, approach, contact area or stress.
+!> The &load group: the loads to solve for, by force, mean pressure, mean gap, approach, contact area, stress or
+!> percolation.
 module wavycon_load_group
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+   use wavycon_find_percolation, only: percolations
    use wavycon_full_contact, only: mean_compliance
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: integer_value, key_type, real_value
+   use wavycon_key_table, only: choice_value, integer_value, key_type, real_value
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: short_number
-   use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_pressure, by_yield
+   use wavycon_scene, only: by_approach, by_contact_area, by_mean_gap, by_percolation, by_pressure, &
+      by_yield
    use wavycon_scene_groups, only: load_group
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -26,7 +29,7 @@ module wavycon_load_group
 
    !> The quantity that each key of loads gives. These keys are the first of the table, in this order.
    integer, parameter :: list_is(*) = [by_pressure, by_pressure, by_mean_gap, by_mean_gap, by_contact_area, by_yield, &
-                                       by_pressure, by_approach, by_contact_area, by_pressure]
+                                       by_pressure, by_approach, by_contact_area, by_percolation, by_pressure]
    !> Keys whose loads refer to p* or to the mean gap, which only a surface without free edges has.
    character(23), parameter :: periodic_lists(*) = [character(23) :: 'pbar_over_pstar', 'sweep_from', 'mean_gap', &
                                                     'mean_gap_over_amplitude']
@@ -43,36 +46,40 @@ contains
       call keys%add(values%pbar_over_pstar, key_type(real_value, 'pbar_over_pstar', '', '-', &
          'Mean pressures over p*, the mean pressure that just closes the gap everywhere. Tensions, < 0, need '// &
          'work_of_adhesion of &interface, as do those of mean_pressure and force.', most=largest_pbar_over_pstar, &
-         most_values=most_loads, way=10, required=.true.))
+         most_values=most_loads, way=100, required=.true.))
       call keys%add(values%mean_pressure, key_type(real_value, 'mean_pressure', '', 'unit of e_star', &
-         'Mean pressures, over the nominal area.', most_values=most_loads, way=11))
+         'Mean pressures, over the nominal area.', most_values=most_loads, way=101))
       call keys%add(values%mean_gap_over_amplitude, key_type(real_value, 'mean_gap_over_amplitude', '', '-', &
          'Mean gaps over the mean gap before load, which is the amplitude of a wave; the program finds their '// &
-         'loads. Above 1 they need work_of_adhesion of &interface.', least=0, most_values=most_loads, way=12))
+         'loads. Above 1 they need work_of_adhesion of &interface.', least=0, most_values=most_loads, way=102))
       call keys%add(values%mean_gap, key_type(real_value, 'mean_gap', '', 'length', &
-         'Mean gaps; the program finds their loads.', least=0, most_values=most_loads, way=13))
+         'Mean gaps; the program finds their loads.', least=0, most_values=most_loads, way=103))
       call keys%add(values%contact_area_fraction, key_type(real_value, 'contact_area_fraction', '', '-', &
          'Fractions of the nominal area in contact; the program finds their loads.', least=0, most=1, &
-         most_values=most_loads, way=14))
+         most_values=most_loads, way=104))
       call keys%add(values%yield, key_type(real_value, 'yield', '', '-', &
          'Largest equivalent stresses in the bodies over the yield stress of &stress; the program finds the '// &
-         'least loads that reach them. 1 is first yield.', above=0, most_values=most_loads, way=15))
+         'least loads that reach them. 1 is first yield.', above=0, most_values=most_loads, way=105))
       call keys%add(values%force, key_type(real_value, 'force', '', 'unit of e_star times length^2', &
-         'Forces on the nominal area; of a profile per depth.', most_values=most_loads, way=16))
+         'Forces on the nominal area; of a profile per depth.', most_values=most_loads, way=106))
       call keys%add(values%approach, key_type(real_value, 'approach', '', 'length', &
          'Approaches of the bodies from first touch; the program finds their loads. Below 0 they need '// &
-         'work_of_adhesion of &interface.', most_values=most_loads, way=17))
+         'work_of_adhesion of &interface.', most_values=most_loads, way=107))
       call keys%add(values%contact_area, key_type(real_value, 'contact_area', '', 'length^2', &
          'Areas in contact, of a profile lengths; the program finds their loads.', least=0, &
-         most_values=most_loads, way=18))
+         most_values=most_loads, way=108))
+      call keys%add(values%percolates, key_type(choice_value, 'percolates', '', '', &
+         'The least load at which the contact percolates, has a path from cell to cell, or from which on the gap '// &
+         'does not; along x or y, or along one axis.', choices='contact contact_x contact_y gap gap_x gap_y', &
+         way=109))
       call keys%add(values%sweep_from, key_type(real_value, 'sweep_from', '', '-', &
-         'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=19, &
+         'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=110, &
          needs='sweep_to sweep_steps'))
       call keys%add(values%sweep_to, key_type(real_value, 'sweep_to', '', '-', &
          'Last mean pressure over p* of the sweep, above or below the first.', least=0, &
-         most=largest_pbar_over_pstar, way=19, needs='sweep_from'))
+         most=largest_pbar_over_pstar, way=110, needs='sweep_from'))
       call keys%add(values%sweep_steps, key_type(integer_value, 'sweep_steps', '', '', &
-         'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=19, &
+         'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=110, &
          needs='sweep_from'))
    end subroutine list_load_keys
 
@@ -92,8 +99,8 @@ contains
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
          key//' = '//short_number(minval(loads))//' is a '//word// &
          ': without work_of_adhesion of &interface it is >= 0')
-      if (with_adhesion .and. loads_by == by_yield) call values%problems%add(position, &
-         'the load of yield is found without adhesion: leave yield or work_of_adhesion of &interface out')
+      if (with_adhesion .and. any(loads_by == [by_yield, by_percolation])) call values%problems%add(position, &
+         'the load of '//key//' is found without adhesion: leave '//key//' or work_of_adhesion of &interface out')
       if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &
          call values%complain(values%sweep_steps, &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
@@ -129,9 +136,12 @@ contains
          call values%problems%add(position, 'the approach of a profile with free edges is not defined: it '// &
             'grows with the logarithm of the length over which it is measured. Give force or contact_area')
       end if
+      if (loads_by == by_percolation .and. (surface%has_free_edges .or. surface%dimension == 1)) &
+         call values%problems%add(position, 'percolates needs a surface that is repeated along x and y, whose '// &
+            'contact or gap may go on from cell to cell: this one has free edges or is a profile')
       if (p_star <= 0.0_dp .and. loads_by /= by_pressure) then
-         call values%problems%add(position, 'the surface is flat: give its loads by pressure, not by gap, area '// &
-                                  'or yield')
+         call values%problems%add(position, 'the surface is flat: give its loads by pressure, not by gap, area, '// &
+                                  'yield or percolation')
          return
       end if
       ! The limits of the other keys are bounds in the table of keys.
@@ -176,7 +186,7 @@ contains
          key//' = '//short_number(maxval(target))//' is more than '//limit//'. Do the units agree?')
       if (loads_by /= by_pressure) then
          target = target/most
-         if (loads_by /= by_yield .and. .not. (loads_by == by_mean_gap .and. with_adhesion)) &
+         if (all(loads_by /= [by_yield, by_percolation]) .and. .not. (loads_by == by_mean_gap .and. with_adhesion)) &
             target = min(target, 1.0_dp)
       else if (limit /= '') then
          target = mean_pressure/p_star
@@ -202,6 +212,8 @@ contains
       loads_by = list_is(k)
       position = keys%keys(k)%value%position
       loads = keys%keys(k)%value%numbers
+      if (loads_by == by_percolation) &
+         loads = [real(dp) :: findloc(percolations == keys%keys(k)%value%text, .true.)]
       if (key /= 'sweep_from' .or. .not. values%sweep_steps%is_given) return
       associate (from => values%sweep_from%number, to => values%sweep_to%number, &
                  last => nint(values%sweep_steps%number) - 1)

@@ -29,15 +29,15 @@ contains
 
       keys = key_list('material', 'how stiff the two bodies are: e_star, or e1 and nu1 (and e2, nu2)', values%key_group)
       call keys%add(values%e_star, key_type(real_value, 'e_star', '1.0', 'pressure', &
-         'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0, way=10))
+         'Plane-strain modulus E* of the pair, 1/E* = (1 - nu1^2)/e1 + (1 - nu2^2)/e2.', above=0, way=100))
       call keys%add(values%e1, key_type(real_value, 'e1', '', 'pressure', &
-         "Young's modulus of the first body.", above=0, way=11, needs='nu1'))
+         "Young's modulus of the first body.", above=0, way=101, needs='nu1'))
       call keys%add(values%nu1, key_type(real_value, 'nu1', '', '-', &
-         "Poisson's ratio of the first body.", above=-1, most=0.5_dp, way=11, needs='e1'))
+         "Poisson's ratio of the first body.", above=-1, most=0.5_dp, way=101, needs='e1'))
       call keys%add(values%e2, key_type(real_value, 'e2', '', 'pressure', &
-         "Young's modulus of the second body. Without it the second body is rigid.", above=0, way=11, needs='nu2 e1'))
+         "Young's modulus of the second body. Without it the second body is rigid.", above=0, way=101, needs='nu2 e1'))
       call keys%add(values%nu2, key_type(real_value, 'nu2', '', '-', &
-         "Poisson's ratio of the second body.", above=-1, most=0.5_dp, way=11, needs='e2'))
+         "Poisson's ratio of the second body.", above=-1, most=0.5_dp, way=101, needs='e2'))
       call keys%add(values%hardness, key_type(real_value, 'hardness', '', 'unit of e_star', &
          'Largest contact pressure: where it is reached the softer body flows, and an indentation is left. '// &
          'Without it the bodies stay elastic. Mean pressures must be lower. Within a factor of 1e6 of p*.', above=0))
@@ -49,7 +49,7 @@ contains
          "'smooth', on a rigid body on which it slides without friction.", choices='bonded smooth', &
          needs='layer_thickness'))
       call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
-         "Poisson's ratio of the layer, if e_star is given.", above=-1, most=0.5_dp, way=10, needs='layer_thickness'))
+         "Poisson's ratio of the layer, if e_star is given.", above=-1, most=0.5_dp, way=100, needs='layer_thickness'))
       call keys%add(values%base_e, key_type(real_value, 'base_e', '', 'pressure', &
          "Young's modulus of the half-space that the layer is bonded to. Its shear modulus must be within a factor "// &
          "of 1e6 of the layer's. Without it the base is rigid.", above=0, &

@@ -57,7 +57,7 @@ contains
       k = key_index(table%rows, key)
       if (own == 0 .or. k == 0) return
       associate (keys => table%rows)
-         replaces = keys(own)%way > 0 .and. keys(own)%way/10 == keys(k)%way/10 .and. keys(own)%way /= keys(k)%way
+         replaces = keys(own)%way > 0 .and. keys(own)%way/100 == keys(k)%way/100 .and. keys(own)%way /= keys(k)%way
          if (setting%key == table%selector) replaces = any(words_of(keys(own)%choices) == plain_value(setting)) &
                                                        .and. .not. is_read(keys(k), plain_value(setting))
       end associate

@@ -35,10 +35,10 @@ contains
          'A table of the stresses on the planes at the given depths, with the points and in the format of maps.'))
       call keys%add(values%depths, key_type(real_value, 'depths', '', 'length', &
          'Depths of the planes; also of the points of line and section unless a range is given.', least=0, &
-         most_values=most_depths, way=10))
+         most_values=most_depths, way=100))
       call keys%add(values%depths_over_cell_x, key_type(real_value, 'depths_over_cell_x', '', '-', &
          'The same over the side of the cell along x, which is the wavelength of a wave.', least=0, &
-         most_values=most_depths, way=11))
+         most_values=most_depths, way=101))
       call keys%add(values%depth_from, key_type(real_value, 'depth_from', '0.0', '-', &
          'First depth of a range in equal steps, over the side of the cell along x, for line and section; also '// &
          'for the planes unless depths are given.', least=0))

@@ -137,20 +137,20 @@ contains
          'by the filters of ISO 16610-61, which let half of a wave of this length pass.', choices='sharp gaussian'))
       keys%of = 'file self_affine'
       call keys%add(values%form_radius, key_type(real_value, 'form_radius', '', 'length', &
-         'radius of '//on_a_ball, above=0, way=30, needs="edges='free'"))
+         'radius of '//on_a_ball, above=0, way=300, needs="edges='free'"))
       call keys%add(values%form_radius_x, key_type(real_value, 'form_radius_x', '', 'length', &
-         'radius of curvature along x of '//on_a_ball, above=0, way=31, needs="form_radius_y edges='free'"))
+         'radius of curvature along x of '//on_a_ball, above=0, way=301, needs="form_radius_y edges='free'"))
       call keys%add(values%form_radius_y, key_type(real_value, 'form_radius_y', '', 'length', &
-         'radius of curvature along y.', above=0, way=31, needs="form_radius_x edges='free'"))
+         'radius of curvature along y.', above=0, way=301, needs="form_radius_x edges='free'"))
       keys%of = 'self_affine'
       call keys%add(values%hurst, key_type(real_value, 'hurst', '0.8', '-', 'Hurst exponent of the roughness.', 0, 1))
       call keys%add(values%rms_height, key_type(real_value, 'rms_height', '', 'length', &
-         'root mean square of the height; or give rms_slope.', above=0, way=10, required=.true.))
+         'root mean square of the height; or give rms_slope.', above=0, way=100, required=.true.))
       call keys%add(values%rms_slope, key_type(real_value, 'rms_slope', '', '-', &
-         'root mean square of the slope, the size of the gradient; or give rms_height.', above=0, way=11))
+         'root mean square of the slope, the size of the gradient; or give rms_height.', above=0, way=101))
       call keys%add(values%spectral_density, key_type(real_value, 'spectral_density', '', 'length^4', &
          'in place of rms_height or rms_slope: the spectral density of waves longer than rolloff_wavelength, '// &
-         'as &output spectrum has it; of a profile in length^3.', above=0, way=12))
+         'as &output spectrum has it; of a profile in length^3.', above=0, way=102))
       call keys%add(values%rolloff_wavelength, key_type(real_value, 'rolloff_wavelength', 'long_wavelength', 'length', &
          'the spectrum of the heights is flat for longer waves and self-affine for shorter ones.', above=0))
       call keys%add(values%spectrum, key_type(choice_value, 'spectrum', "'ideal'", '', &
@@ -166,11 +166,11 @@ contains
          'points of a ball grids are refined to the accuracy of &method.', 1, most_points, most_values=2))
       keys%of = 'ball'
       call keys%add(values%radius, key_type(real_value, 'radius', '', 'length', &
-         'radius of the ball.', above=0, way=20, required=.true.))
+         'radius of the ball.', above=0, way=200, required=.true.))
       call keys%add(values%radius_x, key_type(real_value, 'radius_x', '', 'length', &
-         'radius of curvature along x of the ball.', above=0, way=21, needs='radius_y'))
+         'radius of curvature along x of the ball.', above=0, way=201, needs='radius_y'))
       call keys%add(values%radius_y, key_type(real_value, 'radius_y', '', 'length', &
-         'radius of curvature along y.', above=0, way=21, needs='radius_x'))
+         'radius of curvature along y.', above=0, way=201, needs='radius_x'))
    end subroutine list_surface_keys
 
    !> Checks the keys against the kind of surface and sets the defaults that depend on the kind.

@@ -301,7 +301,7 @@ contains
                   cycle
                end if
                ! The keys that give the same quantity: the key alone, or those of all ways.
-               is_same = is_own .and. rows%way/10 == rows(k)%way/10
+               is_same = is_own .and. rows%way/100 == rows(k)%way/100
                if (rows(k)%way == 0) is_same = rows%name == key
                first = findloc(is_same, .true., dim=1)
                if (rows(k)%required .and. k == first .and. group%position > 0 .and. .not. group%has_unknown .and. &

@@ -33,10 +33,9 @@ module wavycon_key_table
       logical :: may_be_blank = .false.                  !! whether a text may consist of blanks
       character(80) :: choices = ''                      !! the words that a choice may be, with blanks between them
       logical :: required = .false.                      !! whether a deck must give the key, or its quantity otherwise
-      !> Keys of a group that give the same quantity in different ways have numbers with the same digits but the last
-      !> one. Keys with the same number belong together. Two ways contradict each other, --set of one key replaces those
-      !> of the other ways, and defaults of the ways that are not given have no effect. 0: no other key gives the
-      !> quantity.
+      !> Keys of a group that give the same quantity in different ways have numbers with the same hundreds. Keys with
+      !> the same number belong together. Two ways contradict each other, --set of one key replaces those of the other
+      !> ways, and defaults of the ways that are not given have no effect. 0: no other key gives the quantity.
       integer :: way = 0
       !> What a deck must give beside the key: names of keys of the group, or key='value', with blanks between them.
       !> Without these the default of the key has no effect.
@@ -119,12 +118,12 @@ contains
       integer, intent(in) :: k                !! number of a key that gives the quantity, with way > 0
       character(:), allocatable :: words
 
-      character(80) :: ways(0:9)
+      character(80) :: ways(0:99)
       integer :: i
 
       ways = ''
-      do i = 0, 9
-         associate (is_one => keys%way == 10*(keys(k)%way/10) + i)
+      do i = 0, size(ways) - 1
+         associate (is_one => keys%way == 100*(keys(k)%way/100) + i)
             if (any(is_one)) ways(i) = listed(pack(keys%name, is_one), ' and ')
          end associate
       end do

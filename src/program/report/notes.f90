@@ -15,7 +15,7 @@ module wavycon_notes
       peak_pressure
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_contact_area, by_yield, scene_type, target_words
+   use wavycon_scene, only: by_contact_area, by_percolation, by_yield, scene_type, target_words
    use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
    implicit none (type, external)
    private
@@ -52,8 +52,12 @@ contains
             loads = surface%nominal_area()*scene%mean_pressure
             words = 'force'
          end if
-         call logger%say('loads: '//integer_text(size(loads))//', '//words//' from '//short_number(minval(loads))// &
-                         ' to '//short_number(maxval(loads)))
+         if (scene%loads_by == by_percolation) then
+            words = words//' of '//scene%load%percolates%text
+         else
+            words = words//' from '//short_number(minval(loads))//' to '//short_number(maxval(loads))
+         end if
+         call logger%say('loads: '//integer_text(size(loads))//', '//words)
          if (results%sharing%words() /= '') call logger%say('ranks: '//results%sharing%words())
          call note_scene(scene, logger)
       end associate
@@ -158,6 +162,10 @@ contains
             call logger%say(line%words//' '//solver_names(results%loads(load)%solver)(:solver_width)//'  '// &
                             trim(status_name(results%loads(load)%status)))
          end do
+         if (scene%loads_by == by_percolation) call logger%say('percolation of '//scene%load%percolates%text// &
+            ': pbar/p* = '//short_number(results%number(1, 'percolation_over_pstar'))//', error '// &
+            short_number(results%number(1, 'percolation_over_pstar_error'))//', not yet at '// &
+            short_number(results%number(1, 'last_before_over_pstar')))
       end associate
    end subroutine show_loads
 
@@ -308,6 +316,9 @@ contains
             if (.not. results%traits%has_errors) call logger%note("solver = '"//scene%method%solver%text// &
                "' estimates no errors; a light load of first yield may be wrong by a factor of 2. solver = 'auto' "// &
                'estimates them')
+         else if (loads_by == by_percolation) then
+            call note_some(count(loads%status == not_found), 'no load was found at which the percolation begins '// &
+               'or ends: every load that was tried is on the same side')
          else
             call note_unreached()
          end if

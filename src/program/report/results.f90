@@ -5,6 +5,7 @@ module wavycon_results
    use wavycon_contact_measures, only: linear_area_fraction
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_spots, only: contact_spots
    use wavycon_contact_status, only: is_good_status, not_accurate, status_code, status_name, unresolved
    use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_head_lines, only: head_lines
@@ -34,6 +35,8 @@ module wavycon_results
       logical :: keeps_fields = .false.                      !! whether solutions have fields, edges and stresses
       !> The solution of each load, in the deck's order. Of a load that another rank solves: its numbers without fields.
       type(contact_solution), allocatable :: loads(:)
+      !> Spots and pools of each load, which several tables need; not allocated before `find_spots`.
+      type(contact_spots), allocatable :: spots(:)
       !> The largest von Mises stress (1) and the largest shear stress (2), shape (2, bodies, loads); not allocated
       !> unless the deck asks for them.
       type(largest_stress), allocatable :: largest_stresses(:, :, :)
@@ -46,6 +49,7 @@ module wavycon_results
       integer, allocatable :: order(:)                       !! numbers of the loads in the order of their solution
       type(memory_table), pointer :: memory => null()        !! if associated, a table is written to it, not to a file
    contains
+      procedure :: find_spots
       procedure :: swap_contacts
       procedure :: open_table
       procedure :: begin_block
@@ -58,6 +62,19 @@ module wavycon_results
    end type results_type
 
 contains
+
+   !> Finds the spots and pools of all loads, unless they are known.
+   subroutine find_spots(self)
+      class(results_type), intent(inout) :: self   !! with a solution for each load; gets `spots`
+
+      integer :: load
+
+      if (allocated(self%spots)) return
+      allocate (self%spots(size(self%loads)))
+      do load = 1, size(self%loads)
+         call self%loads(load)%spots(self%solver%surface, self%spots(load))
+      end do
+   end subroutine find_spots
 
    !> Exchanges the contacts without adhesion, `loads`, and those with adhesion, `adhesive_loads`. Procedures that write
    !> tables from `loads` then write those of the contact with adhesion. A second call restores the contacts.

@@ -17,7 +17,7 @@ module wavycon_spot_tables
    use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_spots, only: connected_region, contact_spots
+   use wavycon_contact_spots, only: connected_region
    use wavycon_contact_status, only: status_code, status_name
    use wavycon_histogram, only: histogram, make_histogram
    use wavycon_kinds, only: dp
@@ -42,14 +42,14 @@ contains
       tables(1) = table_type('contour', 'contours', needs_fields=.true., put_load=put_curves, &
          columns='load[#] curve[#] x[length] y[length]', &
          meaning='The edge of contact as closed curves.')
-      tables(2) = table_type('spots', 'spots', needs_fields=.true., put_load=put_spots, &
+      tables(2) = table_type('spots', 'spots', needs_fields=.true., needs_spots=.true., put_load=put_spots, &
          columns='load[#] pbar_over_pstar[-] contact_area_fraction[-] spots[#] '// &
          'spots_area_fraction[-] largest_spot_area_fraction[-] closed_pools[#] closed_pools_area_fraction[-] '// &
          'largest_pool_area_fraction[-] perimeter[length] contact_percolates_x[#] contact_percolates_y[#] '// &
          'gap_percolates_x[#] gap_percolates_y[#] status_code[#] status[word]', &
          meaning='Number and sizes of contact spots and of pools of gap; percolation of both.')
       tables(3) = table_type('spot_sizes', asked_by=[character(16) :: 'spots', ''], needs_fields=.true., &
-         put_load=put_spot_sizes, &
+         needs_spots=.true., put_load=put_spot_sizes, &
          columns='load[#] rank[#] area[area] area_fraction[-] equivalent_radius[length] '// &
          'perimeter[length] load_fraction[-] mean_pressure[pressure] x[length] y[length] holes[#] percolates_x[#] '// &
          'percolates_y[#] region[word]')
@@ -87,13 +87,11 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(contact_spots) :: regions
       real(dp) :: numbers(11)
       real(dp), allocatable :: pools(:), spots(:)   ! area fractions of closed pools and of spots
       integer :: i
 
-      associate (solution => results%loads(load))
-         call solution%spots(results%solver%surface, regions)
+      associate (solution => results%loads(load), regions => results%spots(load))
          numbers = not_a_number()
          if (allocated(regions%spots)) then
             spots = regions%spots%area_fraction
@@ -112,7 +110,7 @@ contains
    !> Writes to the log at how many loads contact and gap percolate, and in which direction. In 1-D both always do along
    !> y, and with free edges there is no next cell: nothing is written.
    subroutine say_percolation(results, logger)
-      type(results_type), intent(in) :: results
+      type(results_type), intent(inout) :: results   !! with a solution for each load; gets `spots`
       type(run_log), intent(inout) :: logger
 
       character(*), parameter :: names(2) = ['contact', 'gap    '], limits(2) = [', from ', ', up to']
@@ -120,15 +118,16 @@ contains
       integer :: i, region_kind, load
       logical :: percolates(size(results%loads), 2, 2)   ! at each load, along x and y, contact and gap
       real(dp) :: limit
-      type(contact_spots) :: regions
 
       if (results%solver%surface%has_free_edges .or. results%solver%surface%dimension == 1 .or. logger%quiet) return
       percolates = .false.
+      call results%find_spots()
       do load = 1, size(results%loads)
-         call results%loads(load)%spots(results%solver%surface, regions)
-         if (.not. allocated(regions%spots)) cycle
-         percolates(load, :, 1) = [(any(regions%spots%percolates(i)), i=1, 2)]
-         percolates(load, :, 2) = [(any(regions%pools%percolates(i)), i=1, 2)]
+         associate (regions => results%spots(load))
+            if (.not. allocated(regions%spots)) cycle
+            percolates(load, :, 1) = [(any(regions%spots%percolates(i)), i=1, 2)]
+            percolates(load, :, 2) = [(any(regions%pools%percolates(i)), i=1, 2)]
+         end associate
       end do
       do region_kind = 1, 2
          words = ''
@@ -152,14 +151,13 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(contact_spots) :: regions
-
-      call results%loads(load)%spots(results%solver%surface, regions)
-      if (.not. allocated(regions%spots)) return
-      call results%begin_block(file, load)
-      call put_regions(regions%spots, 'spot')
-      if (size(regions%spots) > 0 .and. size(regions%pools) > 0) call file%put('')
-      call put_regions(regions%pools, 'pool')
+      associate (found => results%spots(load))
+         if (.not. allocated(found%spots)) return
+         call results%begin_block(file, load)
+         call put_regions(found%spots, 'spot')
+         if (size(found%spots) > 0 .and. size(found%pools) > 0) call file%put('')
+         call put_regions(found%pools, 'pool')
+      end associate
 
    contains
 

@@ -26,7 +26,7 @@ module wavycon_table
    type :: table_type
       character(16) :: file = ''          !! the table is <case>.<file>.dat
       character(16) :: key = ''           !! the logical key that requests the table; empty: the table has no such key
-      character(9) :: group = 'output'    !! group of the key: 'output', 'stress' or 'interface'
+      character(9) :: group = 'output'    !! group of the key: 'output', 'load', 'stress' or 'interface'
       character(160) :: meaning = ''      !! one sentence for the reference of keys of &output
       character(2048) :: columns = ''     !! name[unit] of each column, with a blank between two
       !> Keys of `group` that together request the table, in place of `key`. A key requests if it is a logical key that
@@ -36,6 +36,7 @@ module wavycon_table
       character(16) :: asked_by(2) = ''
       logical :: of_adhesion = .false.    !! whether the contacts are those with adhesion
       logical :: needs_fields = .false.   !! whether the table is made from fields, edges or details of the solutions
+      logical :: needs_spots = .false.    !! whether `spots` of the results must be found first
       !> Whether the table needs the whole surface, with a p* and a Delta that are not zero.
       logical :: needs_surface = .true.
       !> Whether all ranks write the table together; null: the first rank writes the table.
@@ -163,13 +164,14 @@ contains
    !> Writes the table to a file or, if the results have a table in memory, to that. Errors: exit_file_trouble.
    subroutine write_table(self, results, error)
       class(table_type), intent(in) :: self
-      type(results_type), intent(inout) :: results   !! with a solution for each load; unchanged afterwards
+      type(results_type), intent(inout) :: results   !! with a solution for each load; gets `spots` if needed
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
       integer :: i, number
 
       if (self%of_adhesion) call results%swap_contacts()
+      if (self%needs_spots) call results%find_spots()
       if (associated(self%write_all)) then
          call self%write_all(results, error)
       else

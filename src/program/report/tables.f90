@@ -5,6 +5,7 @@
 !> <case>.details.dat: numbers that the summary does not have, with error estimates, from solvers that compute them, a
 !> row for each load. A load without details (no load, full contact, no solution) has NaN for these numbers and 0 for
 !> the degree of the polynomials.
+!> <case>.percolation.dat: the load that the key percolates of &load asks for, its error, and the last load before it.
 !> <case>.coefficients.dat: the Fourier coefficients of the pressure, A_i of eq. (12) or A_ij of eq. (25), a block for
 !> each load; j = 0 in 1-D.
 module wavycon_tables
@@ -55,7 +56,7 @@ contains
 
    !> The tables with the numbers of each load.
    function summary_tables() result(tables)
-      type(table_type) :: tables(3)
+      type(table_type) :: tables(4)
 
       tables(1) = table_type('summary', needs_surface=.false., columns=summary_columns())
       ! The energy is per nominal area. The perimeter is that of one contact spot or, once the spots have merged, of one
@@ -67,6 +68,10 @@ contains
       tables(3) = table_type('coefficients', 'coefficients', put_load=put_coefficients, &
          columns='load[#] i[#] j[#] pressure_over_pstar[-]', &
          meaning='The Fourier coefficients of the pressure.')
+      tables(4) = table_type('percolation', asked_by=[character(16) :: 'percolates', ''], group='load', &
+         columns='load[#] last_before_over_pstar[-] percolation_over_pstar[-] percolation_over_pstar_error[-] '// &
+         'last_before[pressure] percolation[pressure] percolation_error[pressure] contact_area_fraction[-] '// &
+         'contact_area_fraction_error[-] status_code[#] status[word]')
    end function summary_tables
 
    !> The columns of the summary. `results%number` gives the number of each column.

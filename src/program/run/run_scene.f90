@@ -13,7 +13,7 @@ module wavycon_run_scene
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_pressure, by_yield, scene_type
+   use wavycon_scene, only: by_percolation, by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
    use wavycon_spot_tables, only: say_percolation
@@ -180,7 +180,7 @@ contains
       type(results_type), intent(out) :: results                  !! without solutions yet
       type(table_type), allocatable, intent(out) :: tables(:)     !! the tables to write
       !> Whether solutions keep their fields. Absent: they do if a table needs them. In a search for a load of yield
-      !> they always do.
+      !> or percolation they always do.
       logical, intent(in), optional :: with_fields
 
       character(:), allocatable :: description
@@ -198,12 +198,13 @@ contains
          tables = pack(tables, [(tables(i)%refusal(results%traits, scene%surface) == '', i=1, size(tables))])
          results%keeps_fields = any(tables%needs_fields) .or. asks_for_largest(scene)
          if (present(with_fields)) results%keeps_fields = with_fields
-         results%keeps_fields = results%keeps_fields .or. scene%loads_by == by_yield
+         results%keeps_fields = results%keeps_fields .or. any(scene%loads_by == [by_yield, by_percolation])
          call start_solver(scene%surface, scene%method, results%keeps_fields, results%solver, description)
          results%method = scene%method%solver%text//', '//description
          results%traits = results%solver%traits()
          results%sharing = choose_sharing(results%traits, size(scene%target), any(tables%needs_fields), &
-                                          scene%loads_by == by_yield .or. allocated(scene%interface_setting))
+                                          any(scene%loads_by == [by_yield, by_percolation]) .or. &
+                                          allocated(scene%interface_setting))
       end associate
       deallocate (results%scene%surface)
       if (results%sharing%kind /= distributed_grids) &

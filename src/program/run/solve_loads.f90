@@ -11,6 +11,7 @@ module wavycon_solve_loads
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: is_good_status
    use wavycon_find_load, only: solve_for
+   use wavycon_find_percolation, only: solve_for_percolation
    use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
    use wavycon_kinds, only: dp
@@ -20,7 +21,7 @@ module wavycon_solve_loads
    use wavycon_quantities, only: approach, contact_area, mean_gap
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_approach, by_mean_gap, by_pressure, by_yield
+   use wavycon_scene, only: by_approach, by_mean_gap, by_percolation, by_pressure, by_yield
    use wavycon_solution_record, only: record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
@@ -35,9 +36,9 @@ module wavycon_solve_loads
    !> either.
    integer, parameter :: block_length = 8
 
-   !> The quantity that is given for a load, for by_pressure, by_mean_gap, by_contact_area, by_yield and by_approach of
-   !> wavycon_scene in this order; 0: not a quantity of the solution's record.
-   integer, parameter :: quantity_of(*) = [0, mean_gap, contact_area, 0, approach]
+   !> The quantity that is given for a load, for by_pressure, by_mean_gap, by_contact_area, by_yield, by_approach and
+   !> by_percolation of wavycon_scene in this order; 0: not a quantity of the solution's record.
+   integer, parameter :: quantity_of(*) = [0, mean_gap, contact_area, 0, approach, 0]
 
 contains
 
@@ -111,7 +112,8 @@ contains
       end do
    end subroutine solve_loads
 
-   !> Solves one load, or finds and solves the load that has a given mean gap, approach, area or stress.
+   !> Solves one load, or finds and solves the load that has a given mean gap, approach, area or stress, or at
+   !> which contact or gap begins or ends to percolate.
    subroutine solve_target(solver, loads_by, target, solution, setting)
       class(contact_solver), intent(inout) :: solver
       integer, intent(in) :: loads_by     !! by_pressure or another name of wavycon_scene
@@ -121,6 +123,8 @@ contains
 
       if (loads_by == by_yield) then
          call solve_for_yield(solver, setting, target, solution)
+      else if (loads_by == by_percolation) then
+         call solve_for_percolation(solver, nint(target), solution)
       else if (quantity_of(loads_by) > 0) then
          call solve_for(solver, quantity_of(loads_by), target, solution)
       else

@@ -15,10 +15,11 @@ module wavycon_scene
    public :: scene_type, interface_setting
 
    !> The quantity by which a deck gives its loads: the values of loads_by.
-   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3, by_yield = 4, by_approach = 5
+   integer, parameter, public :: by_pressure = 1, by_mean_gap = 2, by_contact_area = 3, by_yield = 4, by_approach = 5, &
+      by_percolation = 6
    !> These quantities as headings of the log, in the same order.
-   character(19), parameter, public :: target_words(5) = [character(19) :: 'pbar/p*', 'gap/Delta', 'area/A0', &
-      'stress/yield stress', 'approach/Delta']
+   character(19), parameter, public :: target_words(6) = [character(19) :: 'pbar/p*', 'gap/Delta', 'area/A0', &
+      'stress/yield stress', 'approach/Delta', 'percolation']
 
    !> The values of &interface that computations need. Equations (I..) are those of src/beyond/README.md.
    type :: interface_setting
@@ -56,7 +57,7 @@ module wavycon_scene
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! by_pressure or another of the names above
       !> The loads in the deck's order, by loads_by: P, G, the contact area fraction, the largest equivalent stress over
-      !> the yield stress, or the approach over Delta.
+      !> the yield stress, the approach over Delta, or the place in `percolations`.
       real(dp), allocatable :: target(:)
       real(dp), allocatable :: mean_pressure(:)     !! the loads [pressure], if loads_by is by_pressure
       !> The values of the groups: `scene_values` and `surface_values` of &scene and &surface, the others of their

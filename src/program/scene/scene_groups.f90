@@ -30,7 +30,7 @@ module wavycon_scene_groups
 
    type, extends(key_group), public :: load_group
       type(key_value) :: pbar_over_pstar, mean_pressure, mean_gap_over_amplitude, mean_gap, contact_area_fraction
-      type(key_value) :: yield, force, approach, contact_area, sweep_from, sweep_to, sweep_steps
+      type(key_value) :: yield, force, approach, contact_area, percolates, sweep_from, sweep_to, sweep_steps
    end type load_group
 
    type, extends(key_group), public :: stress_group

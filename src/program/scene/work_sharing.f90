@@ -56,7 +56,8 @@ contains
       type(solver_traits), intent(in) :: traits     !! traits of the started solver
       integer, intent(in) :: loads                  !! number of loads
       logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
-      logical, intent(in) :: need_stresses          !! whether loads are found by stresses, or the interface is computed
+      !> Whether loads are found by stresses or spots, or the interface is computed.
+      logical, intent(in) :: need_stresses
 
       logical :: can_distribute_loads, is_large
       type(grid_slab) :: slab

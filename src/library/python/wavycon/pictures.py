@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 UNRESOLVED = 4   # the status code; from 10 on loads were not solved as requested
 PLACES = ("x", "y", "depth", "distance")
+# Regions of a map: what each is called, with its colour, and the colours of spots.
+REGIONS = {"gap that percolates": "#d9e8f5", "closed gap": "#f0a830", "contact that percolates": "#33202a"}
+SPOTS = ("#1f77b4", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#17a398")
 
 
 def axes(ax: Any) -> Any:
@@ -68,10 +71,16 @@ def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pres
 
 
 def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: Any) -> Any:
-    """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these.
-    style: options of pcolormesh, for a profile of plot."""
-    if field not in (fields := [name for name in result._fields if name not in PLACES]):
+    """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these;
+    or 'regions': each spot of contact in a colour, and what percolates. style: options of pcolormesh, for a profile
+    of plot."""
+    fields = [name for name in result._fields if name not in PLACES]
+    # Without p*, with free edges, nothing is repeated.
+    fields += ["regions"]*(len(result.y) > 1 and not np.isnan(result.pbar_over_pstar))
+    if field not in fields:
         raise ValueError(unknown("field", field, fields))
+    if field == "regions":
+        return plot_regions(result, axes(ax), style)
     ax, facts = axes(ax), result._facts
     factor, words = scaled(facts, field)
     values, (x, y) = factor*result._fields[field], (scaled(facts, axis)[1] for axis in "xy")
@@ -83,6 +92,48 @@ def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: A
     if field != "displacement":
         values = np.ma.masked_equal(values, 0)   # where the bodies are apart, or touch, there is no colour
     return mesh(ax, result.x, result.y, values, words, xlabel=x, ylabel=y, aspect="equal", style=style)
+
+
+def connected(mask: Any, corners: bool) -> Any:
+    """Numbers of the connected parts of a mask whose sides are joined, 0 outside. corners: whether points that touch at
+    a corner are connected."""
+    numbers = np.where(mask, np.arange(1, mask.size + 1).reshape(mask.shape), 0)
+    joined = np.arange(mask.size + 1)   # the number that each number has become
+    steps = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if corners or abs(i + j) == 1]
+    while True:
+        largest = np.max([np.roll(numbers, step, (0, 1)) for step in [(0, 0), *steps]], axis=0)*mask
+        if np.array_equal(largest, numbers):
+            return numbers
+        np.maximum.at(joined, numbers, largest)
+        joined = joined[joined]
+        numbers = joined[numbers]
+
+
+def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
+    """Draws spots in colours, and the gap by whether it percolates. On two by two cells a region that percolates is
+    connected with its own copy; on a mirrored map it goes from border to border."""
+    is_periodic, (rows, columns) = "edges = 'mirror'" not in result._facts.deck, result.pressure.shape
+    colours = np.zeros((rows, columns), dtype=int)
+    for is_contact in False, True:
+        mask = (result.pressure > 0) == is_contact
+        numbers = connected(mask if is_periodic else np.pad(mask, (0, 1)), is_contact)[:rows, :columns]
+        if is_periodic:
+            cells = connected(np.tile(mask, (2, 2)), is_contact).reshape(2, rows, 2, columns).swapaxes(1, 2)
+            through = numbers[mask & (cells.reshape(4, rows, columns)[1:] == cells[0, 0]).any(0)]
+        else:
+            through = np.append(*(np.intersect1d(*ends) for ends in (numbers[[0, -1]], numbers[:, [0, -1]].T)))
+        spots = len(REGIONS) + np.unique(numbers, return_inverse=True)[1].reshape(numbers.shape) % len(SPOTS)
+        kinds = np.where(np.isin(numbers, through), 2*is_contact, spots if is_contact else 1)
+        colours[mask] = kinds[mask]
+    ax.pcolormesh(result.x, result.y, colours, **{"shading": "nearest", "rasterized": True, "vmin": 0, "cmap":
+                  need("matplotlib.colors", "plot").ListedColormap([*REGIONS.values(), *SPOTS]),
+                  "vmax": len(REGIONS) + len(SPOTS) - 1, **style})
+    for kind, (name, colour) in enumerate(REGIONS.items()):
+        if (colours == kind).any():
+            ax.plot([], [], "s", color=colour, label=name)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=len(REGIONS), frameon=False)
+    ax.set(title=title(result), aspect="equal", **{f"{axis}label": scaled(result._facts, axis)[1] for axis in "xy"})
+    return ax
 
 
 def plot_stress_section(result: Result, column: str = "von_mises", ax: Any = None, **style: Any) -> Any:

@@ -88,10 +88,10 @@ class Result(Columns[float, str]):
 
     def table(self, name: str) -> Rows:
         """A table of the program, as a structured array of shape (rows,): 'summary', that of a key of &output, such as
-        'spots', 'contours', 'lines', 'map' or 'spectrum', or, with stress={...}, 'stress_largest', 'stress_line',
-        'stress_section' or 'stress_planes', with interface={...} 'interface', 'partial_slip', 'slip_loop',
-        'slip_map', 'adhesion', 'adhesion_lines', 'adhesion_map' or 'adhesion_contour'. Made when it is first asked
-        for."""
+        'spots', 'contours', 'lines', 'map' or 'spectrum', with percolates=... 'percolation', with stress={...}
+        'stress_largest', 'stress_line', 'stress_section' or 'stress_planes', with interface={...} 'interface',
+        'partial_slip', 'slip_loop', 'slip_map', 'adhesion', 'adhesion_lines', 'adhesion_map' or 'adhesion_contour'.
+        Made when it is first asked for."""
         if name not in self._tables:
             self._tables[name], units = library.table(self._live(name), name, self._load)
             self._facts.units.update(units)

@@ -72,6 +72,7 @@ class Problem:
         with wc.problem(wc.wave_2d(), e_star=2e11) as p:
             areas = p.solve(mean_pressure=[1e7, 1e8]).contact_area_fraction
             needed = p.find(contact_area_fraction=0.3).mean_pressure
+            sealed = p.find(percolates="gap").mean_pressure
 
     settings: as of solve, without loads. The end of `with` lets go of the solver; results stay.
     """
@@ -89,14 +90,16 @@ class Problem:
         self._scene = None
 
     def solve(self, *, progress: bool = True, **load: Unpack[Load]) -> Results:
-        """Solves loads, a number or a list of one key of &load, such as mean_pressure=[1e6, 1e7]. A solver may start
-        from the load before, so that last digits depend on it."""
+        """Solves loads, a number or a list of one key of &load, such as mean_pressure=[1e6, 1e7], or its word, such as
+        percolates="gap". A solver may start from the load before, so that last digits depend on it."""
         if self._scene is None:
             raise ValueError("this problem has ended with its `with`")
         if len(load) != 1:
             raise ValueError(f"give the loads by one of {', '.join(keys()['load'])}")
         given: Any
         (name, given), = load.items()
+        if isinstance(given, str):
+            name, given = f"{name}={given}", 0.0
         values = np.atleast_1d(reals(given))
         if values.ndim != 1 or not values.size:
             raise ValueError(f"{name} must be a number or a list of numbers")
@@ -106,7 +109,8 @@ class Problem:
                          lambda scene, load: call("solve", scene, name.encode(), values[load - 1]))
 
     def find(self, **load: Unpack[Load]) -> Result:
-        """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3."""
+        """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3, or percolates: its
+        table "percolation" has the error of the load."""
         return self.solve(**load)[0]
 
 

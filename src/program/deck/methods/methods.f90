@@ -70,17 +70,17 @@ contains
       call keys%add(values%accuracy, key_type(real_value, 'accuracy', short_number(default_accuracy), '-', &
          'largest error allowed of mean gap [amplitude], contact area fraction and peak pressure [p*]; of '// &
          "'fitted' with lines, map, contours, spots, histograms or details also of the gap at a trough. A "// &
-         'load that misses it has the status not_accurate.', 1e-12_dp, 0.1_dp, way=10))
+         'load that misses it has the status not_accurate.', 1e-12_dp, 0.1_dp, way=100))
       keys%of = 'grid auto'
       call keys%add(values%grid_points, key_type(integer_value, 'grid_points', '', '', &
          'in place of accuracy: points of the cell along x and y of the one grid to solve; one number for both. '// &
          'Even numbers. For height maps, read or made, the default is their own grid. Errors are estimated from '// &
          '64 points a side on; those of coarser grids, and of grids with less than two points to a wave, are '// &
-         'unknown.', 8, 1048576, most_values=2, way=11))
+         'unknown.', 8, 1048576, most_values=2, way=101))
       call keys%add(values%residual, key_type(real_value, 'residual', '', '-', &
          'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
          'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
-         'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=11))
+         'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=101))
    end subroutine list_method_keys
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver. A solver that cannot solve
