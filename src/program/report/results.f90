@@ -180,13 +180,15 @@ contains
       end associate
    end subroutine begin_block
 
-   !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*.
+   !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*, and
+   !> on a flat one, whose p* is 0, unless it is infinite.
    elemental real(dp) function in_p_star(self, number)
       class(results_type), intent(in) :: self
       real(dp), intent(in) :: number
 
       in_p_star = number
-      if (self%solver%surface%has_free_edges) in_p_star = not_a_number()
+      if (self%solver%surface%has_free_edges .or. (self%scene%p_star <= 0.0_dp .and. number <= huge(number))) &
+         in_p_star = not_a_number()
    end function in_p_star
 
    !> The number of a load in a column of tables; NaN if the number is unknown or does not exist. With free edges there
