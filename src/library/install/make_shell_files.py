@@ -3,7 +3,8 @@
 usage: make_shell_files.py PROGRAM DATE FOLDER
 
 PROGRAM: wavycon, whose --help has all options, groups and keys. DATE: of the release, for the page. FOLDER: where
-wavycon.1, wavycon.bash and _wavycon are written. Needs nothing but Python.
+wavycon.1, wavycon.bash and _wavycon are written, from the files of these names and `.in` beside this one, in which
+@WORD@ stands for what is made here. Needs nothing but Python.
 """
 import re
 import subprocess
@@ -14,92 +15,6 @@ from pathlib import Path
 WIDEST = 100
 OPTION = re.compile(r"   (?P<name>--[\w-]+)(?P<short>, -\w)?( (?P<unit>[A-Z]\S*))?(?=\s|$)")
 KEY = re.compile(r"   (?P<name>\w+)")
-
-PAGE = r""".TH WAVYCON 1 {date} "{version}" "User Commands"
-.SH NAME
-wavycon \- elastic contact of wavy and rough surfaces
-.SH SYNOPSIS
-.B wavycon
-{synopsis}
-.SH DESCRIPTION
-{what}
-.PP
-{notes}
-.SH OPTIONS
-{options}
-.SH DECKS
-{decks}
-{groups}
-"""
-
-BASH = r"""# Completion of wavycon's command line by bash, made from `wavycon --help`.
-_wavycon() {{
-   local line=${{COMP_LINE:0:COMP_POINT}} word before words='' list
-   word=${{line##*[[:blank:]]}}
-   before=${{line%"$word"}}
-   before=${{before%"${{before##*[![:blank:]]}}"}}
-   before=${{before##*[[:blank:]]}}
-   if [[ $word == --*=* ]]; then
-      before=${{word%%=*}}
-      word=${{word#*=}}
-   fi
-   COMPREPLY=()
-   case $before in
-      {settings})
-         if [[ $word != *=* ]]; then
-            compopt -o nospace 2>/dev/null
-            mapfile -t COMPREPLY < <(compgen -S = -W '{keys}' -- "$word")
-            return
-         fi
-         case ${{word%%=*}} in
-{values}
-         esac
-         word=${{word#*=}}
-         list=${{word%"${{word##*,}}"}}
-         mapfile -t COMPREPLY < <(compgen -P "$list" -W "$words" -- "${{word##*,}}")
-         return ;;
-      {folders}) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
-      {files}) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
-      {numbers}) ;;
-      --help) mapfile -t COMPREPLY < <(compgen -W '{group_names}' -- "$word") ;;
-      *)
-         if [[ $word == -* ]]; then
-            mapfile -t COMPREPLY < <(compgen -W '{options}' -- "$word")
-         else
-            mapfile -t COMPREPLY < <(compgen -f -X '!*.nml' -- "$word"; compgen -d -- "$word")
-         fi ;;
-   esac
-   # So that a directory gets a slash.
-   compopt -o filenames 2>/dev/null
-}}
-complete -F _wavycon wavycon
-"""
-
-ZSH = r"""#compdef wavycon
-# Completion of wavycon's command line by zsh, made from `wavycon --help`.
-_wavycon_setting() {{
-   local -a choices
-   if ! compset -P 1 '*='; then
-      compadd -S = -- {keys}
-      return
-   fi
-   case ${{${{IPREFIX%=}}##*=}} in
-{values}
-   esac
-   compset -P '*,'
-   compadd -- $choices
-}}
-_wavycon_deck() {{
-   if (( ${{words[(I)--help]}} )); then
-      compadd -- {group_names}
-   else
-      _files -g '*.nml(-.)'
-   fi
-}}
-_arguments \
-{arguments} \
-   '*:DECK:_wavycon_deck'
-"""
 
 
 def paragraphs(lines):
@@ -136,32 +51,18 @@ def roff(text):
 
 def item(match, body):
     """An option or key with its paragraphs, for man."""
-    names = match.groupdict()
-    head = ", ".join(rf"\fB{roff(name)}\fR" for name in (names["name"], (names.get("short") or "").strip(", ")) if name)
-    unit = rf" \fI{roff(names['unit'])}\fR" if names.get("unit") else ""
-    return f".TP\n{head}{unit}\n" + "\n.br\n".join(map(roff, body))
+    names_in_bold = re.sub(r"--[\w-]+|-\w\b|^\w+", r"\\fB\g<0>\\fR", match[0].strip())
+    return ".TP\n" + names_in_bold.replace("-", "\\-") + "\n" + "\n.br\n".join(map(roff, body))
 
 
-def choices(body):
-    """The words that a key takes; none for numbers and texts."""
-    words = re.match(r"'\w+'(?:(?:, | or )'\w+')*|\.true\. or \.false\.", body[0])
-    return re.findall(r"\.?\b(?!or\b)\w+\.?", words[0]) if words else []
-
-
-def brief(body):
-    """The first clause of a meaning, for zsh."""
-    return re.sub(r"([][:\\])", r"\\\1", re.split(r"[;,:.] ", body[0])[0].replace("'", ""))
-
-
-def cases(values, begin, set_words, indent):
-    """The words of each key that has some, as cases of a shell."""
-    return "\n".join(f"{' '*indent}{begin}{key}) {set_words.format(' '.join(words))} ;;"
-                     for key, words in values.items() if words)
+def cases(values, case):
+    """The words of each key that takes words, as cases of a shell."""
+    return "\n".join(case.format(key, " ".join(words)) for key, words in values.items() if words)
 
 
 def main():
     program, date, folder = sys.argv[1:]
-    version, text = (subprocess.run([program, option], stdout=subprocess.PIPE, universal_newlines=True, check=True).stdout
+    version, text = (subprocess.check_output([program, option], universal_newlines=True)
                      for option in ("--version", "--help"))
     text, *groups = text.split("\n\n&")
     what, usage, options, *notes = text.split("\n\n")
@@ -171,33 +72,35 @@ def main():
         name, meaning = group.partition("\n   ")[0].split(None, 1)
         own = entries(group.splitlines(), KEY)
         page += [f".SS &{name}", roff(" ".join(meaning.split())), *(item(*key) for key in own)]
-        values.update({f"{name}.{match['name']}": choices(body) for match, body in own})
-
-    def takes(*units):
-        """The options with a value of these units."""
-        return [match["name"] for match, _ in options if any(re.match(unit, match["unit"] or "") for unit in units)]
-
-    actions = {"GROUP": "_wavycon_setting", "DIR": "_files -/", "FILE": "_files"}
+        for match, body in own:
+            words = re.match(r"'\w+'(?:(?:, | or )'\w+')*|\.true\. or \.false\.", body[0])
+            values[f"{name}.{match['name']}"] = re.findall(r"\.?\b(?!or\b)\w+\.?", words[0]) if words else []
+    # What the value of an option is, by the first word of its unit, for zsh; and the options with such a value.
+    actions = {"GROUP": "_wavycon_setting", "DIR": "_files -/", "FILE": "_files", "N": " "}
+    having = {unit: [] for unit in actions}
     arguments = []
     for match, body in options:
-        name, unit = match["name"], match["unit"]
+        name, unit = match["name"], match["unit"] or ""
         again = "*" if f"[{name} {unit}]..." in " ".join(usage.split()) else ""
-        value = f"=[{brief(body)}]:{unit}:{actions.get(unit.split('.')[0], ' ')}" if unit else f"[{brief(body)}]"
-        arguments += [f"   '{again}{name}{value}'"] + [f"   '-h{value}'"]*bool(match["short"])
-    names = {"keys": " ".join(values), "group_names": " ".join(group.split()[0] for group in groups),
-             "options": " ".join(match["name"] for match, _ in options), "arguments": " \\\n".join(arguments)}
+        first_clause = re.split(r"[;,:.] ", body[0])[0].replace("'", "")
+        if unit:
+            having[unit.split(".")[0]].append(name)
+            arguments.append(f"   '{again}{name}=[{first_clause}]:{unit}:{actions[unit.split('.')[0]]}'")
+        else:
+            arguments += [f"   '{one}[{first_clause}]'" for one in re.findall(r"-+[\w-]+", match[0])]
     *notes, decks = [roff(" ".join(note.split())) for note in notes]
-    files = {
-        "wavycon.1": PAGE.format(
-            date=date, version=version.strip(), synopsis=roff(" ".join(usage.split()[2:])), what=roff(what.split(": ")[1].capitalize()),
-            notes="\n.PP\n".join(notes), options="\n".join(item(*option) for option in options), decks=decks,
-            groups="\n".join(page)),
-        "wavycon.bash": BASH.format(
-            settings=" | ".join(takes("GROUP")), folders=" | ".join(takes("DIR")), files=" | ".join(takes("FILE")),
-            numbers=" | ".join(takes("N$")), values=cases(values, "", "words='{}'", 12), **names),
-        "_wavycon": ZSH.format(values=cases(values, "*", "choices=({})", 6), **names)}
-    for name, content in files.items():
-        Path(folder, name).write_text(content, encoding="utf-8")
+    made = {
+        "date": date, "version": version.strip(), "synopsis": roff(" ".join(usage.split()[2:])), "decks": decks,
+        "what": roff(what.split(": ")[1].capitalize()), "notes": "\n.PP\n".join(notes), "groups": "\n".join(page),
+        "options": "\n".join(item(*option) for option in options), "arguments": " \\\n".join(arguments),
+        "option_names": " ".join(match["name"] for match, _ in options), "keys": " ".join(values),
+        "group_names": " ".join(group.split()[0] for group in groups),
+        "bash_values": cases(values, "            {}) words='{}' ;;"),
+        "zsh_values": cases(values, "      *{}) choices=({}) ;;"),
+        **{unit: " | ".join(names) for unit, names in having.items()}}
+    for name in "wavycon.1", "wavycon.bash", "_wavycon":
+        template = Path(__file__).with_name(name + ".in").read_text(encoding="utf-8")
+        Path(folder, name).write_text(re.sub(r"@(\w+)@", lambda word: made[word[1]], template), encoding="utf-8")
 
 
 if __name__ == "__main__":
