@@ -20,8 +20,8 @@ module wavycon_height_map
 contains
 
    !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing heights that
-   !> are not to be filled, for too few heights to determine the trend, and for filters that leave nothing of the heights;
-   !> exit_file_trouble if there is not enough
+   !> are not to be filled, for too few heights to determine the trend, and for filters that leave nothing of the
+   !> heights; exit_file_trouble if there is not enough
    !> memory.
    subroutine surface_of_map(source, preparation, unit, sides, map, surface, statistics, error, radii)
       character(*), intent(in) :: source            !! name of the map, for messages

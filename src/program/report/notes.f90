@@ -106,8 +106,8 @@ contains
       integer :: direction
 
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
-      if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other map '// &
-         'does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')
+      if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other '// &
+         'map does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')
       if (map%spikes > 0) call logger%note(integer_text(map%spikes)//' of the heights are far from all '// &
          'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
          'surface does not. Remedy: despike = .true.')

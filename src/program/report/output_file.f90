@@ -164,17 +164,9 @@ contains
       type(output_file), intent(inout) :: self
       character(*), intent(in) :: line
 
-      if (self%is_open()) call check_commas(self, put_text(self%commas, line//newline, len(line, c_size_t) + 1))
+      if (self%is_open()) &
+         call check(self, put_text(self%commas, line//newline, len(line, c_size_t) + 1), self%comma_name)
    end subroutine put_commas
-
-   !> Records an error of the table with commas, if there is one.
-   subroutine check_commas(self, number)
-      type(output_file), intent(inout) :: self
-      integer(c_int), intent(in) :: number   !! as of `check`
-
-      if (number /= 0 .and. self%is_open()) self%name = self%comma_name
-      call check(self, number)
-   end subroutine check_commas
 
    !> The words of a line with commas between them. A word that has commas, a list, stands in quotes.
    pure function comma_line(line, units) result(text)
@@ -240,11 +232,14 @@ contains
    end subroutine put_row
 
    !> Records an error of the operating system, if there is one.
-   subroutine check(self, number)
+   subroutine check(self, number, name)
       class(output_file), intent(inout) :: self
       integer(c_int), intent(in) :: number   !! the system's number of the error, as error_text takes it; 0: no error
+      character(*), intent(in), optional :: name   !! path of the file, if it is not `name`
 
-      if (number /= 0) call self%note_trouble(error_text(number))
+      if (number == 0 .or. .not. self%is_open()) return
+      if (present(name)) self%name = name
+      call self%note_trouble(error_text(number))
    end subroutine check
 
    !> Records an error. `finish` will report the first recorded error and remove the file.
@@ -268,7 +263,7 @@ contains
       if (allocated(self%columns) .and. .not. self%has_names) call put_names(self)
       call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
       if (allocated(self%comma_name)) &
-         call check_commas(self, end_written(self%commas, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
+         call check(self, end_written(self%commas, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int), self%comma_name)
       if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
    end subroutine finish

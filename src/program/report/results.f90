@@ -180,8 +180,8 @@ contains
       end associate
    end subroutine begin_block
 
-   !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*, and
-   !> on a flat one, whose p* is 0, unless it is infinite.
+   !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*,
+   !> and on a flat one, whose p* is 0, unless it is infinite.
    elemental real(dp) function in_p_star(self, number)
       class(results_type), intent(in) :: self
       real(dp), intent(in) :: number
