@@ -12,6 +12,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -253,6 +254,67 @@ class Consumers(unittest.TestCase):
         self.assertTrue(keys["surface"]["kind"]["required"])
         self.assertEqual(["wave_1d", "wave_2d", "hexagonal"], keys["surface"]["amplitude"]["read_by"])
         self.assertNotIn("read_by", keys["material"]["e_star"])
+
+    @loads_the_library
+    def test_page_and_completion_have_all_options_and_keys(self):
+        share = self.prefix / "share"
+        page = (share / "man" / "man1" / "wavycon.1").read_text()
+        scripts = [(share / place).read_text() for place in ("bash-completion/completions/wavycon",
+                                                             "zsh/site-functions/_wavycon")]
+        shown = run(self.prefix / "bin" / "wavycon", "--help").split("\n\n&")[0]
+        options = re.findall(r"\n   (--[\w-]+)", shown)
+        self.assertGreaterEqual(len(options), 12)
+        for option in options:
+            self.assertIn(".TP\n\\fB" + option.replace("-", "\\-") + "\\fR", page)
+            for script in scripts:
+                self.assertRegex(script, rf"[ '*]{option}\b")
+        for group in json.loads(Library(self.library).text(None, "keys")):
+            own = page.split(f".SS &{group['name']}\n")[1].split("\n.SS ")[0]
+            self.assertEqual([key["name"] for key in group["keys"]], re.findall(r"^\.TP\n\\fB(\w+)", own, re.MULTILINE))
+            for key in group["keys"]:
+                # The meaning is a line of its own.
+                self.assertIn("\n.br\n", own.split(f"\\fB{key['name']}\\fR\n")[1].split("\n.TP")[0])
+                words = [".true.", ".false."] if key["type"] == "logical" else key.get("choices", [])
+                for script, pattern in zip(scripts, (r"{}\) words='(.*)' ;;", r"{}\) choices=\((.*)\) ;;")):
+                    self.assertIn(f" {group['name']}.{key['name']} ", script.replace("\n", " ").replace("'", " "))
+                    found = re.findall(pattern.format(rf"\b{group['name']}\.{key['name']}"), script)
+                    self.assertEqual([" ".join(words)]*bool(words), found)
+        for command in (["man", "--warnings", "-l"], ["groff", "-man", "-ww", "-z"], ["mandoc", "-T", "lint", "-W",
+                                                                                     "warning"]):
+            if shutil.which(command[0]):
+                done = subprocess.run([*command, share / "man" / "man1" / "wavycon.1"], stdin=subprocess.DEVNULL,
+                                      capture_output=True, text=True, check=False, timeout=LONGEST)
+                self.assertEqual((0, ""), (done.returncode, done.stderr), command)
+
+    def test_completion(self):
+        share = self.prefix / "share"
+        if shutil.which("zsh"):
+            run("zsh", "-n", share / "zsh" / "site-functions" / "_wavycon")
+        if not shutil.which("bash"):
+            self.skipTest("there is no bash")
+        script = share / "bash-completion" / "completions" / "wavycon"
+        run("bash", "-n", script)
+        folder = self.folder / "completion"
+        (folder / "decks of mine").mkdir(parents=True)
+        for name in ("one.nml", "one.dat"):
+            (folder / name).touch()
+        for line, expected in {
+                "wavycon --ch": ["--check"],
+                "wavycon one.nml --s": ["--set", "--sweep"],
+                "wavycon --help su": ["surface"],
+                "wavycon --set surface.ki": ["surface.kind="],
+                "wavycon --set  method.solver=f": ["fitted"],
+                "wavycon --set=surface.edges=": ["periodic", "mirror", "window", "free"],
+                "wavycon --sweep output.map=.true.,.": [".true.,.true.", ".true.,.false."],
+                "wavycon --set load.yield=": [],
+                "wavycon --jobs ": [],
+                "wavycon o": ["one.nml"],
+                "wavycon ": ["one.nml", "decks of mine"],
+                "wavycon --output d": ["decks of mine"],
+                "wavycon --table=one": ["one.nml", "one.dat"]}.items():
+            done = run("bash", "-c", 'source "$1"; COMP_LINE=$2 COMP_POINT=${#2}; _wavycon; '
+                       'printf "%s\\n" "${COMPREPLY[@]}"', "bash", script, line, cwd=folder)
+            self.assertEqual(sorted(expected), sorted(filter(None, done.splitlines())), line)
 
     def test_misuse(self):
         self.assertEqual("0 failures\n", run(self.folder / "project" / "misuse", cwd=self.folder))

@@ -300,6 +300,15 @@ class Digits(PackageTest):
         self.assertEqual(results.deck, again.deck)
         self.refuse("was not saved", again.table, "contours")
         self.refuse("was not saved", again[0].fields_at, 0, 0)
+        # No loads: the columns are there, and the spectrum.
+        results[:0].save("none.npz")
+        none = wc.load("none.npz")
+        self.assertEqual((0, results.table().dtype), (len(none), none.table().dtype))
+        self.assertEqual((0,), none.mean_gap.shape)
+        self.assertIn("mean_gap", none)
+        self.assertEqual(list(results.to_dataframe()), list(none.to_dataframe()))
+        none[:0].save("none.npz", fields=False)
+        self.assertEqual(0, len(wc.load("none.npz").table()))
 
     def test_saved_results_replace_results_alone(self):
         results = wc.solve(wc.wave_1d(), pbar_over_pstar=0.5)

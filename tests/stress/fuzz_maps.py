@@ -500,7 +500,7 @@ def odd_files(settings, work):
     attempt("too small", "1e-200 2e-200 1e-200 0\n", 1, "times height_scale, are up to 1e-200 [length]")
     for height in ("0", "0.1", "-1e90", "1e-90", "4.9e-324"):
         for side in (4, 7, 11, 16):
-            attempt(f"flat {height} {side}", (" ".join([height]*side) + "\n")*side, 0, "the surface is flat")
+            attempt(f"flat {height} {side}", (" ".join([height]*side) + "\n")*side, 1, "the surface is flat")
     for columns, lines in ((5, 5), (7, 11), (13, 4), (16, 16), (17, 31), (61, 1), (64, 4), (101, 5)):
         stream = random.Random(columns)
         attempt(f"{columns} x {lines}", matrix(stream, columns, lines), 0, shape_words(columns, lines))

@@ -48,7 +48,7 @@ DECKS = (
     ("self-affine", "&surface kind = 'self_affine', rms_slope = 0.1, points = 32, 48, short_wavelength = 0.2,\n"
      "   spectrum = 'random' /\n" + LOADS + TABLES.replace("map = t", "map = t, histograms = t"), 0),
     ("map, ragged", "&surface kind = 'file', file = 'ragged.dat' /\n" + LOADS, 1),
-    ("flat", "&surface kind = 'wave_1d', amplitude = 0 /\n" + LOADS, 0),
+    ("flat", "&surface kind = 'wave_1d', amplitude = 0 /\n&load mean_pressure = 0, 0.3 /\n", 0),
     ("bad deck", "&surface knd = 'wave_3d', amplitude = 1e999, file = 'x /\n&lod pbar = 1,,2 /\n&load\n", 1),
 )
 MAPS = {"matrix.dat": "".join(" ".join(str((3*i*i + 5*j + i*j) % 7) for i in range(8)) + "\n" for j in range(8)),

@@ -93,7 +93,9 @@ int wavycon_refusal(const char *path, const char *mark)
     if (!S_ISREG(info.st_mode) || info.st_size == 0)
         return 0;
     FILE *file = fopen(path, "r");
-    if (file != NULL && fread(start, 1, sizeof start - 1, file) > 0)
+    if (file != NULL && fread(start, 1, sizeof start - 1, file) == 0)
+        start[0] = '\0';
+    if (file != NULL)
         fclose(file);
     return strncmp(start, mark, strlen(mark)) == 0 ? 0 : is_other;
 }

@@ -34,6 +34,7 @@ module wavycon_contact_solver
       !> Points along x and y, on the part of the cell that is solved: of the finest grid that may be solved, and of the
       !> one grid whose points were given; zeros if there is no such grid.
       integer :: finest_grid(2) = 0, given_grid(2) = 0
+      logical :: lacks_waves = .false.         !! whether the given grid leaves out waves of the surface
       logical :: needs_whole_grids = .false.   !! whether no grid can be distributed over processes
       integer :: choice = 0                    !! reason of the choice of 'auto', a name of wavycon_auto_contact
    end type solver_traits

@@ -108,6 +108,7 @@ contains
       plan = plan_grids(self%surface, self%options%points)
       if (allocated(self%smaller)) plan = plan_grids(self%smaller, self%options%points)
       traits%finest_grid = plan%grids(:, size(plan%grids, 2))
+      traits%lacks_waves = plan%lacks_waves
       if (all(self%options%points > 0)) traits%given_grid = traits%finest_grid
    end function traits
 

@@ -275,7 +275,7 @@ contains
       type(fourier_series), intent(in) :: series
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
       type(wave_stiffness), intent(in), optional :: kernel   !! stiffness of the waves
-      logical, intent(in), optional :: divides   !! if present the waves are divided, whatever the value
+      logical, intent(in), optional :: divides   !! whether the waves are divided; .false. if absent
 
       real(dp) :: factor(series%first():series%last(1), 0:series%last(2))
       integer :: k, l
@@ -285,7 +285,7 @@ contains
          if (present(kernel)) call kernel%of(factor(:, l))
       end do
       if (present(divides)) then
-         where (factor > 0.0_dp) factor = 1.0_dp/factor
+         where (divides .and. factor > 0.0_dp) factor = 1.0_dp/factor
       end if
       weighted = series
       call weighted%multiply(factor)

@@ -26,6 +26,8 @@ module wavycon_map_statistics
       logical :: lacks_missing_value = .false.     !! whether the deck gives a missing_value that no height has
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none
       character(:), allocatable :: length_unit     !! unit of length that the file names, or the deck in its place
+      !> Name of the one of two maps whose file names no unit while the other's does; not allocated if there is none.
+      character(:), allocatable :: without_unit
       type(map_changes) :: changes                 !! what was done to the measured map
       character(:), allocatable :: path            !! absolute path of the file; empty if there is no file
    contains

@@ -18,7 +18,7 @@ module wavycon_prepare_map
 
    !> If the prepared heights differ from each other by at most this part of the largest original one, the differences
    !> are rounding, and all heights are set to zero.
-   real(dp), parameter :: rounding = 64*epsilon(1.0_dp)
+   real(dp), parameter, public :: rounding = 64*epsilon(1.0_dp)
 
    !> The preparation of a map that a deck asks for.
    type :: map_preparation

@@ -17,6 +17,7 @@ module wavycon_roughness
       !> Sum over all waves of the mean square divided by the wavelength, eq. (M25a) [length]; on a layer each
       !> is also divided by the factor of the wave (E27).
       real(dp) :: frequency_moment = 0.0_dp
+      real(dp) :: slopes(2) = 0.0_dp   !! root mean squares of the slopes along x and along y, the parts of (M23) [-]
    end type roughness_type
 
    !> A bin of a spectrum. The bins of a spectrum are in the order of rising wave numbers.
@@ -43,10 +44,11 @@ contains
       type(wave_stiffness), intent(in), optional :: kernel   !! of the bodies; absent: half-spaces
 
       type(wave_stiffness) :: of_waves
-      !> For each wave number in X the sums (M22) to (M25a) over the waves, in the order of roughness_type.
-      real(dp) :: moments(4, series%first():series%last(1))
+      !> For each wave number in X the sums (M22) to (M25a) over the waves, in the order of roughness_type, and the
+      !> parts of (M23).
+      real(dp) :: moments(6, series%first():series%last(1))
       real(dp), dimension(series%first():series%last(1)) :: powers, q_squared, x_squared
-      real(dp) :: sums(4), unit
+      real(dp) :: sums(6), unit
       integer :: k, l
 
       ! Wave numbers are taken over 2 pi/unit. So their powers do not overflow and do not all underflow, whatever the
@@ -63,11 +65,14 @@ contains
          moments(3, :) = moments(3, :) + powers*q_squared**2
          call of_waves%of(q_squared)
          moments(4, :) = moments(4, :) + powers*q_squared
+         moments(5, :) = moments(5, :) + powers*x_squared
+         moments(6, :) = moments(6, :) + powers*(l*(unit/length(2)))**2
       end do
       sums = series%rows%column_totals(moments)
       sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))
       if (series%last(2) > 0) sums(3) = 0.5_dp*sums(3)
-      roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit)
+      roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit, &
+                                 amplitude*(2*pi/unit)*sqrt(sums(5:)))
    end function roughness_of
 
    !> The isotropic spectrum of a surface, eqs (M26) and (M27). Bin b has the wave numbers from (b - 1/2) dq to

@@ -9,7 +9,7 @@ module wavycon_height_map
    use wavycon_map_tuning, only: spiky_kurtosis
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
-   use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map
+   use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map, rounding
    use wavycon_surface, only: surface_type
    use wavycon_surface_of_points, only: surface_of_points
    implicit none (type, external)
@@ -20,7 +20,8 @@ module wavycon_height_map
 contains
 
    !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing heights that
-   !> are not to be filled, and for too few heights to determine the trend; exit_file_trouble if there is not enough
+   !> are not to be filled, for too few heights to determine the trend, and for filters that leave nothing of the
+   !> heights; exit_file_trouble if there is not enough
    !> memory.
    subroutine surface_of_map(source, preparation, unit, sides, map, surface, statistics, error, radii)
       character(*), intent(in) :: source            !! name of the map, for messages
@@ -38,7 +39,7 @@ contains
       type(grid_slab) :: slab
       type(map_changes) :: changes
       logical :: repeats
-      real(dp) :: extremes(2), largest, length(2), mean(1)
+      real(dp) :: extremes(2), largest, length(2), mean(1), unfiltered(2)
 
       slab = map%columns()
       length = sides/slab%points
@@ -55,6 +56,7 @@ contains
       length = length*slab%points
       ! A map with free edges is stored as a mirrored one. Opposite borders are neighbours of each other in neither.
       repeats = all(preparation%edges /= ['mirror', 'free  '])
+      unfiltered = slab%extremes(map%height)
       if (preparation%short_wavelength > 0.0_dp) &
          call leave_out_waves(slab%points, length, .not. repeats, 'shorter', preparation%filter, &
                               preparation%short_wavelength, map%height, changes%rms_of_short)
@@ -62,7 +64,11 @@ contains
          call leave_out_waves(slab%points, length, .not. repeats, 'longer', preparation%filter, &
                               preparation%long_wavelength, map%height, changes%rms_of_long)
       extremes = slab%extremes(map%height)
-      if (sum(extremes) <= 0.0_dp) then
+      if (sum(unfiltered) > 0.0_dp .and. sum(extremes) <= rounding*largest) then
+         call fatal_error(error, exit_bad_input, escaped(source)//': nothing is left of the heights but rounding: '// &
+                          'short_wavelength and long_wavelength leave out all waves of the map')
+         return
+      else if (sum(extremes) <= 0.0_dp) then
          ! All heights are equal. They are set to zero, because heights less their rounded mean would not be zero
          ! exactly.
          map%height = 0.0_dp

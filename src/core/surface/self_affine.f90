@@ -1,4 +1,4 @@
-!> Makes random self-affine surfaces from their spectra. Equations (G1) to (G5) are in README.md of this directory.
+!> Makes random self-affine surfaces from their spectra. Equations (G1) to (G8) are in README.md of this directory.
 module wavycon_self_affine
    use, intrinsic :: iso_c_binding, only: c_long, c_ptr
    use wavycon_constants, only: largest_number, pi, smallest_number
@@ -16,7 +16,7 @@ module wavycon_self_affine
    implicit none (type, external)
    private
 
-   public :: self_affine_spectrum, self_affine_surface, least_points_of, has_waves, make_heights
+   public :: self_affine_spectrum, self_affine_surface, least_points_of, has_waves, make_heights, sides_of_spectrum
 
    !> The waves of a periodic cell and their amplitudes.
    type :: self_affine_spectrum
@@ -33,6 +33,7 @@ module wavycon_self_affine
       real(dp) :: density = 0.0_dp
       logical :: random_amplitudes = .false.  !! true: amplitudes of a Gaussian process; false: those of the spectrum
       integer :: seed = 1                     !! seed of the random numbers, >= 1
+      real(dp) :: anisotropy = 1.0_dp         !! gamma of (G6), correlation length along x over that along y, > 0
    end type self_affine_spectrum
 
    !> A wave whose length is outside of a cut-off by this part, which is rounding, counts as inside.
@@ -90,7 +91,7 @@ contains
       !> Upper bound of the wave numbers, so that they are default integers. Grids have far fewer points.
       real(dp), parameter :: most = 1e8_dp
 
-      highest = int(min(most, spectrum%length/spectrum%shortest*(1 + rounding)))
+      highest = int(min(most, sides_of_spectrum(spectrum%length, spectrum%anisotropy)/spectrum%shortest*(1 + rounding)))
       if (spectrum%dimension == 1) highest(2) = 0
    end function highest_waves
 
@@ -99,29 +100,40 @@ contains
       type(self_affine_spectrum), intent(in) :: spectrum
 
       integer :: highest(2), m, n
+      real(dp) :: sides(2)
 
       highest = highest_waves(spectrum)
+      sides = sides_of_spectrum(spectrum%length, spectrum%anisotropy)
       has_waves = .true.
       do m = 0, highest(1)
          do n = 0, highest(2)
-            if (mean_square(spectrum, frequency(spectrum, m, n)) > 0.0_dp) return
+            if (mean_square(spectrum, frequency(sides, m, n)) > 0.0_dp) return
          end do
       end do
       has_waves = .false.
    end function has_waves
 
-   !> The frequency of a wave, (G2) [1/length].
-   pure real(dp) function frequency(spectrum, m, n)
-      type(self_affine_spectrum), intent(in) :: spectrum
-      integer, intent(in) :: m, n   !! wave numbers
+   !> The sides of the cell for which (G2) is the frequency in the spectrum, (G6) [length].
+   pure function sides_of_spectrum(length, anisotropy) result(sides)
+      real(dp), intent(in) :: length(2)    !! sides of the cell [length]
+      real(dp), intent(in) :: anisotropy   !! gamma, > 0
+      real(dp) :: sides(2)
 
-      frequency = hypot(m/spectrum%length(1), n/spectrum%length(2))
+      sides = length*sqrt([1/anisotropy, anisotropy])
+   end function sides_of_spectrum
+
+   !> The frequency of a wave, (G2) [1/length].
+   pure real(dp) function frequency(sides, m, n)
+      real(dp), intent(in) :: sides(2)   !! sides of the cell [length]
+      integer, intent(in) :: m, n        !! wave numbers
+
+      frequency = hypot(m/sides(1), n/sides(2))
    end function frequency
 
    !> The mean square of a wave, s of (G3), over that of a wave at the roll-off; 0 outside of the cut-offs.
    pure real(dp) function mean_square(spectrum, frequency)
       type(self_affine_spectrum), intent(in) :: spectrum
-      real(dp), intent(in) :: frequency   !! [1/length]
+      real(dp), intent(in) :: frequency   !! in the spectrum, (G6) [1/length]
 
       mean_square = 0.0_dp
       if (frequency*spectrum%longest >= 1 - rounding .and. frequency*spectrum%shortest <= 1 + rounding) &
@@ -143,7 +155,7 @@ contains
       type(fourier_series) :: waves
       type(grid_transform) :: transform
       !> The sum (G4) that `rms` is the root of, with c = 1; for each wave number along x its part.
-      real(dp) :: moment(1), rms
+      real(dp) :: moment(1), rms, sides(2)
       real(dp), allocatable :: moments(:, :)
       integer :: first, highest(2), k, last, m, n
 
@@ -151,6 +163,7 @@ contains
       generator = gsl_rng_alloc(gsl_rng_mt19937)
       call gsl_rng_set(generator, int(spectrum%seed, c_long))
       highest = highest_waves(spectrum)
+      sides = sides_of_spectrum(spectrum%length, spectrum%anisotropy)
       call transform%new_series(waves)
       first = waves%first()
       last = waves%last(1)
@@ -187,17 +200,16 @@ contains
 
          !> Half of the step of the generator's numbers. Plus this no number is 0, and its logarithm exists.
          real(dp), parameter :: half_step = 2.0_dp**(-33)
-         real(dp) :: f, phase, square, uniform, weight
+         real(dp) :: phase, square, uniform, weight
 
          phase = 2*pi*gsl_rng_uniform(generator)
          uniform = gsl_rng_uniform(generator) + half_step
          if (any(abs([m, n]) > highest) .or. m < first .or. m > last) return
-         f = frequency(spectrum, m, n)
-         square = mean_square(spectrum, f)
+         square = mean_square(spectrum, frequency(sides, m, n))
          if (square <= 0.0_dp) return
          if (spectrum%random_amplitudes) square = -log(uniform)*square
          weight = 1.0_dp
-         if (spectrum%by_slope) weight = (2*pi*f)**2
+         if (spectrum%by_slope) weight = (2*pi*frequency(spectrum%length, m, n))**2
          moments(1, m) = moments(1, m) + square*weight
          call waves%add_wave(m, n, sqrt(2*square)*turn(phase))
       end subroutine add_wave

@@ -42,6 +42,8 @@ contains
          if (.not. solver%is_given) reason = clauses("'"//solver%text//"' is the default", reason)
       end associate
       if (reason /= '') call logger%say('because: '//reason)
+      if (results%traits%lacks_waves) call logger%note('the grid leaves out waves of the surface, those of less '// &
+         'than two points: the errors of all loads that it solves will be unknown. Give more grid_points, or an accuracy')
       if (all(results%traits%finest_grid > 0)) then
          call logger%say('memory: '//memory(results))
          call logger%say('time: some '// &

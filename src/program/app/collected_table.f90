@@ -8,7 +8,7 @@ module wavycon_collected_table
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
    use wavycon_memory_table, only: column_list
-   use wavycon_output_file, only: output_file
+   use wavycon_output_file, only: comma_line, output_file
    use wavycon_plain_text, only: escaped, lower_case, newline
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
@@ -246,26 +246,11 @@ contains
          !> The line of the words' units: those that are not '[-]' are added.
          character(*), intent(in), optional :: units
 
-         character(:), allocatable :: left, left_units, text, word
-
-         if (.not. has_commas(path)) then
+         if (has_commas(path)) then
+            call file%put(comma_line(line, units))
+         else
             call file%put(line)
-            return
          end if
-         text = ''
-         left = adjustl(line)
-         left_units = ''
-         if (present(units)) left_units = adjustl(units(scan(units, '['):))
-         do while (left /= '')
-            word = left(:index(left//' ', ' ') - 1)
-            left = adjustl(left(len(word) + 1:))
-            if (left_units(:min(3, len(left_units))) /= '[-]') word = word//left_units(:index(left_units//' ', ' ') - 1)
-            left_units = adjustl(left_units(index(left_units//' ', ' '):))
-            ! Lists have commas between their numbers.
-            if (index(word, ',') > 0) word = '"'//word//'"'
-            text = text//','//word
-         end do
-         call file%put(text(2:))
       end subroutine put
 
    end subroutine write_collected_table

@@ -29,7 +29,7 @@ module wavycon_command_line
 
    !> The options as a group of keys, so that the procedures for keys of decks read and describe them.
    type, extends(key_group) :: option_group
-      type(key_value) :: check, set, sweep, output, table, keep_going, resume, jobs, threads, quiet, version, help
+      type(key_value) :: check, set, sweep, output, csv, table, keep_going, resume, jobs, threads, quiet, version, help
    end type option_group
 
    type :: command_line_type
@@ -59,6 +59,8 @@ contains
          'run each deck once for each value, as with --set; several sweeps: for all combinations'))
       call keys%add(options%output, key_type(text_value, '--output', '', 'DIR', &
          'write the results to DIR, not to the directory of &output', longest=longest_directory))
+      call keys%add(options%csv, key_type(logical_value, '--csv', '.false.', '', &
+         'write each table with commas too, as --set output.csv=.true. does'))
       call keys%add(options%table, key_type(text_value, '--table', '', 'FILE', &
          'write one table of all decks: a row for each deck and load, with the values of the keys that are set or '// &
          'differ, and the columns of the summary; with commas, for spreadsheets, if FILE ends in .csv', &
@@ -153,6 +155,10 @@ contains
          if (options%output%is_given) then
             sweeps = sweeps + 1
             call read_sweep('--set', 'output.directory='//quoted(options%output%text), sweep(sweeps)%values, trouble)
+         end if
+         if (options%csv%is_true) then
+            sweeps = sweeps + 1
+            call read_sweep('--set', 'output.csv=.true.', sweep(sweeps)%values, trouble)
          end if
       end associate
       call make_runs(deck(:decks), sweep(:sweeps), command_line%runs, error)

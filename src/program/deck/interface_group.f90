@@ -104,7 +104,8 @@ contains
             'shear_direction is for surfaces that do not change along y: leave it out')
          values%shear_direction%in_effect = .false.
       end if
-      if (values%work_of_adhesion%is_given) then
+      ! What a layer or a flat surface lacks has been reported.
+      if (values%work_of_adhesion%is_given .and. surface%amplitude > 0.0_dp .and. .not. surface%kernel%has_layer()) then
          if (.not. has_adhesion(surface)) call values%complain( &
             values%work_of_adhesion, 'adhesion is computed for wave_1d, for the 2-D waves that solver = '// &
             "'fitted' takes and for a round ball: leave work_of_adhesion out")

@@ -109,7 +109,7 @@ contains
    !> Converts loads to the program's normalisation. Loads that the surface cannot have are reported: a mean gap above
    !> that before load, an area above the nominal area, a pressure above largest_pbar_over_pstar p*, a gap or an area on
    !> a flat surface, and on a surface with free edges loads that refer to p*. A gap, approach or area may exceed its
-   !> limit by rounding.
+   !> limit by rounding. On a flat surface, whose p* is 0, loads over p* are reported too.
    subroutine take_loads(values, surface, p_star, with_adhesion, loads_by, target, mean_pressure)
       type(load_group), intent(inout) :: values                  !! without problems before
       type(surface_type), intent(in) :: surface
@@ -139,9 +139,9 @@ contains
       if (loads_by == by_percolation .and. (surface%has_free_edges .or. surface%dimension == 1)) &
          call values%problems%add(position, 'percolates needs a surface that is repeated along x and y, whose '// &
             'contact or gap may go on from cell to cell: this one has free edges or is a profile')
-      if (p_star <= 0.0_dp .and. loads_by /= by_pressure) then
-         call values%problems%add(position, 'the surface is flat: give its loads by pressure, not by gap, area, '// &
-                                  'yield or percolation')
+      if (p_star <= 0.0_dp .and. all(key /= ['mean_pressure', 'force        '])) then
+         call values%problems%add(position, 'the surface is flat, and its p* is 0: give its loads by mean_pressure '// &
+                                  'or force, not over p* and not by gap, area, yield or percolation')
          return
       end if
       ! The limits of the other keys are bounds in the table of keys.

@@ -69,17 +69,18 @@ contains
 
       e_star = 0.0_dp
       p_star = 0.0_dp
-      if (values%problems%number > 0 .or. values%any_bad .or. .not. allocated(surface)) return
+      if (values%layer_thickness%is_given) call check_layer(values, surface)
+      if (.not. allocated(surface)) return
+      if (values%hardness%is_given .and. surface%full_contact_pressure(1.0_dp) <= 0.0_dp) call values%complain( &
+         values%hardness, 'the surface is flat: its pressure is the mean pressure, and a hardness means nothing')
+      if (values%problems%number > 0 .or. values%any_bad) return
       e_star = plane_strain_modulus(values)
       if (values%layer_thickness%is_given) call lay_on_base(values, e_star, surface)
       if (values%problems%number > 0) return
       p_star = surface%full_contact_pressure(e_star)
       if (.not. values%hardness%is_given) return
       hardness = values%hardness%number
-      if (p_star <= 0.0_dp) then
-         call values%complain(values%hardness, &
-            'the surface is flat: its pressure is the mean pressure, and a hardness means nothing')
-      else if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
+      if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
          call values%complain(values%hardness, &
             'hardness = '//short_number(hardness)//' is not within a factor of '// &
             short_number(most_hardness)//' of p* = '//short_number(p_star)//'. Do the units agree?')
@@ -88,34 +89,49 @@ contains
       end if
    end subroutine check_material_group
 
-   !> Puts a layer under the surface, which gets another p*. Reports a layer that lacks a number or contradicts another,
-   !> and surfaces that have none.
-   subroutine lay_on_base(values, e_star, surface)
+   !> Reports a layer that lacks a key or contradicts another, and surfaces that have none. Other keys may be bad.
+   subroutine check_layer(values, surface)
       type(material_group), intent(inout) :: values   !! with a layer
-      real(dp), intent(in) :: e_star                  !! of the pair [pressure]
-      type(surface_type), intent(inout) :: surface
+      type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it could not be made
 
-      real(dp) :: longest
-      type(elastic_layer) :: layer
+      real(dp) :: longest, thickness
 
-      layer%slides = values%layer_base%text == 'smooth'
-      if (.not. (layer%slides .or. values%nu1%is_given .or. values%layer_nu%is_given)) call values%complain( &
-         values%layer_base, "a bonded layer needs layer_nu, Poisson's ratio: its compliance follows from it")
+      if (.not. (values%layer_base%is_bad .or. values%has_unknown)) then
+         if (values%layer_base%text == 'smooth') then
+            if (values%base_e%is_given) call values%complain(values%base_e, &
+               "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
+         else if (.not. (values%nu1%is_given .or. values%layer_nu%is_given)) then
+            call values%complain(values%layer_base, &
+               "a bonded layer needs layer_nu, Poisson's ratio: its compliance follows from it")
+         end if
+      end if
+      if (.not. allocated(surface)) return
       longest = maxval(surface%length(:surface%dimension)/surface%maps_in_cell())
-      layer%thickness = values%layer_thickness%number
+      thickness = values%layer_thickness%number
       if (surface%has_free_edges) then
          call values%complain(values%layer_thickness, &
             'layers are for surfaces that are repeated, and this one has free edges: leave layer_thickness out')
       else if (surface%amplitude <= 0.0_dp) then
          call values%complain(values%layer_thickness, &
             'the surface is flat: its pressure is the mean pressure on any layer. Leave layer_thickness out')
-      else if (layer%thickness > most_of_layer*longest .or. layer%thickness < longest/most_of_layer) then
-         call values%complain(values%layer_thickness, 'layer_thickness = '//short_number(layer%thickness)// &
+      else if ((thickness > most_of_layer*longest .or. thickness < longest/most_of_layer) .and. &
+               .not. values%layer_thickness%is_bad) then
+         call values%complain(values%layer_thickness, 'layer_thickness = '//short_number(thickness)// &
             ' is not within a factor of '//short_number(most_of_layer)//' of the side of the cell, '// &
             short_number(longest)//'. Do the units agree?')
       end if
-      if (layer%slides .and. values%base_e%is_given) call values%complain(values%base_e, &
-         "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
+   end subroutine check_layer
+
+   !> Puts a layer under the surface, which gets another p*. Reports a layer and a base of very different stiffness.
+   subroutine lay_on_base(values, e_star, surface)
+      type(material_group), intent(inout) :: values   !! with a layer, without problems
+      real(dp), intent(in) :: e_star                  !! of the pair [pressure]
+      type(surface_type), intent(inout) :: surface
+
+      type(elastic_layer) :: layer
+
+      layer%slides = values%layer_base%text == 'smooth'
+      layer%thickness = values%layer_thickness%number
       if (values%layer_nu%is_given) layer%nu = values%layer_nu%number
       if (values%nu1%is_given) layer%nu = values%nu1%number
       ! Without a second body it is one to the last digit: the rest counts beside the factor of a thin layer.

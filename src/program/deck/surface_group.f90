@@ -144,6 +144,10 @@ contains
          'radius of curvature along y.', above=0, way=301, needs="form_radius_x edges='free'"))
       keys%of = 'self_affine'
       call keys%add(values%hurst, key_type(real_value, 'hurst', '0.8', '-', 'Hurst exponent of the roughness.', 0, 1))
+      call keys%add(values%anisotropy, key_type(real_value, 'anisotropy', '1.0', '-', &
+         'correlation length along x over that along y. The spectrum, with its wavelengths, is that of the '// &
+         'isotropic surface, which is stretched by the root of this ratio along x and compressed by it along y.', &
+         0.01_dp, 100.0_dp))
       call keys%add(values%rms_height, key_type(real_value, 'rms_height', '', 'length', &
          'root mean square of the height; or give rms_slope.', above=0, way=100, required=.true.))
       call keys%add(values%rms_slope, key_type(real_value, 'rms_slope', '', '-', &

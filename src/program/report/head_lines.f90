@@ -11,6 +11,9 @@ module wavycon_head_lines
 
    public :: head_lines, preparation_words
 
+   !> The slopes along x and along y are told if one is more than so many times the other: the surface has a lay.
+   real(dp), parameter :: directed = 1.5_dp
+
 contains
 
    !> The lines of version, deck, surface, statistics of a height map, material and method, separated by newlines. The
@@ -52,8 +55,12 @@ contains
                if (map%assumed_sides /= '') call add('sides: '//map%assumed_sides)
                words = preparation_words(map%changes, length)
                if (words /= '' .and. .not. allocated(scene%two_maps)) call add('prepared: '//words)
+               words = number('rms_slope', '-', roughness%slope)
+               if (surface%dimension == 2 .and. maxval(roughness%slopes) > directed*minval(roughness%slopes)) &
+                  words = words//number('rms_slope_x', '-', roughness%slopes(1))// &
+                          number('rms_slope_y', '-', roughness%slopes(2))
                if (map%rms > 0.0_dp) call add('roughness: skewness[-] = '//text_of(map%skewness)// &
-                  number('kurtosis', '-', map%kurtosis)//number('rms_slope', '-', roughness%slope)// &
+                  number('kurtosis', '-', map%kurtosis)//words// &
                   number('rms_slope_by_differences', '-', map%slope_by_differences)// &
                   number('rms_curvature', '1/'//length, roughness%curvature)// &
                   number('rms_curvature_by_differences', '1/'//length, map%curvature_by_differences))

@@ -11,11 +11,11 @@ module wavycon_notes
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
-   use wavycon_quantities, only: border_load, concentrated_load, contact_area, is_known, main_quantities, mean_gap, &
-      peak_pressure
+   use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, main_quantities, &
+      mean_gap, peak_pressure
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_contact_area, by_percolation, by_yield, scene_type, target_words
+   use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_yield, scene_type, target_words
    use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
    implicit none (type, external)
    private
@@ -51,6 +51,9 @@ contains
          if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
             loads = surface%nominal_area()*scene%mean_pressure
             words = 'force'
+         else if (scene%p_star <= 0.0_dp) then
+            loads = scene%mean_pressure
+            words = 'pbar'
          end if
          if (scene%loads_by == by_percolation) then
             words = words//' of '//scene%load%percolates%text
@@ -107,6 +110,8 @@ contains
       integer :: direction
 
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
+      if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other '// &
+         'map does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')
       if (map%spikes > 0) call logger%note(integer_text(map%spikes)//' of the heights are far from all '// &
          'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
          'surface does not. Remedy: despike = .true.')
@@ -227,7 +232,7 @@ contains
       if (results%solver%surface%has_free_edges) then
          call self%add('force', results%solver%surface%nominal_area()*results%mean_pressure(load))
       else
-         call self%add('pbar/p*', results%loads(load)%pbar_over_pstar)
+         call self%add('pbar/p*', results%number(load, 'pbar_over_pstar'))
          if (results%scene%gives_modulus) &
             call self%add('pbar['//results%scene%pressure_unit//']', results%mean_pressure(load))
       end if
@@ -352,7 +357,8 @@ contains
          if (number > 0) call logger%note('at '//integer_text(number)//of_loads//' '//words)
       end subroutine note_some
 
-      !> Notes how many of the given contact areas or mean gaps the grid cannot have at any load, and what helps.
+      !> Notes how many of the given contact areas, mean gaps or approaches the grid cannot have at any load, and what
+      !> helps.
       subroutine note_unreached()
          character(:), allocatable :: limit
          integer :: last
@@ -363,6 +369,9 @@ contains
          if (last == 0) return
          associate (solution => loads(last))
             limit = ' mean gaps are above the largest that the grid shows, '//short_number(solution%value(mean_gap))
+            if (loads_by == by_approach) limit = ' approaches are below the least that the grid shows, '// &
+               short_number(results%solver%surface%amplitude*solution%value(approach))// &
+               ' ['//results%scene%length_unit//'],'
             if (loads_by == by_contact_area) limit = &
                ' contact areas are below the least that the grid shows, '//short_number(solution%value(contact_area))
          end associate

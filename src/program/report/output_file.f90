@@ -1,5 +1,6 @@
 !> Result files. A file gets its name when it is complete (src/base/system/written_file.c). A table may be written to
-!> memory in place of a file: the table in memory gets columns and rows, while lines written by `put` are left out.
+!> memory in place of a file: the table in memory gets columns and rows, while lines written by `put` are left out. A
+!> second file may get the same table with commas between words, for spreadsheets.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
@@ -13,7 +14,7 @@ module wavycon_output_file
    implicit none (type, external)
    private
 
-   public :: output_file
+   public :: comma_line, output_file
 
    !> Width of the narrowest column: a real number of 16 digits with a three-digit exponent, and blanks before it.
    integer, parameter :: narrowest = 25
@@ -34,6 +35,8 @@ module wavycon_output_file
       !> The table in memory that replaces the file; it must exist until `finish` is called.
       type(memory_table), pointer, public :: memory => null()
       type(c_ptr) :: file = c_null_ptr            !! the open file, from open_written
+      type(c_ptr) :: commas = c_null_ptr          !! the open file of the same table with commas, without a head
+      character(:), allocatable :: comma_name     !! path of this file; not allocated if there is none
       character(:), allocatable :: name           !! path of the file
       character(:), allocatable :: trouble        !! message of the first error; not allocated if there was none
       type(column_type), allocatable :: columns(:)   !! columns of a table; not allocated for other files
@@ -56,14 +59,22 @@ module wavycon_output_file
 contains
 
    !> Opens a file for writing. `finish` reports the errors of this and of all other procedures.
-   subroutine open_file(self, directory, name, head)
+   subroutine open_file(self, directory, name, head, comma_name)
       class(output_file), intent(out) :: self
       character(*), intent(in) :: directory      !! an existing directory
       character(*), intent(in) :: name           !! name of the file in the directory
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
+      !> Name of a second file, which gets the table with commas; none if empty.
+      character(*), intent(in), optional :: comma_name
 
       self%name = directory//'/'//name
       self%file = open_written(self%name//c_null_char)
+      if (present(comma_name)) then
+         if (comma_name /= '') then
+            self%comma_name = directory//'/'//comma_name
+            self%commas = open_written(self%comma_name//c_null_char)
+         end if
+      end if
       if (present(head)) call check(self, put_text(self%file, head, len(head, c_size_t)))
    end subroutine open_file
 
@@ -132,13 +143,54 @@ contains
       end do
    end function aligned
 
-   !> Writes the line with the names of the columns.
+   !> Writes the line with the names of the columns; with commas only the first time, and with the units.
    subroutine put_names(self)
       type(output_file), intent(inout) :: self
 
+      character(longest_column + 2) :: units(size(self%columns))
+      integer :: i
+
+      do i = 1, size(units)
+         units(i) = '['//trim(self%columns(i)%unit)//']'
+      end do
+      if (allocated(self%comma_name) .and. .not. self%has_names) &
+         call put_commas(self, comma_line(aligned(self, self%columns%name), aligned(self, units)))
       self%has_names = .true.
       call self%put(aligned(self, self%columns%name))
    end subroutine put_names
+
+   !> Writes a line to the table with commas.
+   subroutine put_commas(self, line)
+      type(output_file), intent(inout) :: self
+      character(*), intent(in) :: line
+
+      if (self%is_open()) &
+         call check(self, put_text(self%commas, line//newline, len(line, c_size_t) + 1), self%comma_name)
+   end subroutine put_commas
+
+   !> The words of a line with commas between them. A word that has commas, a list, stands in quotes.
+   pure function comma_line(line, units) result(text)
+      character(*), intent(in) :: line                !! words, separated by blanks
+      character(*), intent(in), optional :: units     !! '[unit]' of each word, which is added unless it is '[-]'
+      character(:), allocatable :: text
+
+      character(:), allocatable :: rest, rest_of_units, unit, word
+
+      text = ''
+      rest = adjustl(line)
+      rest_of_units = ''
+      if (present(units)) rest_of_units = adjustl(units)
+      do while (rest /= '')
+         word = rest(:index(rest//' ', ' ') - 1)
+         rest = adjustl(rest(len(word) + 1:))
+         unit = rest_of_units(:index(rest_of_units//' ', ' ') - 1)
+         rest_of_units = adjustl(rest_of_units(len(unit) + 1:))
+         if (unit /= '[-]') word = word//unit
+         if (index(word, ',') > 0) word = '"'//word//'"'
+         text = text//','//word
+      end do
+      text = text(2:)
+   end function comma_line
 
    !> Begins a block, a data set that gnuplot's `index` counts: two blank lines, unless the block is the first, a
    !> comment, and the names of the columns, which gnuplot looks for at the head of each data set.
@@ -176,14 +228,18 @@ contains
          end do
       end if
       call self%put(line)
+      if (allocated(self%comma_name)) call put_commas(self, comma_line(line))
    end subroutine put_row
 
    !> Records an error of the operating system, if there is one.
-   subroutine check(self, number)
+   subroutine check(self, number, name)
       class(output_file), intent(inout) :: self
       integer(c_int), intent(in) :: number   !! the system's number of the error, as error_text takes it; 0: no error
+      character(*), intent(in), optional :: name   !! path of the file, if it is not `name`
 
-      if (number /= 0) call self%note_trouble(error_text(number))
+      if (number == 0 .or. .not. self%is_open()) return
+      if (present(name)) self%name = name
+      call self%note_trouble(error_text(number))
    end subroutine check
 
    !> Records an error. `finish` will report the first recorded error and remove the file.
@@ -206,6 +262,8 @@ contains
       end if
       if (allocated(self%columns) .and. .not. self%has_names) call put_names(self)
       call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
+      if (allocated(self%comma_name)) &
+         call check(self, end_written(self%commas, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int), self%comma_name)
       if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
    end subroutine finish

@@ -90,19 +90,23 @@ contains
    end subroutine swap_contacts
 
    !> Opens a table <case>.<table_file>.dat, writes the header lines that all tables have and sets the columns. If there
-   !> is a table in memory, its columns are set instead, without a file. `file%finish` reports errors.
+   !> is a table in memory, its columns are set instead, without a file. The key `csv` asks for <case>.<table_file>.csv
+   !> beside it. `file%finish` reports errors.
    subroutine open_table(self, table_file, columns, file)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: table_file   !! name of the table, such as 'summary'
       character(*), intent(in) :: columns      !! name[unit] of each column; `unit_in_words` makes labels of the units
       type(output_file), intent(out) :: file
 
+      character(:), allocatable :: comma_name
       type(column_type), allocatable :: list(:)
 
       if (associated(self%memory)) then
          file%memory => self%memory
       else
-         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat')
+         comma_name = ''
+         if (self%scene%output%csv%is_true) comma_name = self%scene%case//'.'//table_file//'.csv'
+         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', comma_name=comma_name)
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
          if (self%with_adhesion) then
             call file%put('# adhesion: the contacts are those with it; of each load the stable one of the largest area')
@@ -193,13 +197,15 @@ contains
       end associate
    end subroutine begin_block
 
-   !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*.
+   !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*,
+   !> and on a flat one, whose p* is 0, unless it is infinite.
    elemental real(dp) function in_p_star(self, number)
       class(results_type), intent(in) :: self
       real(dp), intent(in) :: number
 
       in_p_star = number
-      if (self%solver%surface%has_free_edges) in_p_star = not_a_number()
+      if (self%solver%surface%has_free_edges .or. (self%scene%p_star <= 0.0_dp .and. number <= huge(number))) &
+         in_p_star = not_a_number()
    end function in_p_star
 
    !> The number of a load in a column of tables; NaN if the number is unknown or does not exist. With free edges there

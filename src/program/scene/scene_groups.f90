@@ -24,7 +24,7 @@ module wavycon_scene_groups
       type(key_value) :: file2, file2_scale, file2_flip
       type(key_value) :: file, file_format, missing_value, height_scale, crop_missing, despike, detrend, fill_missing
       type(key_value) :: edges, window_width, short_wavelength, filter, form_radius, form_radius_x, form_radius_y
-      type(key_value) :: hurst, rms_height, rms_slope, spectral_density, long_wavelength, rolloff_wavelength
+      type(key_value) :: hurst, anisotropy, rms_height, rms_slope, spectral_density, long_wavelength, rolloff_wavelength
       type(key_value) :: spectrum, seed, points, radius, radius_x, radius_y
    end type surface_group
 
@@ -48,7 +48,7 @@ module wavycon_scene_groups
    end type method_group
 
    type, extends(key_group), public :: output_group
-      type(key_value) :: directory, line_points, map_points, map_format, histogram_bins
+      type(key_value) :: directory, csv, line_points, map_points, map_format, histogram_bins
       type(key_value) :: tables(most_tables)   !! the key of each table in the order of `all_tables`, if it has one
    end type output_group
 

@@ -20,6 +20,8 @@ from .names import Columns
 from .surfaces import unknown
 
 FIELDS = ("pressure", "gap", "displacement")
+# In a file: the number of the load that has the columns, where there are no loads.
+MODEL = 0
 # The columns that notebooks show.
 SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "approach", "approach_error",
          "peak_pressure", "peak_pressure_error", "status")
@@ -267,9 +269,10 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to a file .npz or, with
         h5py, .h5. It appears whole or not at all, and replaces no other kind of file."""
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
-        for one in self:
-            content |= {f"{one._load}/{name}": rows for name, rows in one._tables.items()}
-            content |= {f"{one._load}/fields/{name}": values for name, values in one._fields.items()} if fields else {}
+        # Without loads the file has the columns of the model.
+        for number, one in [(one._load, one) for one in self] or [(MODEL, one) for one in [self._model] if one]:
+            content |= {f"{number}/{name}": rows for name, rows in one._tables.items()}
+            content |= {f"{number}/fields/{name}": values for name, values in one._fields.items()} if fields else {}
         if hasattr(file, "write"):
             np.savez(file, **content)
             return
@@ -302,7 +305,8 @@ def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
             one.__dict__.setdefault("_fields", {})[field[0]] = locked(values)
         else:
             one._tables[table] = locked(values)
-    return Results([loads[number] for number in sorted(loads)], facts)
+    model = loads.pop(MODEL, None)
+    return Results([loads[number] for number in sorted(loads)], facts, model)
 
 
 def retyped(rows: Any, old: str, new: str) -> Any:

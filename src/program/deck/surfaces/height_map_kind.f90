@@ -52,6 +52,10 @@ contains
          return
       end if
       map%path = full_path(path)
+      if (values%file2%is_given .and. .not. (values%height_scale%is_given .or. values%file2_scale%is_given)) then
+         if (allocated(heights%length_unit) .and. .not. allocated(second%length_unit)) map%without_unit = path2
+         if (allocated(second%length_unit) .and. .not. allocated(heights%length_unit)) map%without_unit = path
+      end if
       map%lacks_missing_value = values%missing_value%is_given .and. &
                                 .not. (heights%has_missing_value .or. second%has_missing_value)
       if (unit /= '' .and. (allocated(heights%length_unit) .or. allocated(second%length_unit))) map%length_unit = unit

@@ -7,7 +7,8 @@ module wavycon_self_affine_kind
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, short_number
    use wavycon_scene_groups, only: surface_group
-   use wavycon_self_affine, only: has_waves, least_points_of, self_affine_spectrum, self_affine_surface
+   use wavycon_self_affine, only: has_waves, least_points_of, self_affine_spectrum, self_affine_surface, &
+      sides_of_spectrum
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -51,10 +52,14 @@ contains
       call values%long_wavelength%set_default([longest])
       call values%rolloff_wavelength%set_default(values%long_wavelength%numbers)
       call values%short_wavelength%set_default(values%rolloff_wavelength%numbers/64)
-      if (points(1) == 0) points = default_points(length/values%short_wavelength%number)
+      if (points(1) == 0) points = default_points(sides_of_spectrum(length, values%anisotropy%number)/ &
+                                                  values%short_wavelength%number)
       if (.not. values%points%is_bad) call values%points%set(real(points, dp))
       if (all(values%edges%text /= ['periodic', 'free    '])) call values%complain(values%edges, &
          "a random surface is made periodic: edges must be 'periodic' or 'free'")
+      values%anisotropy%in_effect = points(2) > 1
+      if (points(2) == 1 .and. values%anisotropy%is_given) call values%complain(values%anisotropy, &
+         'a profile has one direction: leave anisotropy out')
       if (values%any_bad) return
       spectrum = spectrum_of(values)
       call check_order(values%long_wavelength, 'long_wavelength', spectrum%longest, &
@@ -121,6 +126,7 @@ contains
       if (points(2) == 1) spectrum%dimension = 1
       spectrum%length = [values%length_x%number, values%length_y%number]
       spectrum%hurst = values%hurst%number
+      spectrum%anisotropy = values%anisotropy%number
       spectrum%longest = values%long_wavelength%number
       spectrum%rolloff = values%rolloff_wavelength%number
       spectrum%shortest = values%short_wavelength%number
