@@ -28,6 +28,8 @@ module wavycon_adhesive_curve
       !> one branch.
       type(adhesive_point), allocatable, private :: knots(:)
       type(adhesive_problem), private :: problem
+   contains
+      procedure :: forget_loads
    end type adhesive_curve
 
    !> Number of points of a curve in closed form.
@@ -66,6 +68,17 @@ contains
       end if
       call name_jumps(curve)
    end subroutine follow_curve
+
+   !> Removes the contacts of loads. The curve is kept if it serves for any load: if it was followed by fitted functions,
+   !> which takes time. A curve in closed form is to be followed anew, as it ends at the largest load.
+   subroutine forget_loads(self, is_kept)
+      class(adhesive_curve), intent(inout) :: self
+      logical, intent(out) :: is_kept   !! false: follow_curve has to be called, as for a new curve
+
+      is_kept = allocated(self%at_loads)
+      if (is_kept) self%at_loads = self%at_loads(:0)
+      if (is_kept) is_kept = .not. self%problem%has_closed_form
+   end subroutine forget_loads
 
    !> Computes the points of a curve in closed form, at equal steps of ln P1 for a ball and of ln(P1/(1 - P1)) for the
    !> 1-D wave, where P1 is the load of the contact of the same area without adhesion.
