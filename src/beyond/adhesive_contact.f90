@@ -176,8 +176,7 @@ contains
             cell = lattice%area
             area = point%area*cell
          end if
-         call solve_adhesive(lattice, point%pools, self%work/unit, area, &
-                             self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, start)
+         call solve_adhesive(lattice, point%pools, self%work/unit, area, self%accuracy, answer, start)
          if (answer%status > fitted_less_exact) return
          point%exists = .true.
          point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]
