@@ -27,9 +27,7 @@ module wavycon_adhesive_curve
       !> Points and extremes in their order along the branches. P and approach are monotonic between two neighbours of
       !> one branch.
       type(adhesive_point), allocatable, private :: knots(:)
-      type(adhesive_problem), private :: problem
-   contains
-      procedure :: forget_loads
+      type(adhesive_problem) :: problem
    end type adhesive_curve
 
    !> Number of points of a curve in closed form.
@@ -42,9 +40,10 @@ module wavycon_adhesive_curve
    real(dp), parameter :: ratio_growth = 0.12_dp
    !> The branch ends where the approach falls at a merging ratio above this. The last extremes are at 0.83 and more.
    real(dp), parameter :: ratio_of_extremes = 0.6_dp
-   !> The branch also ends if the step becomes smaller than this part of the largest step.
-   real(dp), parameter :: least_step = 0.01_dp
-   !> Factor on the accuracy of a point that is solved again, as the sign of its slope is not sure.
+   !> The branch also ends if there is no solution even after a step of this part of the largest step.
+   real(dp), parameter :: least_step = 0.02_dp
+   !> Factor on the accuracy of a point that is solved again, as the sign of its slope is not sure. Told errors of
+   !> slopes have a safety of 5: half of them is enough.
    real(dp), parameter :: finer_by = 0.2_dp
    !> Step towards the last extreme of the approach, over the distance that is extrapolated from the last slopes.
    real(dp), parameter :: beyond_extreme = 1.3_dp
@@ -70,17 +69,6 @@ contains
       end if
       call name_jumps(curve)
    end subroutine follow_curve
-
-   !> Removes the contacts of loads. The curve is kept if it serves for any load: if it was followed by fitted functions,
-   !> which takes time. A curve in closed form is to be followed anew, as it ends at the largest load.
-   subroutine forget_loads(self, is_kept)
-      class(adhesive_curve), intent(inout) :: self
-      logical, intent(out) :: is_kept   !! false: follow_curve has to be called, as for a new curve
-
-      is_kept = allocated(self%at_loads)
-      if (is_kept) self%at_loads = self%at_loads(:0)
-      if (is_kept) is_kept = .not. self%problem%has_closed_form
-   end subroutine forget_loads
 
    !> Computes the points of a curve in closed form, at equal steps of ln P1 for a ball and of ln(P1/(1 - P1)) for the
    !> 1-D wave, where P1 is the load of the contact of the same area without adhesion.
@@ -158,12 +146,10 @@ contains
          if (pools) part = 1.0_dp - part
          call curve%problem%find_point(pools, part, point, start)
          ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
-         if (point%exists) then
-            if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
-                abs(point%value(2 + at_approach)) <= point%slope_error(at_approach)) then
-               start = point%answer
-               call finer%find_point(pools, part, point, start)
-            end if
+         if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
+             abs(point%value(2 + at_approach)) <= 0.5_dp*point%slope_error(at_approach)) then
+            start = point%answer
+            call finer%find_point(pools, part, point, start)
          end if
          ! Near the end of a branch a solution may be much less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
@@ -184,13 +170,13 @@ contains
                if (pools) next = 1.0_dp - next
                next = sqrt(max(next, 0.0_dp)*cell_area/pi)
                if (next > radius) step = min(step, max(beyond_extreme*(next - radius), &
-                                                          2*least_step*full_step))
+                                                          0.1_dp*least_step*full_step))
             end if
          else
             radius = radius - step
             step = 0.5_dp*step
+            if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
          end if
-         if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
          radius = radius + step
       end do
       if (ratio <= 0.0_dp) return
@@ -398,9 +384,8 @@ contains
       !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
       !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
       !> of the last point. `curvature`, `distance`: the derivative of the slope, from two areas so far apart.
-      !> `doubt`: error of `miss` at an extreme. `solved`: larger error of the last solution, before the step by the
-      !> derivatives.
-      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, distance, doubt(most_steps), errors(2), &
+      !> `curvature_error`: relative. `solved`: larger error of the last solution, before the step by the derivatives.
+      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, curvature_error, distance, errors(2), &
          miss(most_steps), next, solved
       type(adhesive_problem) :: problem
 
@@ -408,12 +393,10 @@ contains
       is_extreme = which > 2
       area(:2) = [first%area, last%area]
       miss(:2) = [first%value(which), last%value(which)] - target
-      doubt(:2) = [first%slope_error(max(which - 2, 1)), last%slope_error(max(which - 2, 1))]
       ! The end with the larger miss comes first, because interpolation drops the first point first.
       if (abs(miss(1)) < abs(miss(2))) then
          area(:2) = area([2, 1])
          miss(:2) = miss([2, 1])
-         doubt(:2) = doubt([2, 1])
       end if
       bracket = area(:2)
       fine = 0
@@ -423,16 +406,12 @@ contains
          else if (n > 2 .and. .not. is_extreme) then
             next = area(n) - miss(n)/point%value(2 + which)
          else
-            associate (oldest => max(1, n - 2 + fine/2))
-               next = interpolated(area(oldest:n), miss(oldest:n))
-            end associate
+            next = interpolated(area(max(1, n - 2 + fine/2):n), miss(max(1, n - 2 + fine/2):n))
          end if
          if (.not. (fine > 0 .or. (next - bracket(1))*(next - bracket(2)) < 0.0_dp)) next = 0.5_dp*sum(bracket)
          if (n > 2) then
             changes = abs(point%value(3:)*(next - area(n)))
             errors = point%error
-            ! Of a point with a given load the approach is as accurate as its solution, and the other way round.
-            if (.not. is_extreme) changes(3 - which) = 0.0_dp
             if (is_extreme) then
                ! The changes are those that a step by the derivatives leaves out, and the errors have that of the slope
                ! besides.
@@ -441,9 +420,16 @@ contains
                   if (fine == 0) other = min(other, 3)
                   distance = area(n) - area(other)
                   curvature = (miss(n) - miss(other))/distance
+                  ! `first` and `last` have other degrees than the solutions of the search: errors of slopes differ.
+                  curvature_error = 0.0_dp
+                  if (other < 3) curvature_error = maxval([first%slope_error(which - 2), last%slope_error(which - 2), &
+                                                           point%slope_error(which - 2)])/abs(miss(n) - miss(other))
                end if
                changes = changes*left_over()
                errors = errors + abs(point%value(3:)*point%slope_error(which - 2)/curvature)
+            else
+               ! Of a point with a given load the approach is as accurate as its solution, and the other way round.
+               changes(3 - which) = 0.0_dp
             end if
             if (fine > 0 .or. abs(next - area(n)) <= rounding*next .or. &
                 all(changes <= max(part_of_error*errors, epsilon(next)*abs(point%value(:2))))) then
@@ -461,7 +447,6 @@ contains
          if (.not. point%exists) return
          area(n + 1) = next
          miss(n + 1) = point%value(which) - target
-         doubt(n + 1) = point%slope_error(max(which - 2, 1))
          bracket(merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))) = next
       end do
       if (.not. is_extreme) point%area_error = abs((abs(miss(n)) + point%error(which))/point%value(2 + which))
@@ -483,8 +468,7 @@ contains
 
          step = next - area(n)
          point%area = next
-         point%area_error = abs(step)*(left_over() + max(doubt(n), doubt(other))/abs(curvature*distance)) &
-            + abs(doubt(n)/curvature)
+         point%area_error = abs(step)*(left_over() + curvature_error) + abs(point%slope_error(which - 2)/curvature)
          energy_slope = point%value(at_load)*point%value(2 + at_approach) + problem%work
          change = point%value(3:)
          ! The slope at the extreme is 0.

@@ -99,10 +99,10 @@ contains
 
    !> Solves the contact with adhesion of a spot or a pool of a given area. The load is part of the solution.
    !>
-   !> The accuracy is that of a curve: of the mean gap relative to Delta, of the load to the closing pressure, of the peak
-   !> pressure to itself if it is larger. Close to merging the gap is a tenth of Delta and less, and so is the load: errors
-   !> relative to these would take higher degrees that a curve does not show. Status: fitted_solved, fitted_less_exact, fitted_merged if the shape touches its
-   !> neighbours, or fitted_failed.
+   !> The accuracy is relative to Delta for the mean gap, and to the closing pressure for the load and, if this is not
+   !> larger, for the peak pressure. Near merging the gap is a tenth of Delta: errors relative to the gap would take
+   !> higher degrees for digits that a curve does not show. Status: fitted_solved, fitted_less_exact, fitted_merged if
+   !> the shape touches its neighbours, or fitted_failed.
    subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start)
       type(wave_lattice), intent(in) :: lattice
       logical, intent(in) :: pool            !! true: an open pool; false: a contact spot
@@ -146,7 +146,8 @@ contains
       ! between degrees.
       tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
       if (now%work > 0.0_dp) then
-         tolerance = min(0.1_dp*accuracy, 1e-5_dp)
+         ! Most solutions of a curve are to a low accuracy. What Newton's method leaves is part of the told errors.
+         tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-5_dp)
          ! The area is given and has no error.
          history%least_scale(:load_measure) = lattice%closing_pressure
          history%least_scale([gap_measure, area_measure]) = [1.0_dp, huge(1.0_dp)]
