@@ -115,7 +115,7 @@ contains
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
 
-      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp
+      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 2.0_dp
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
@@ -151,7 +151,7 @@ contains
             start = point%answer
             call finer%find_point(pools, part, point, start)
          end if
-         ! Near the end of a branch a solution may be much less accurate than asked for. A shorter step then leads to a
+         ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
          if (point%exists .and. maxval(point%error) <= worst_error*curve%problem%accuracy) then
             call add_point(curve, point)
