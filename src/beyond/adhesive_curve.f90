@@ -115,7 +115,8 @@ contains
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
 
-      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 2.0_dp
+      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp, &
+         largest_error = 0.02_dp
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
@@ -153,7 +154,8 @@ contains
          end if
          ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
-         if (point%exists .and. maxval(point%error) <= worst_error*curve%problem%accuracy) then
+         if (point%exists .and. maxval(point%error) <= min(worst_error*curve%problem%accuracy, &
+                                                               largest_error)) then
             call add_point(curve, point)
             start = point%answer
             ! Past its last extreme the approach falls with the radius, and no contact is stable from there on.
