@@ -176,8 +176,8 @@ contains
             cell = lattice%area
             area = point%area*cell
          end if
-         call solve_adhesive(lattice, point%pools, self%work/unit, area, &
-                             self%accuracy/(1.0_dp + self%surface%full_contact_peak), answer, start)
+         ! Less accurate points, which may be on the wrong side of an extreme, would be of no use to a curve.
+         call solve_adhesive(lattice, point%pools, self%work/unit, area, min(self%accuracy, 1e-2_dp), answer, start)
          if (answer%status > fitted_less_exact) return
          point%exists = .true.
          point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]

@@ -8,7 +8,7 @@ module wavycon_adhesive_curve
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
    use wavycon_constants, only: pi
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_status, only: not_accurate, not_found
+   use wavycon_contact_status, only: converged, not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
@@ -27,7 +27,7 @@ module wavycon_adhesive_curve
       !> Points and extremes in their order along the branches. P and approach are monotonic between two neighbours of
       !> one branch.
       type(adhesive_point), allocatable, private :: knots(:)
-      type(adhesive_problem), private :: problem
+      type(adhesive_problem) :: problem
    end type adhesive_curve
 
    !> Number of points of a curve in closed form.
@@ -40,8 +40,11 @@ module wavycon_adhesive_curve
    real(dp), parameter :: ratio_growth = 0.12_dp
    !> The branch ends where the approach falls at a merging ratio above this. The last extremes are at 0.83 and more.
    real(dp), parameter :: ratio_of_extremes = 0.6_dp
-   !> The branch also ends if the step becomes smaller than this part of the largest step.
+   !> The branch also ends if there is no solution even after a step of this part of the largest step.
    real(dp), parameter :: least_step = 0.02_dp
+   !> Factor on the accuracy of a point that is solved again, as the sign of its slope is not sure. Told errors of
+   !> slopes have a safety of 5: half of them is enough.
+   real(dp), parameter :: finer_by = 0.2_dp
    !> Step towards the last extreme of the approach, over the distance that is extrapolated from the last slopes.
    real(dp), parameter :: beyond_extreme = 1.3_dp
 
@@ -112,13 +115,17 @@ contains
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
 
-      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp
+      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp, &
+         largest_error = 0.02_dp
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
       type(adhesive_point) :: point
+      type(adhesive_problem) :: finer
       type(fitted_answer) :: start
 
+      finer = curve%problem
+      finer%accuracy = finer_by*finer%accuracy
       associate (lattice => curve%problem%frame%lattice, work => curve%problem%work/curve%problem%frame%pressure_unit)
          cell_area = lattice%area
          if (pools) cell_area = lattice%area/lattice%troughs
@@ -139,9 +146,16 @@ contains
          part = pi*radius**2/cell_area
          if (pools) part = 1.0_dp - part
          call curve%problem%find_point(pools, part, point, start)
-         ! Near the end of a branch a solution may be much less accurate than asked for. A shorter step then leads to a
+         ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
+         if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
+             abs(point%value(2 + at_approach)) <= 0.5_dp*point%slope_error(at_approach)) then
+            start = point%answer
+            call finer%find_point(pools, part, point, start)
+         end if
+         ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
-         if (point%exists .and. maxval(point%error) <= worst_error*curve%problem%accuracy) then
+         if (point%exists .and. maxval(point%error) <= min(worst_error*curve%problem%accuracy, &
+                                                               largest_error)) then
             call add_point(curve, point)
             start = point%answer
             ! Past its last extreme the approach falls with the radius, and no contact is stable from there on.
@@ -157,13 +171,14 @@ contains
                end associate
                if (pools) next = 1.0_dp - next
                next = sqrt(max(next, 0.0_dp)*cell_area/pi)
-               if (next > radius) step = min(step, beyond_extreme*(next - radius))
+               if (next > radius) step = min(step, max(beyond_extreme*(next - radius), &
+                                                          0.1_dp*least_step*full_step))
             end if
          else
             radius = radius - step
             step = 0.5_dp*step
+            if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
          end if
-         if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
          radius = radius + step
       end do
       if (ratio <= 0.0_dp) return
@@ -362,16 +377,18 @@ contains
 
       integer, parameter :: most_steps = 60
       !> The search ends if the next step changes load and approach by less than `part_of_error` of their errors. The
-      !> accuracy of a repeated search is the last one times a factor from `least_tightening` to `tightening`.
+      !> accuracy of a repeated search is the last point's error times a factor from `least_tightening` to `tightening`.
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp, tightening = 0.3_dp, &
-         least_tightening = 0.01_dp
-      integer :: n
-      !> Whether a slope is to become 0; whether the search is repeated with a smaller accuracy.
-      logical :: is_extreme, is_last
+         least_tightening = 0.1_dp
+      !> `fine`: number of solutions with a smaller accuracy. `other`: area from which the curvature is.
+      integer :: fine, n, other
+      logical :: is_extreme   ! whether a slope is to become 0
       !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
       !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
       !> of the last point. `curvature`, `distance`: the derivative of the slope, from two areas so far apart.
-      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, distance, errors(2), miss(most_steps), next
+      !> `curvature_error`: relative. `solved`: larger error of the last solution, before the step by the derivatives.
+      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, curvature_error, distance, errors(2), &
+         miss(most_steps), next, solved
       type(adhesive_problem) :: problem
 
       problem = curve%problem
@@ -384,36 +401,48 @@ contains
          miss(:2) = miss([2, 1])
       end if
       bracket = area(:2)
+      fine = 0
       do n = 2, most_steps - 1
-         is_last = problem%accuracy < curve%problem%accuracy
-         if (is_last) then
+         if (fine == 1) then
             next = area(n) - miss(n)/curvature
          else if (n > 2 .and. .not. is_extreme) then
             next = area(n) - miss(n)/point%value(2 + which)
          else
-            next = interpolated(area(max(1, n - 2):n), miss(max(1, n - 2):n))
+            next = interpolated(area(max(1, n - 2 + fine/2):n), miss(max(1, n - 2 + fine/2):n))
          end if
-         if (.not. (is_last .or. (next - bracket(1))*(next - bracket(2)) < 0.0_dp)) next = 0.5_dp*sum(bracket)
+         if (.not. (fine > 0 .or. (next - bracket(1))*(next - bracket(2)) < 0.0_dp)) next = 0.5_dp*sum(bracket)
          if (n > 2) then
             changes = abs(point%value(3:)*(next - area(n)))
             errors = point%error
             if (is_extreme) then
                ! The changes are those that a step by the derivatives leaves out, and the errors have that of the slope
                ! besides.
-               if (.not. is_last) then
-                  distance = area(n) - area(min(n - 1, 3))
-                  curvature = (miss(n) - miss(min(n - 1, 3)))/distance
+               if (fine /= 1) then
+                  other = n - 1
+                  if (fine == 0) other = min(other, 3)
+                  distance = area(n) - area(other)
+                  curvature = (miss(n) - miss(other))/distance
+                  ! `first` and `last` have other degrees than the solutions of the search: errors of slopes differ.
+                  curvature_error = 0.0_dp
+                  if (other < 3) curvature_error = maxval([first%slope_error(which - 2), last%slope_error(which - 2), &
+                                                           point%slope_error(which - 2)])/abs(miss(n) - miss(other))
                end if
                changes = changes*left_over()
                errors = errors + abs(point%value(3:)*point%slope_error(which - 2)/curvature)
+            else
+               ! Of a point with a given load the approach is as accurate as its solution, and the other way round.
+               changes(3 - which) = 0.0_dp
             end if
-            if (is_last .or. abs(next - area(n)) <= rounding*next .or. &
+            if (fine > 0 .or. abs(next - area(n)) <= rounding*next .or. &
                 all(changes <= max(part_of_error*errors, epsilon(next)*abs(point%value(:2))))) then
+               solved = maxval(point%error)
                if (is_extreme) call step_to_extreme()
-               if (is_last .or. .not. is_extreme .or. maxval(point%error) <= curve%problem%accuracy) exit
-               ! The slope is not known accurately enough. Its error falls with the accuracy of the solutions.
-               problem%accuracy = problem%accuracy &
-                  *max(least_tightening, tightening*problem%accuracy/maxval(point%error))
+               if (fine == 2 .or. .not. is_extreme .or. maxval(point%error) <= curve%problem%accuracy) exit
+               ! The slope is not known accurately enough. Its error falls with that of the solutions. If it is the
+               ! curvature that is not, a second solution of the same accuracy gives it.
+               fine = fine + 1
+               if (fine == 1) problem%accuracy = &
+                  solved*max(least_tightening, tightening*problem%accuracy/maxval(point%error))
             end if
          end if
          call problem%find_point(first%pools, next, point, last%answer)
@@ -423,6 +452,7 @@ contains
          bracket(merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))) = next
       end do
       if (.not. is_extreme) point%area_error = abs((abs(miss(n)) + point%error(which))/point%value(2 + which))
+      point%status = converged
       if (.not. maxval(point%error) <= curve%problem%accuracy) point%status = not_accurate
 
    contains
@@ -440,7 +470,7 @@ contains
 
          step = next - area(n)
          point%area = next
-         point%area_error = abs(step)*left_over() + abs(point%slope_error(which - 2)/curvature)
+         point%area_error = abs(step)*(left_over() + curvature_error) + abs(point%slope_error(which - 2)/curvature)
          energy_slope = point%value(at_load)*point%value(2 + at_approach) + problem%work
          change = point%value(3:)
          ! The slope at the extreme is 0.

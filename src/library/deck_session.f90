@@ -265,7 +265,6 @@ contains
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
-            if (allocated(results%adhesion)) deallocate (results%adhesion)
             targets = results%scene%target
             loads_by = results%scene%loads_by
             results%scene%target = [solved%target]

@@ -16,6 +16,8 @@ module wavycon_degree_history
       integer :: solutions = 0                                     !! number of solutions so far
       real(dp) :: measures(all_measures, 0:most_previous) = 0.0_dp !! measures of the last solutions, the newest first
       real(dp) :: scale(all_measures) = 0.0_dp                     !! what errors of the newest solution are relative to
+      !> The least scale of each measure: the accuracy is relative to the larger one of the two.
+      real(dp) :: least_scale(all_measures) = 0.0_dp
       real(dp) :: error(all_measures) = huge(1.0_dp)               !! error estimates of the newest solution's measures
       real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! error estimates of the best solution's measures
       logical :: newest_is_best = .false.                          !! whether the newest solution is the best one
@@ -80,14 +82,14 @@ contains
       self%newest(0) = now
    end subroutine push
 
-   !> Whether the relative errors of the best solution are within an accuracy.
+   !> Whether the errors of the best solution are within an accuracy, relative to the scales.
    pure logical function best_meets(self, accuracy, required)
       class(degree_history), intent(in) :: self
       real(dp), intent(in) :: accuracy      !! largest allowed relative error, > 0
       integer, intent(in) :: required       !! the measures 1 to `required` have to be so accurate
 
       best_meets = self%solutions >= least_solutions &
-         .and. all(self%best_error(:required) <= accuracy*self%scale(:required))
+         .and. all(self%best_error(:required) <= accuracy*max(self%scale(:required), self%least_scale(:required)))
    end function best_meets
 
    !> Estimates the errors of values from those of lower degrees: README.md (F43) and, without its last term, (F44).

@@ -99,15 +99,16 @@ contains
 
    !> Solves the contact with adhesion of a spot or a pool of a given area. The load is part of the solution.
    !>
-   !> The accuracy is relative to the mean gap, and to peak pressure and load plus the tension at the edge: a load may
-   !> be zero on the way to a tension. Status: fitted_solved, fitted_less_exact, fitted_merged if the shape touches its
-   !> neighbours, or fitted_failed.
+   !> The accuracy is relative to Delta for the mean gap, and to the closing pressure for the load and, if this is not
+   !> larger, for the peak pressure. Near merging the gap is a tenth of Delta: errors relative to the gap would take
+   !> higher degrees for digits that a curve does not show. Status: fitted_solved, fitted_less_exact, fitted_merged if
+   !> the shape touches its neighbours, or fitted_failed.
    subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start)
       type(wave_lattice), intent(in) :: lattice
       logical, intent(in) :: pool            !! true: an open pool; false: a contact spot
       real(dp), intent(in) :: work           !! work of adhesion W > 0 [pi E* Delta^2/s]
       real(dp), intent(in) :: area           !! area of the spot or pool, between 0 and that of its cell [s^2]
-      real(dp), intent(in) :: accuracy       !! largest allowed relative error, > 0
+      real(dp), intent(in) :: accuracy       !! largest allowed error over these scales, > 0
       type(fitted_answer), intent(out) :: answer
       type(fitted_answer), intent(in), optional :: start
          !! solution of another area of the same lattice and work, which saves time; not the variable `answer`
@@ -144,6 +145,13 @@ contains
       ! Relative tolerance of the shape. A smaller one would be rounding. A larger one would show in the differences
       ! between degrees.
       tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
+      if (now%work > 0.0_dp) then
+         ! Most solutions of a curve are to a low accuracy. What Newton's method leaves is part of the told errors.
+         tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-5_dp)
+         ! The area is given and has no error.
+         history%least_scale(:load_measure) = lattice%closing_pressure
+         history%least_scale([gap_measure, area_measure]) = [1.0_dp, huge(1.0_dp)]
+      end if
       ratio = merging_ratio(lattice, now)
       ! For round shapes a lower first degree gives the error estimates one more difference. It cannot represent sharp
       ! tips.

@@ -228,7 +228,8 @@ contains
    end subroutine find_slip
 
    !> Computes the curve of the contact with adhesion and its contacts at the deck's loads. Mean pressures, gaps,
-   !> approaches or areas of the deck are those of the contact with adhesion.
+   !> approaches or areas of the deck are those of the contact with adhesion. A session, which calls this for each of
+   !> its tables, follows a curve that takes time only once.
    subroutine find_adhesion(results, logger)
       type(results_type), intent(inout) :: results   !! gets `adhesion` and `adhesive_loads`
       type(run_log), intent(inout) :: logger
@@ -236,10 +237,12 @@ contains
       character(:), allocatable :: words   ! load and area of a critical point; with free edges the load is a force
       integer :: bad, given, i   ! given: which value of a point on the curve the loads give
       real(dp) :: mean_pressure
+      logical :: is_followed
       real(dp), allocatable :: loads(:)
 
       if (allocated(results%adhesive_loads)) deallocate (results%adhesive_loads)
-      allocate (results%adhesion, results%adhesive_loads(size(results%loads)))
+      if (.not. allocated(results%adhesion)) allocate (results%adhesion)
+      allocate (results%adhesive_loads(size(results%loads)))
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
                  surface => results%solver%surface, accuracy => results%scene%method%accuracy%number)
          loads = results%scene%target
@@ -254,7 +257,11 @@ contains
          case default
             given = 0   ! the contact area fraction
          end select
-         call follow_curve(surface, accuracy, work, maxval(results%loads%pbar_over_pstar), curve)
+         ! A curve in closed form takes no time, but ends at the largest load.
+         is_followed = allocated(curve%at_loads) .and. .not. curve%problem%has_closed_form
+         if (is_followed) curve%at_loads = curve%at_loads(:0)
+         if (.not. is_followed) &
+            call follow_curve(surface, accuracy, work, maxval(results%loads%pbar_over_pstar), curve)
          do i = 1, size(loads)
             call add_load(curve, given, loads(i), i)
             call find_adhesive_solution(curve, given, i, results%adhesive_loads(i))
