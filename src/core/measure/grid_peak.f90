@@ -66,9 +66,7 @@ contains
       base = best
       if (edge%value_at(best(1) - 1, best(2)) > edge%value_at(best(1) + 1, best(2))) base(1) = best(1) - 1
       if (edge%value_at(best(1), best(2) - 1) > edge%value_at(best(1), best(2) + 1)) base(2) = best(2) - 1
-      field%least = -margin
-      field%most = 1.0_dp + margin
-      field%in_plane = edge%slab%points(2) > 1
+      field = peak_polynomial(least=-margin, most=1.0_dp + margin, in_plane=edge%slab%points(2) > 1)
       do j = first, last
          do i = first, last
             field%values(i, j) = edge%value_at(base(1) + i, base(2) + j)
