@@ -162,14 +162,18 @@ contains
       call keys(1)%start('')
       equals = index(quantity//'=', '=')
       k = key_index(keys(1)%rows, quantity(:equals - 1))
+      ! A number stands in `value`, not behind a '='.
+      if (k > 0 .and. equals <= len(quantity)) then
+         if (keys(1)%rows(k)%kind /= choice_value) k = 0
+      end if
       if (k == 0) then
-         call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity(:equals - 1), keys(1), keys))
+         call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity, keys(1), keys))
          return
       end if
       ! The checks skip a group that the deck does not have: mark the group as given.
       values%position = 1
       if (keys(1)%rows(k)%kind == choice_value) then
-         call keys(1)%take_value(k, text=quantity(min(equals, len(quantity)) + 1:))
+         call keys(1)%take_value(k, text=trim(adjustl(quantity(min(equals, len(quantity)) + 1:))))
       else
          call keys(1)%take_value(k, number=value)
       end if
@@ -222,8 +226,8 @@ contains
          if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
             call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
          else if (.not. self%results%keeps_fields) then
-            call fatal_error(error, exit_bad_input, 'yield and percolates need fields: the session was opened '// &
-               'without them')
+            call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session was '// &
+                             'opened without them')
          end if
          if (allocated(error)) return
       end if
