@@ -13,6 +13,7 @@ module wavycon_degree_history
    public :: degree_history, error_estimate
 
    type :: degree_history
+      integer :: required = load_measure                           !! the measures 1 to `required` have to be accurate
       integer :: solutions = 0                                     !! number of solutions so far
       real(dp) :: measures(all_measures, 0:most_previous) = 0.0_dp !! measures of the last solutions, the newest first
       real(dp) :: scale(all_measures) = 0.0_dp                     !! what errors of the newest solution are relative to
@@ -70,9 +71,12 @@ contains
             ! The last term of README.md (F44).
             error = max(error, error_per_remainder*remaining*reference)
          end associate
-         ! Close to merging a higher degree may be less accurate than a lower one.
-         if (.not. self%newest_is_best) self%newest_is_best = sum(self%error(:load_measure)/reference(:load_measure)) &
-            < sum(self%best_error(:load_measure)/reference(:load_measure))
+         ! Close to merging a higher degree may be less accurate than a lower one. Where the first measures are exact to
+         ! rounding, the gap at the trough may still become more accurate.
+         associate (n => self%required)
+            if (.not. self%newest_is_best) self%newest_is_best = &
+               sum(self%error(:n)/reference(:n)) < sum(self%best_error(:n)/reference(:n))
+         end associate
          if (self%newest_is_best) self%best_error = self%error
       end if
       self%misfit = misfit
@@ -83,13 +87,14 @@ contains
    end subroutine push
 
    !> Whether the errors of the best solution are within an accuracy, relative to the scales.
-   pure logical function best_meets(self, accuracy, required)
+   pure logical function best_meets(self, accuracy)
       class(degree_history), intent(in) :: self
       real(dp), intent(in) :: accuracy      !! largest allowed relative error, > 0
-      integer, intent(in) :: required       !! the measures 1 to `required` have to be so accurate
 
-      best_meets = self%solutions >= least_solutions &
-         .and. all(self%best_error(:required) <= accuracy*max(self%scale(:required), self%least_scale(:required)))
+      associate (n => self%required)
+         best_meets = self%solutions >= least_solutions &
+            .and. all(self%best_error(:n) <= accuracy*max(self%scale(:n), self%least_scale(:n)))
+      end associate
    end function best_meets
 
    !> Estimates the errors of values from those of lower degrees: README.md (F43) and, without its last term, (F44).

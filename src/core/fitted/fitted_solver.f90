@@ -49,7 +49,8 @@ contains
          !! solution of another load of the same lattice, which saves time if that load is near; not the variable
          !! `answer`
       logical, intent(in), optional :: fields
-         !! whether a pool's gap at its trough has to be as accurate, because fields need this; false if absent
+         !! whether the error of a pool's gap at its trough has to be within the accuracy times Delta, because fields
+         !! need this; false if absent
 
       logical :: first_is_pool
 
@@ -142,9 +143,12 @@ contains
       logical :: merged
 
       degree = first
+      history%required = required
       ! Relative tolerance of the shape. A smaller one would be rounding. A larger one would show in the differences
       ! between degrees.
       tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
+      ! Fields need the gap at a trough within the accuracy times Delta. Near full contact it is a small part of Delta.
+      history%least_scale(centre_measure) = 1.0_dp
       if (now%work > 0.0_dp) then
          ! Most solutions of a curve are to a low accuracy. What Newton's method leaves is part of the told errors.
          tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-5_dp)
@@ -193,7 +197,7 @@ contains
                   previous_difference_share*abs(area_slopes(:, 1) - area_slopes(:, 2)))
                answer%area_change = area_change
             end if
-            if (history%best_meets(accuracy, required)) then
+            if (history%best_meets(accuracy)) then
                answer%status = fitted_solved
                exit
             end if
