@@ -156,6 +156,7 @@ contains
             sweeps = sweeps + 1
             call read_sweep('--set', 'output.directory='//quoted(options%output%text), sweep(sweeps)%values, trouble)
          end if
+         if (options%table%text == '-') call options%table%set(text='/dev/stdout')
          if (options%csv%is_true) then
             sweeps = sweeps + 1
             call read_sweep('--set', 'output.csv=.true.', sweep(sweeps)%values, trouble)
