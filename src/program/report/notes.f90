@@ -204,11 +204,7 @@ contains
                words = words//' from pbar/p* = '//in_words(solution%value(percolation))//' on, not yet at '// &
                        in_words(solution%value(last_before))
             end if
-            if (is_known(solution%error(percolation))) then
-               words = words//'; error '//in_words(solution%error(percolation))
-            else
-               words = words//'; the error is unknown'
-            end if
+            words = words//'; error '//in_words(solution%error(percolation))
          end if
       end associate
       call logger%say(words)
@@ -220,9 +216,10 @@ contains
          real(dp), intent(in) :: pressure   !! [p*]
          character(:), allocatable :: words
 
-         words = short_number(pressure)
-         if (results%scene%gives_modulus) words = words//' ('//short_number(results%scene%p_star*pressure)//' '// &
-                                                  results%scene%pressure_unit//')'
+         words = 'unknown'
+         if (is_known(pressure)) words = short_number(pressure)
+         if (results%scene%gives_modulus .and. is_known(pressure)) words = words//' ('// &
+            short_number(results%scene%p_star*pressure)//' '//results%scene%pressure_unit//')'
       end function in_words
 
    end subroutine say_load_of_percolation
