@@ -343,6 +343,8 @@ class Problems(ValuesTest):
             self.assertTrue(numpy.isnan(other[0]))
             self.refuse("'gab'; did you mean 'gap'", p.find, percolates="gab")
             self.refuse("percolates must be 'contact'", p.find, percolates=1)
+        with wc.problem(wc.wave_2d(), solver="beale") as p:
+            self.refuse("estimates no errors", p.find, percolates="gap")
 
     def test_misuse(self):
         self.refuse("loads belong to the solve", wc.problem, self.rough, mean_pressure=1)
