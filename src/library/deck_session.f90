@@ -165,8 +165,8 @@ contains
       if (k == 0) then
          call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity(:equals - 1), keys(1), keys))
       else if (equals <= len(quantity) .and. keys(1)%rows(k)%kind /= choice_value) then
-         call fatal_error(error, exit_bad_input, '&load: '//quantity(:equals - 1)//" needs a number, got '"// &
-                          quantity(equals + 1:)//"'")
+         call fatal_error(error, exit_bad_input, '&load: '//trim(quantity(:equals - 1))//" needs a number, got '"// &
+                          trim(adjustl(quantity(equals + 1:)))//"'")
       end if
       if (allocated(error)) return
       ! The checks skip a group that the deck does not have: mark the group as given.

@@ -307,6 +307,7 @@ class Pictures(ValuesTest):
                     self.assertEqual({words} if along else set(), {name for name in named if name.startswith(part)})
                     seen.add((edges, part, len(along)))
                 self.assertEqual(spots["closed_pools"] > 0, "closed gap" in named)
+                matplotlib.pyplot.close("all")
         self.assertEqual(8, len({(edges, part, number > 0) for edges, part, number in seen}))
         self.assertEqual({0, 1, 2}, {number for _, _, number in seen})
         # Without the table the axis is not known.
@@ -326,7 +327,9 @@ class Pictures(ValuesTest):
         self.refuse("this one has free edges", ball.plot_map, "regions")
 
     def legend(self, one):
-        return {text.get_text() for text in one.plot_map("regions").get_legend().get_texts()}
+        names = {text.get_text() for text in one.plot_map("regions").get_legend().get_texts()}
+        matplotlib.pyplot.close("all")
+        return names
 
 
 class Problems(ValuesTest):

@@ -118,7 +118,7 @@ def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
     connected with its own copy; on a mirrored map it goes from border to border. The edge is that of the table spots,
     of the paper's series an isobar."""
     facts, (rows, columns) = result._facts, result.pressure.shape
-    is_periodic, isobar = "edges = 'mirror'" not in facts.deck, re.search(r"edge_level\[p\*\] = (\S+)", facts.method)
+    is_periodic, isobar = "edges = 'mirror'" not in facts.deck, re.search(r"(?m)^ *edge_level = (\S+)", facts.deck)
     edge = facts.p_star*float(isobar[1]) if isobar else 0.0
     colours = np.zeros((rows, columns), dtype=int)
     for is_contact in False, True:

@@ -113,7 +113,8 @@ class Problem:
     def find(self, **load: Unpack[Load]) -> Result:
         """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3, or percolates: its
         table "percolation" has the error of the load."""
-        if any(np.ndim(value) for value in load.values()):
+        values: Any = load.values()
+        if any(map(np.ndim, values)):
             raise ValueError("find needs one value, not a list; solve takes lists")
         return self.solve(**load)[0]
 
