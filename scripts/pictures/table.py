@@ -29,6 +29,7 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "slip_loop": ("branch", "tangential_load", "displacement"),
          "slip_map": ("x", "y", "traction", "slip_state"),
          "adhesion": ("contact_area_fraction", "approach", "branch", "point"),
+         "percolation": ("last_before_over_pstar", "percolation_over_pstar"),
          "bounds": ("pbar_over_pstar", "energy_lower_over_pstar_amplitude", "energy_is_inside")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
@@ -37,7 +38,7 @@ MAGIC = b"\x93NUMPY\x01\x00"
 
 
 class NotATable(ValueError):
-    """The file is no table of wavycon, or has no rows."""
+    """The file is no table of wavycon, has no rows, or has no picture."""
 
 
 class Block:
@@ -84,6 +85,8 @@ class Table:
         self.kind = next((kind for kind, mark in MARKS.items() if set(mark) <= set(self.names)), None)
         if self.kind is None:
             raise NotATable("this is not a table of this version of wavycon: none has these columns")
+        if self.kind == "percolation":
+            raise NotATable("this table has no picture: it is one load and its error")
         if {"deck", "case"} <= set(self.names):
             raise NotATable("this is a table of several decks; draw their summaries, with --compare in one picture")
         if not any(len(next(iter(block.columns.values()))) for block in self.blocks):
@@ -107,6 +110,8 @@ class Table:
                     if not words:
                         continue
                     if not self.names:
+                        if "," in line:
+                            raise NotATable("this table has commas, for spreadsheets; draw the .dat of the same run")
                         if not all(re.fullmatch(r"[A-Za-z]\w*", word) for word in words):
                             raise NotATable("this is not a table of wavycon: its first row holds no names of columns")
                         self.names = words

@@ -162,14 +162,13 @@ contains
       call keys(1)%start('')
       equals = index(quantity//'=', '=')
       k = key_index(keys(1)%rows, quantity(:equals - 1))
-      ! A number stands in `value`, not behind a '='.
-      if (k > 0 .and. equals <= len(quantity)) then
-         if (keys(1)%rows(k)%kind /= choice_value) k = 0
-      end if
       if (k == 0) then
-         call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity, keys(1), keys))
-         return
+         call fatal_error(error, exit_bad_input, '&load: '//unknown_key(quantity(:equals - 1), keys(1), keys))
+      else if (equals <= len(quantity) .and. keys(1)%rows(k)%kind /= choice_value) then
+         call fatal_error(error, exit_bad_input, '&load: '//trim(quantity(:equals - 1))//" needs a number, got '"// &
+                          trim(adjustl(quantity(equals + 1:)))//"'")
       end if
+      if (allocated(error)) return
       ! The checks skip a group that the deck does not have: mark the group as given.
       values%position = 1
       if (keys(1)%rows(k)%kind == choice_value) then
@@ -318,6 +317,8 @@ contains
          trouble = 'it needs a group &stress in the deck'
       else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then
          trouble = 'the deck has no group &interface that asks for it'
+      else if (writer%group == 'load' .and. solved%loads_by /= by_percolation) then
+         trouble = "it needs a load that percolates finds, such as percolates = 'gap'"
       else if ((writer%group == 'stress' .or. writer%needs_fields) .and. .not. self%results%keeps_fields) then
          trouble = 'the session was opened without fields'
       else if (self%scale%p_star <= 0.0_dp .and. writer%needs_surface) then

@@ -381,6 +381,10 @@ class Plot(ProgramTest):
         self.plot("bad", status=3)
         self.run_deck("auto", None, "--table", "bad/all.dat")
         self.assertIn("several decks", self.plot("bad/all.dat", status=3)[1])
+        # Tables that have no picture say so, or whose picture shows the same.
+        self.run_deck("tight", "&surface kind = 'wave_2d' /\n&load percolates = 'gap' /\n&output csv = t /\n")
+        self.assertIn("has no picture: it is one load", self.plot("tight.percolation.dat", status=3)[1])
+        self.assertIn("draw the .dat", self.plot("tight.summary.csv", status=3)[1])
         shortened = (self.folder/"npy.map.npy").read_bytes()[:-8]
         (self.folder/"bad"/"short.map.npy").write_bytes(shortened)
         self.assertIn("cut short", self.plot("bad/short.map.npy", status=3)[1])

@@ -302,12 +302,34 @@ class Pictures(ValuesTest):
                 ax, spots = one.plot_map("regions"), one.table("spots")[0]
                 named = {text.get_text() for text in ax.get_legend().get_texts()}
                 for part in "contact", "gap":
-                    percolates = max(spots[f"{part}_percolates_{axis}"] for axis in "xy") > 0
-                    self.assertEqual(percolates, f"{part} that percolates" in named)
-                    seen.add((edges, part, percolates))
+                    along = [axis for axis in "xy" if spots[f"{part}_percolates_{axis}"]]
+                    words = f"{part} that percolates" + (f" along {along[0]}" if len(along) == 1 else "")
+                    self.assertEqual({words} if along else set(), {name for name in named if name.startswith(part)})
+                    seen.add((edges, part, len(along)))
                 self.assertEqual(spots["closed_pools"] > 0, "closed gap" in named)
-        self.assertEqual(8, len(seen))
-        self.refuse("there is no field 'regions'", wc.solve(wc.wave_1d(), pbar_over_pstar=0.2)[0].plot_map, "regions")
+                matplotlib.pyplot.close("all")
+        self.assertEqual(8, len({(edges, part, number > 0) for edges, part, number in seen}))
+        self.assertEqual({0, 1, 2}, {number for _, _, number in seen})
+        # Without the table the axis is not known.
+        wc.solve(surface, contact_area_fraction=0.6).save("regions.npz")
+        self.assertIn("contact that percolates", self.legend(wc.load("regions.npz")[0]))
+        # In the paper's series the edge is an isobar; pressures far from the contact are above zero, too.
+        for solver in "beale", "series":
+            for one in wc.solve(wc.wave_2d(), pbar_over_pstar=[0.02, 0.8], solver=solver):
+                spots = one.table("spots")[0]
+                drawn = one.plot_map("regions").collections[0].get_array().reshape(one.pressure.shape)
+                self.assertAlmostEqual(spots["contact_area_fraction"], (drawn >= 2).mean(), delta=0.01)
+                self.assertEqual(bool(spots["gap_percolates_x"]), "gap that percolates" in self.legend(one))
+                self.assertEqual(spots["closed_pools"] > 0, "closed gap" in self.legend(one))
+                self.assertEqual(not spots["contact_percolates_x"], "spots of contact" in self.legend(one))
+        self.refuse("this one is a profile", wc.solve(wc.wave_1d(), pbar_over_pstar=0.2)[0].plot_map, "regions")
+        ball = wc.solve(wc.ball(radius=1, length_x=0.2, points=32), e_star=2, force=1e-4)[0]
+        self.refuse("this one has free edges", ball.plot_map, "regions")
+
+    def legend(self, one):
+        names = {text.get_text() for text in one.plot_map("regions").get_legend().get_texts()}
+        matplotlib.pyplot.close("all")
+        return names
 
 
 class Problems(ValuesTest):
@@ -339,10 +361,16 @@ class Problems(ValuesTest):
                 spots = load.table("spots")
                 self.assertEqual(percolates, max(spots["gap_percolates_x"][0], spots["gap_percolates_y"][0]))
                 self.assertEqual(spots["spots"][0], (load.table("spot_sizes")["region"] == "spot").sum())
-            other = p.find(mean_pressure=tight.mean_pressure).table("percolation")["percolation"]
-            self.assertTrue(numpy.isnan(other[0]))
+            other = p.find(mean_pressure=tight.mean_pressure)
+            self.refuse("needs a load that percolates finds", other.table, "percolation")
             self.refuse("'gab'; did you mean 'gap'", p.find, percolates="gab")
-            self.refuse("percolates must be 'contact'", p.find, percolates=1)
+            self.refuse("percolates must be one word", p.find, percolates=3)
+            self.refuse("percolates must be one word", p.find, percolates=None)
+            self.refuse("percolates must be one word", p.solve, percolates=["gap", "contact"])
+            self.refuse("'percolate' in &load; did you mean 'percolates'", p.find, percolate="gap")
+            self.refuse("find needs one value", p.find, percolates=["gap", "contact"])
+            self.refuse("find needs one value", p.find, mean_pressure=[0.1, 0.2])
+            self.refuse("mean_pressure needs a number, got 'gap'", p.find, mean_pressure="gap")
         with wc.problem(wc.wave_2d(), solver="beale") as p:
             self.refuse("estimates no errors", p.find, percolates="gap")
 

@@ -2,6 +2,7 @@
 drawn over p*, gaps over Delta, the mean gap before load."""
 from __future__ import annotations
 
+import contextlib
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -15,8 +16,9 @@ if TYPE_CHECKING:
 
 UNRESOLVED = 4   # the status code; from 10 on loads were not solved as requested
 PLACES = ("x", "y", "depth", "distance")
-# Regions of a map: what each is called, with its colour, and the colours of spots.
-REGIONS = {"gap that percolates": "#d9e8f5", "closed gap": "#f0a830", "contact that percolates": "#33202a"}
+# Regions of a map: what each is called, with its colour, in the legend alone for spots, and the colours of spots.
+REGIONS = {"gap that percolates": "#d9e8f5", "closed gap": "#f0a830", "contact that percolates": "#33202a",
+           "spots of contact": "#b0b0b0"}
 SPOTS = ("#1f77b4", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#17a398")
 
 
@@ -75,12 +77,14 @@ def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: A
     or 'regions': each spot of contact in a colour, and what percolates. style: options of pcolormesh, for a profile
     of plot."""
     fields = [name for name in result._fields if name not in PLACES]
-    # Without p*, with free edges, nothing is repeated.
-    fields += ["regions"]*(len(result.y) > 1 and not np.isnan(result.pbar_over_pstar))
-    if field not in fields:
-        raise ValueError(unknown("field", field, fields))
     if field == "regions":
+        # Without p*, with free edges, nothing is repeated.
+        if len(result.y) == 1 or np.isnan(result.pbar_over_pstar):
+            raise ValueError("regions are those of a surface that is repeated along x and y: this one "
+                             + ("is a profile" if len(result.y) == 1 else "has free edges"))
         return plot_regions(result, axes(ax), style)
+    if field not in fields:
+        raise ValueError(unknown("field", field, [*fields, "regions"]))
     ax, facts = axes(ax), result._facts
     factor, words = scaled(facts, field)
     values, (x, y) = factor*result._fields[field], (scaled(facts, axis)[1] for axis in "xy")
@@ -111,11 +115,14 @@ def connected(mask: Any, corners: bool) -> Any:
 
 def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
     """Draws spots in colours, and the gap by whether it percolates. On two by two cells a region that percolates is
-    connected with its own copy; on a mirrored map it goes from border to border."""
-    is_periodic, (rows, columns) = "edges = 'mirror'" not in result._facts.deck, result.pressure.shape
+    connected with its own copy; on a mirrored map it goes from border to border. The edge is that of the table spots,
+    of the paper's series an isobar."""
+    facts, (rows, columns) = result._facts, result.pressure.shape
+    is_periodic, isobar = "edges = 'mirror'" not in facts.deck, re.search(r"(?m)^ *edge_level = (\S+)", facts.deck)
+    edge = facts.p_star*float(isobar[1]) if isobar else 0.0
     colours = np.zeros((rows, columns), dtype=int)
     for is_contact in False, True:
-        mask = (result.pressure > 0) == is_contact
+        mask = (result.pressure > edge) == is_contact
         numbers = connected(mask if is_periodic else np.pad(mask, (0, 1)), is_contact)[:rows, :columns]
         if is_periodic:
             cells = connected(np.tile(mask, (2, 2)), is_contact).reshape(2, rows, 2, columns).swapaxes(1, 2)
@@ -128,11 +135,16 @@ def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
     ax.pcolormesh(result.x, result.y, colours, **{"shading": "nearest", "rasterized": True, "vmin": 0, "cmap":
                   need("matplotlib.colors", "plot").ListedColormap([*REGIONS.values(), *SPOTS]),
                   "vmax": len(REGIONS) + len(SPOTS) - 1, **style})
+    said: dict[str, float] = {}
+    with contextlib.suppress(ValueError):   # of saved results without the table
+        table = result.table("spots")
+        said = dict(zip(table.dtype.names or (), table[0]))
     for kind, (name, colour) in enumerate(REGIONS.items()):
-        if (colours == kind).any():
-            ax.plot([], [], "s", color=colour, label=name)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=len(REGIONS), frameon=False)
-    ax.set(title=title(result), aspect="equal", **{f"{axis}label": scaled(result._facts, axis)[1] for axis in "xy"})
+        if (colours == kind).any() or (name == "spots of contact" and (colours > kind).any()):
+            along = [axis for axis in "xy" if said.get(f"{name.split()[0]}_percolates_{axis}")]
+            ax.plot([], [], "s", color=colour, label=f"{name} along {along[0]}" if len(along) == 1 else name)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False)
+    ax.set(title=title(result), aspect="equal", **{f"{axis}label": scaled(facts, axis)[1] for axis in "xy"})
     return ax
 
 

@@ -100,9 +100,11 @@ class Problem:
         (name, given), = load.items()
         if isinstance(given, str):
             name, given = f"{name}={given}", 0.0
-        values = np.atleast_1d(reals(given))
-        if values.ndim != 1 or not values.size:
-            raise ValueError(f"{name} must be a number or a list of numbers")
+        values = np.atleast_1d(given)
+        if name == "percolates" or values.dtype.kind not in "biuf" or values.ndim != 1 or not values.size:
+            words = "one word, such as 'gap'" if name == "percolates" else "a number or a list of numbers"
+            raise ValueError(f"{name} must be {words}, got {given!r}")
+        values = reals(values)
         # From high to low loads, as the program solves them.
         order = np.argsort(values if name.startswith("mean_gap") else -values, kind="stable") + 1
         return solve_all(self._scene, self._facts, order.tolist(), progress,
@@ -111,6 +113,9 @@ class Problem:
     def find(self, **load: Unpack[Load]) -> Result:
         """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3, or percolates: its
         table "percolation" has the error of the load."""
+        values: Any = load.values()
+        if any(map(np.ndim, values)):
+            raise ValueError("find needs one value, not a list; solve takes lists")
         return self.solve(**load)[0]
 
 
