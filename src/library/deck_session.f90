@@ -209,7 +209,7 @@ contains
    end subroutine solve_load
 
    !> Solves one load of a list, and makes its summary. Errors: exit_bad_input if the load is given by yield or
-   !> percolation and the session has no fields or, for yield, no yield stress.
+   !> percolation and the session has no fields or, for yield, no yield stress, for percolation, no error estimates.
    subroutine solve_one(self, loads_by, load, target, mean_pressure, answer, error)
       class(deck_session), intent(inout) :: self
       integer, intent(in) :: loads_by                             !! by_pressure or another name of wavycon_scene
@@ -224,6 +224,9 @@ contains
       if (any(loads_by == [by_yield, by_percolation])) then
          if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
             call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
+         else if (loads_by == by_percolation .and. .not. self%results%traits%has_errors) then
+            call fatal_error(error, exit_bad_input, 'the load of percolates is not found by a solver that '// &
+                             "estimates no errors: give solver = 'auto'")
          else if (.not. self%results%keeps_fields) then
             call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session was '// &
                              'opened without them')

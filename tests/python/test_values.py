@@ -371,6 +371,8 @@ class Problems(ValuesTest):
             self.refuse("find needs one value", p.find, percolates=["gap", "contact"])
             self.refuse("find needs one value", p.find, mean_pressure=[0.1, 0.2])
             self.refuse("mean_pressure needs a number, got 'gap'", p.find, mean_pressure="gap")
+        with wc.problem(wc.wave_2d(), solver="beale") as p:
+            self.refuse("estimates no errors", p.find, percolates="gap")
 
     def test_misuse(self):
         self.refuse("loads belong to the solve", wc.problem, self.rough, mean_pressure=1)

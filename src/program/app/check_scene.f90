@@ -12,7 +12,7 @@ module wavycon_check_scene
    use wavycon_results, only: results_type
    use wavycon_run_log, only: duration, run_log
    use wavycon_run_scene, only: start_results
-   use wavycon_scene, only: scene_type
+   use wavycon_scene, only: by_pressure, scene_type
    use wavycon_table, only: table_type
    use wavycon_work_sharing, only: distributed_grids, distributed_loads
    implicit none (type, external)
@@ -28,7 +28,7 @@ contains
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards
       logical, intent(in) :: quiet                            !! whether to write nothing
 
-      character(:), allocatable :: reason
+      character(:), allocatable :: reason, words
       type(results_type) :: results
       type(run_log) :: logger
       type(table_type), allocatable :: tables(:)
@@ -46,12 +46,16 @@ contains
          'than two points: the errors of all loads that it solves will be unknown. Give more grid_points, or an accuracy')
       if (all(results%traits%finest_grid > 0)) then
          call logger%say('memory: '//memory(results))
-         call logger%say('time: some '// &
+         ! A load that is not given by pressure is searched for, and takes more than one solution.
+         words = 'some '
+         if (results%scene%loads_by /= by_pressure) words = 'at least '
+         call logger%say('time: '//words// &
             duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*size(results%scene%target)))// &
             ' if all loads need that grid, by its transforms as measured now')
       end if
-      call logger%say('tables: '//listed(pack(tables%name(), tables%key /= '' .or. tables%file == 'summary'))// &
-                      ' in '//escaped(results%scene%directory))
+      words = ''
+      if (results%scene%output%csv%is_true) words = ', also with commas,'
+      call logger%say('tables: '//listed(tables%name())//words//' in '//escaped(results%scene%directory))
       call logger%say(escaped(results%scene%deck_path)//': the deck is fine')
    end subroutine check_scene
 

@@ -8,7 +8,7 @@ module wavycon_collected_table
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
    use wavycon_memory_table, only: column_list
-   use wavycon_output_file, only: comma_line, output_file
+   use wavycon_output_file, only: blank_mark, comma_line, output_file, with_blanks
    use wavycon_plain_text, only: escaped, lower_case, newline
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
@@ -139,7 +139,7 @@ contains
       if (word == '') word = '-'
    end function word_of
 
-   !> A text as one word of a table: blanks become '_'.
+   !> A text as one word of a table: blanks become `blank_mark`.
    pure function without_blanks(text) result(word)
       character(*), intent(in) :: text
       character(:), allocatable :: word
@@ -148,7 +148,7 @@ contains
 
       word = escaped(text)
       do i = 1, len(word)
-         if (word(i:i) == ' ') word(i:i) = '_'
+         if (word(i:i) == ' ') word(i:i) = blank_mark
       end do
    end function without_blanks
 
@@ -249,7 +249,7 @@ contains
          if (has_commas(path)) then
             call file%put(comma_line(line, units))
          else
-            call file%put(line)
+            call file%put(with_blanks(line, '_'))
          end if
       end subroutine put
 

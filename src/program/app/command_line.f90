@@ -63,8 +63,8 @@ contains
          'write each table with commas too, as --set output.csv=.true. does'))
       call keys%add(options%table, key_type(text_value, '--table', '', 'FILE', &
          'write one table of all decks: a row for each deck and load, with the values of the keys that are set or '// &
-         'differ, and the columns of the summary; with commas, for spreadsheets, if FILE ends in .csv', &
-         longest=longest_directory))
+         'differ, and the columns of the summary; with commas, for spreadsheets, if FILE ends in .csv; - is '// &
+         'standard output', longest=longest_directory))
       call keys%add(options%keep_going, key_type(logical_value, '--keep-going', '.false.', '', &
          'a bad deck does not keep the others from being run'))
       call keys%add(options%resume, key_type(logical_value, '--resume', '.false.', '', &
@@ -156,6 +156,7 @@ contains
             sweeps = sweeps + 1
             call read_sweep('--set', 'output.directory='//quoted(options%output%text), sweep(sweeps)%values, trouble)
          end if
+         if (options%table%text == '-') call options%table%set(text='/dev/stdout')
          if (options%csv%is_true) then
             sweeps = sweeps + 1
             call read_sweep('--set', 'output.csv=.true.', sweep(sweeps)%values, trouble)

@@ -9,7 +9,7 @@ module wavycon_interface_group
    use wavycon_material_group, only: take_ratios
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_partial_slip, only: dundurs_beta, shear_factors
-   use wavycon_plain_text, only: short_number
+   use wavycon_plain_text, only: listed, short_number
    use wavycon_scene, only: interface_setting
    use wavycon_scene_groups, only: interface_group, material_group
    use wavycon_surface, only: surface_type
@@ -70,6 +70,7 @@ contains
       !> Not allocated if the deck does not have the group, and after problems.
       type(interface_setting), allocatable, intent(out) :: setting
 
+      character(16), allocatable :: of_half_spaces(:)   ! keys that are given and that a layer lacks
       real(dp) :: kappa(3)
       real(dp), allocatable :: e(:), nu(:)
 
@@ -91,10 +92,11 @@ contains
       if (.not. present(surface)) return
       if (surface%has_hardness()) call values%problems%add(values%position, &
          '&interface takes elastic contacts: leave hardness or &interface out')
-      if (surface%kernel%has_layer() .and. (values%friction%is_given .or. values%resistivity1%is_given .or. &
-                                            values%work_of_adhesion%is_given)) &
-         call values%problems%add(values%position, 'of a layer the stiffness is computed alone: leave friction, '// &
-                                  'resistivity1, work_of_adhesion or layer_thickness out')
+      of_half_spaces = pack([character(16) :: 'friction', 'resistivity1', 'work_of_adhesion'], &
+         [values%friction%is_given, values%resistivity1%is_given, values%work_of_adhesion%is_given])
+      if (surface%kernel%has_layer() .and. size(of_half_spaces) > 0) &
+         call values%problems%add(values%position, 'with a layer &interface computes the stiffness alone: leave '// &
+                                  listed(of_half_spaces, ', ')//' or layer_thickness out')
       if (.not. surface%amplitude > 0.0_dp) call values%problems%add(values%position, &
          'the surface is flat and in full contact: leave &interface out')
       if (surface%has_free_edges .and. surface%dimension == 1) call values%problems%add(values%position, &

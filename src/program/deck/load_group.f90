@@ -70,8 +70,8 @@ contains
          most_values=most_loads, way=108))
       call keys%add(values%percolates, key_type(choice_value, 'percolates', '', '', &
          'The least load at which the contact percolates, has a path from cell to cell, or from which on the gap '// &
-         'does not; along x or y, or along one axis.', choices='contact contact_x contact_y gap gap_x gap_y', &
-         way=109))
+         'does not. contact is along x or y, gap along neither; the others are along one axis.', &
+         choices='contact contact_x contact_y gap gap_x gap_y', way=109))
       call keys%add(values%sweep_from, key_type(real_value, 'sweep_from', '', '-', &
          'First mean pressure over p* of a sweep in equal steps.', least=0, most=largest_pbar_over_pstar, way=110, &
          needs='sweep_to sweep_steps'))
@@ -140,8 +140,8 @@ contains
          call values%problems%add(position, 'percolates needs a surface that is repeated along x and y, whose '// &
             'contact or gap may go on from cell to cell: this one has free edges or is a profile')
       if (p_star <= 0.0_dp .and. all(key /= ['mean_pressure', 'force        '])) then
-         call values%problems%add(position, 'the surface is flat, and its p* is 0: give its loads by mean_pressure '// &
-                                  'or force, not over p* and not by gap, area, yield or percolation')
+         call values%problems%add(position, 'the surface is flat, and its p* is 0: give mean_pressure or force '// &
+                                  'in place of '//key)
          return
       end if
       ! The limits of the other keys are bounds in the table of keys.

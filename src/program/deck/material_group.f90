@@ -100,7 +100,8 @@ contains
          if (values%layer_base%text == 'smooth') then
             if (values%base_e%is_given) call values%complain(values%base_e, &
                "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
-         else if (.not. (values%nu1%is_given .or. values%layer_nu%is_given)) then
+         else if (.not. (values%nu1%is_given .or. values%e1%is_given .or. values%layer_nu%is_given)) then
+            ! e1 without nu1 is reported elsewhere.
             call values%complain(values%layer_base, &
                "a bonded layer needs layer_nu, Poisson's ratio: its compliance follows from it")
          end if

@@ -101,7 +101,7 @@ contains
                                                     scene%target, scene%mean_pressure)
       call check_stress_group(scene%stress, scene%material, scene%load, scene%surface, scene%p_star, &
                               scene%stress_setting)
-      call check_method_group(scene%method, scene%surface)
+      call check_method_group(scene%method, scene%load, scene%surface)
       call check_interface_group(scene%interface, scene%material, scene%surface, scene%p_star, scene%interface_setting)
       call check_output_group(scene%output, scene%scene_values%case%text, scene%method, scene%surface)
       do i = 1, size(lists)

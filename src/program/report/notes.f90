@@ -11,8 +11,8 @@ module wavycon_notes
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
-   use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, main_quantities, &
-      mean_gap, peak_pressure
+   use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, last_before, &
+      main_quantities, mean_gap, peak_pressure, percolation
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_yield, scene_type, target_words
@@ -97,7 +97,7 @@ contains
    end subroutine note_scene
 
    !> Notes what is suspicious in a height map: a missing_value that does not occur, spikes, borders that do not fit
-   !> together, noise.
+   !> together, noise, filters that leave almost nothing.
    subroutine note_map(scene, map, logger)
       type(scene_type), intent(in) :: scene
       type(map_statistics), intent(in) :: map   !! statistics of the scene's height map
@@ -106,6 +106,8 @@ contains
       !> Least ratio of the rms slope by differences to the rms slope of the Fourier series. Noise that lowers the ratio
       !> to 0.9 takes a quarter or more of the contact area at light loads: see the table of src/core/map/README.md.
       real(dp), parameter :: least_ratio = 0.9_dp
+      !> Least rms height over that of the waves that a filter removed.
+      real(dp), parameter :: least_left = 1e-3_dp
       character(:), allocatable :: remedies
       integer :: direction
 
@@ -115,6 +117,12 @@ contains
       if (map%spikes > 0) call logger%note(integer_text(map%spikes)//' of the heights are far from all '// &
          'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
          'surface does not. Remedy: despike = .true.')
+      associate (changes => map%changes, height => scene%roughness%height)
+         if (height < least_left*hypot(changes%rms_of_short, changes%rms_of_long)) call logger%note( &
+            "filter = '"//trim(changes%filter)//"' leaves heights of "//short_number(height)//' ['// &
+            scene%length_unit//'] (rms), less than a thousandth of what it removes. Is its cut-off in '// &
+            'the unit of the sides?')
+      end associate
       remedies = "edges = 'mirror', edges = 'window'"
       if (map%changes%detrend /= 'plane' .and. map%changes%detrend /= 'quadratic') &
          remedies = "detrend = 'plane', "//remedies
@@ -167,12 +175,54 @@ contains
             call logger%say(line%words//' '//solver_names(results%loads(load)%solver)(:solver_width)//'  '// &
                             trim(status_name(results%loads(load)%status)))
          end do
-         if (scene%loads_by == by_percolation) call logger%say('percolation of '//scene%load%percolates%text// &
-            ': pbar/p* = '//short_number(results%number(1, 'percolation_over_pstar'))//', error '// &
-            short_number(results%number(1, 'percolation_over_pstar_error'))//', not yet at '// &
-            short_number(results%number(1, 'last_before_over_pstar')))
+         if (scene%loads_by == by_percolation) call say_load_of_percolation(results, logger)
       end associate
    end subroutine show_loads
+
+   !> Writes from which load on the contact percolates, or up to which load the gap does; without such a load, whether
+   !> it does so at every load or at none.
+   subroutine say_load_of_percolation(results, logger)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: logger
+
+      character(:), allocatable :: words
+      logical :: is_gap, is_heavy   ! is_heavy: whether the loads that were tried last are above that of the first
+
+      associate (what => results%scene%load%percolates%text, solution => results%loads(1))
+         is_gap = index(what, 'gap') == 1
+         words = 'percolation: the '//what(:index(what//'_', '_') - 1)//' percolates'
+         if (index(what, '_') > 0) words = words//' along '//what(len(what):)
+         is_heavy = solution%pbar_over_pstar > 0.5_dp*min(1.0_dp, results%solver%surface%hardness)
+         if (.not. is_known(solution%value(percolation))) then
+            if (solution%status /= not_found) return
+            words = words//trim(merge(' at every load', ' at no load   ', is_gap .eqv. is_heavy))//' that was tried'
+         else
+            if (is_gap) then
+               words = words//' up to pbar/p* = '//in_words(solution%value(last_before))//', no longer at '// &
+                       in_words(solution%value(percolation))
+            else
+               words = words//' from pbar/p* = '//in_words(solution%value(percolation))//' on, not yet at '// &
+                       in_words(solution%value(last_before))
+            end if
+            words = words//'; error '//in_words(solution%error(percolation))
+         end if
+      end associate
+      call logger%say(words)
+
+   contains
+
+      !> A mean pressure in units of p* and, if the deck gives a modulus, in the deck's unit.
+      function in_words(pressure) result(words)
+         real(dp), intent(in) :: pressure   !! [p*]
+         character(:), allocatable :: words
+
+         words = 'unknown'
+         if (is_known(pressure)) words = short_number(pressure)
+         if (results%scene%gives_modulus .and. is_known(pressure)) words = words//' ('// &
+            short_number(results%scene%p_star*pressure)//' '//results%scene%pressure_unit//')'
+      end function in_words
+
+   end subroutine say_load_of_percolation
 
    !> Writes a row for each load and body: the largest von Mises stress and the largest shear stress, each followed by
    !> its error estimate, and the depth of the largest von Mises stress over the side of the cell along x. If the deck

@@ -10,11 +10,15 @@ module wavycon_output_file
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: column_type, longest_column, memory_table, of_words
    use wavycon_plain_text, only: escaped, newline
-   use wavycon_system, only: end_written, error_text, open_written, put_bytes, put_text
+   use wavycon_system, only: end_written, error_text, open_written, path_file, path_kind, put_bytes, put_text, &
+      refusal_to_write, remove_file
    implicit none (type, external)
    private
 
-   public :: comma_line, output_file
+   public :: comma_line, output_file, with_blanks
+
+   !> Stands for a blank inside a word of a line.
+   character, parameter, public :: blank_mark = achar(31)
 
    !> Width of the narrowest column: a real number of 16 digits with a three-digit exponent, and blanks before it.
    integer, parameter :: narrowest = 25
@@ -36,7 +40,8 @@ module wavycon_output_file
       type(memory_table), pointer, public :: memory => null()
       type(c_ptr) :: file = c_null_ptr            !! the open file, from open_written
       type(c_ptr) :: commas = c_null_ptr          !! the open file of the same table with commas, without a head
-      character(:), allocatable :: comma_name     !! path of this file; not allocated if there is none
+      character(:), allocatable :: comma_name     !! path of this file; not allocated if it can have none
+      logical :: with_commas = .false.            !! whether this file is written
       character(:), allocatable :: name           !! path of the file
       character(:), allocatable :: trouble        !! message of the first error; not allocated if there was none
       type(column_type), allocatable :: columns(:)   !! columns of a table; not allocated for other files
@@ -59,21 +64,22 @@ module wavycon_output_file
 contains
 
    !> Opens a file for writing. `finish` reports the errors of this and of all other procedures.
-   subroutine open_file(self, directory, name, head, comma_name)
+   subroutine open_file(self, directory, name, head, comma_name, with_commas)
       class(output_file), intent(out) :: self
       character(*), intent(in) :: directory      !! an existing directory
       character(*), intent(in) :: name           !! name of the file in the directory
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
-      !> Name of a second file, which gets the table with commas; none if empty.
+      !> Name of the file of the same table with commas, and whether it is written. If not, `finish` removes that of an
+      !> earlier run.
       character(*), intent(in), optional :: comma_name
+      logical, intent(in), optional :: with_commas   !! present with comma_name
 
       self%name = directory//'/'//name
       self%file = open_written(self%name//c_null_char)
       if (present(comma_name)) then
-         if (comma_name /= '') then
-            self%comma_name = directory//'/'//comma_name
-            self%commas = open_written(self%comma_name//c_null_char)
-         end if
+         self%comma_name = directory//'/'//comma_name
+         self%with_commas = with_commas
+         if (with_commas) self%commas = open_written(self%comma_name//c_null_char)
       end if
       if (present(head)) call check(self, put_text(self%file, head, len(head, c_size_t)))
    end subroutine open_file
@@ -153,7 +159,7 @@ contains
       do i = 1, size(units)
          units(i) = '['//trim(self%columns(i)%unit)//']'
       end do
-      if (allocated(self%comma_name) .and. .not. self%has_names) &
+      if (self%with_commas .and. .not. self%has_names) &
          call put_commas(self, comma_line(aligned(self, self%columns%name), aligned(self, units)))
       self%has_names = .true.
       call self%put(aligned(self, self%columns%name))
@@ -168,13 +174,15 @@ contains
          call check(self, put_text(self%commas, line//newline, len(line, c_size_t) + 1), self%comma_name)
    end subroutine put_commas
 
-   !> The words of a line with commas between them. A word that has commas, a list, stands in quotes.
+   !> The words of a line with commas between them. A word that has commas or quotes stands in quotes, and its quotes
+   !> are doubled (RFC 4180). `blank_mark` becomes a blank.
    pure function comma_line(line, units) result(text)
       character(*), intent(in) :: line                !! words, separated by blanks
       character(*), intent(in), optional :: units     !! '[unit]' of each word, which is added unless it is '[-]'
       character(:), allocatable :: text
 
       character(:), allocatable :: rest, rest_of_units, unit, word
+      integer :: i
 
       text = ''
       rest = adjustl(line)
@@ -186,11 +194,29 @@ contains
          unit = rest_of_units(:index(rest_of_units//' ', ' ') - 1)
          rest_of_units = adjustl(rest_of_units(len(unit) + 1:))
          if (unit /= '[-]') word = word//unit
-         if (index(word, ',') > 0) word = '"'//word//'"'
+         if (scan(word, ',"') > 0) then
+            do i = len(word), 1, -1
+               if (word(i:i) == '"') word = word(:i)//word(i:)
+            end do
+            word = '"'//word//'"'
+         end if
          text = text//','//word
       end do
-      text = text(2:)
+      text = with_blanks(text(2:), ' ')
    end function comma_line
+
+   !> A text with another character in place of each `blank_mark`.
+   pure function with_blanks(text, blank) result(words)
+      character(*), intent(in) :: text
+      character, intent(in) :: blank
+      character(len(text)) :: words
+
+      integer :: i
+
+      do i = 1, len(text)
+         words(i:i) = merge(blank, text(i:i), text(i:i) == blank_mark)
+      end do
+   end function with_blanks
 
    !> Begins a block, a data set that gnuplot's `index` counts: two blank lines, unless the block is the first, a
    !> comment, and the names of the columns, which gnuplot looks for at the head of each data set.
@@ -228,7 +254,7 @@ contains
          end do
       end if
       call self%put(line)
-      if (allocated(self%comma_name)) call put_commas(self, comma_line(line))
+      if (self%with_commas) call put_commas(self, comma_line(line))
    end subroutine put_row
 
    !> Records an error of the operating system, if there is one.
@@ -255,6 +281,9 @@ contains
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
+      integer :: kind
+      integer(c_int) :: refusal
+
       if (associated(self%memory)) then
          if (self%memory%is_full) call self%note_trouble('there is not enough memory for all rows')
          if (allocated(self%trouble)) call fatal_error(error, exit_file_trouble, 'table in memory: '//self%trouble)
@@ -262,8 +291,14 @@ contains
       end if
       if (allocated(self%columns) .and. .not. self%has_names) call put_names(self)
       call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
-      if (allocated(self%comma_name)) &
+      if (self%with_commas) then
          call check(self, end_written(self%commas, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int), self%comma_name)
+      else if (allocated(self%comma_name) .and. self%is_open()) then
+         ! Another file of this name, which does not begin with the name of the first column, stays.
+         refusal = refusal_to_write(self%comma_name//c_null_char, trim(self%columns(1)%name)//c_null_char)
+         kind = path_kind(self%comma_name)
+         if (refusal == 0 .and. kind == path_file) call remove_file(self%comma_name)
+      end if
       if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
    end subroutine finish

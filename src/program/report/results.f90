@@ -91,7 +91,7 @@ contains
 
    !> Opens a table <case>.<table_file>.dat, writes the header lines that all tables have and sets the columns. If there
    !> is a table in memory, its columns are set instead, without a file. The key `csv` asks for <case>.<table_file>.csv
-   !> beside it. `file%finish` reports errors.
+   !> beside it; without the key `file%finish` removes such a file of an earlier run. `file%finish` reports errors.
    subroutine open_table(self, table_file, columns, file)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: table_file   !! name of the table, such as 'summary'
@@ -104,9 +104,9 @@ contains
       if (associated(self%memory)) then
          file%memory => self%memory
       else
-         comma_name = ''
-         if (self%scene%output%csv%is_true) comma_name = self%scene%case//'.'//table_file//'.csv'
-         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', comma_name=comma_name)
+         comma_name = self%scene%case//'.'//table_file//'.csv'
+         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', comma_name=comma_name, &
+                        with_commas=self%scene%output%csv%is_true)
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
          if (self%with_adhesion) then
             call file%put('# adhesion: the contacts are those with it; of each load the stable one of the largest area')

@@ -18,7 +18,7 @@ module wavycon_methods
    use wavycon_kinds, only: dp
    use wavycon_paper_wave, only: has_smaller_cell, is_paper_wave
    use wavycon_plain_text, only: in_quotes, integer_text, listed, short_number
-   use wavycon_scene_groups, only: method_group
+   use wavycon_scene_groups, only: load_group, method_group
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -84,12 +84,14 @@ contains
    end subroutine list_method_keys
 
    !> Sets the defaults that depend on the surface and checks the keys against the solver. A solver that cannot solve
-   !> the surface is reported.
-   subroutine check_method_group(values, surface)
+   !> the surface, or cannot find the load of percolation, is reported.
+   subroutine check_method_group(values, load, surface)
       type(method_group), intent(inout) :: values
+      type(load_group), intent(in) :: load
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it could not be made
 
       character(:), allocatable :: solver, words
+      type(solver_traits) :: traits
 
       ! All checks need the surface.
       if (.not. allocated(surface) .or. values%solver%is_bad) return
@@ -99,6 +101,10 @@ contains
          call values%complain(values%solver, "solver = '"//solver//"' "//words//'. Give '//solvers_for(surface))
          return
       end if
+      traits = traits_of(solver)
+      if (load%percolates%is_given .and. .not. traits%has_errors) call values%complain(values%solver, &
+         "solver = '"//solver//"' estimates no errors, without which the load of percolates is not found. Give "// &
+         solvers_for(surface, 'errors'))
       select case (solver)
       case ('beale', 'series')
          call check_series_keys(values, surface)
@@ -138,8 +144,8 @@ contains
    !> The solvers that can solve a surface and have a trait, such as "'grid' or 'auto'"; empty if there is none.
    function solvers_for(surface, trait) result(words)
       type(surface_type), intent(in) :: surface
-      !> The trait: solutions with 'details', or with the 'coefficients' of a Fourier series; absent: no trait is
-      !> needed.
+      !> The trait: solutions with 'details', with 'errors', or with the 'coefficients' of a Fourier series; absent: no
+      !> trait is needed.
       character(*), intent(in), optional :: trait
       character(:), allocatable :: words
 
@@ -153,6 +159,8 @@ contains
       if (present(trait)) then
          if (trait == 'details') then
             solvers = pack(solvers, traits%has_details)
+         else if (trait == 'errors') then
+            solvers = pack(solvers, traits%has_errors)
          else
             solvers = pack(solvers, traits%has_coefficients)
          end if
