@@ -58,9 +58,9 @@ contains
    end subroutine solve_partial_slip
 
    !> Computes the loading curve. The approach at P less the tangential load over f is solved at the middle point, then
-   !> in the middle between the points before, and so on. Where cubic interpolation foretells a point far within its error
-   !> estimate, the points beside it are not solved but interpolated. None is extrapolated. Where solutions have no error or no estimate of it,
-   !> all points are solved.
+   !> in the middle between the points before, and so on. Where cubic interpolation foretells a point far within its
+   !> error estimate, the points beside it are not solved but interpolated. None is extrapolated. Where solutions have
+   !> no error, or no estimate of it, all points are solved.
    subroutine solve_curve(solver, friction, solution, slip)
       class(contact_solver), intent(inout) :: solver    !! that of the normal load
       real(dp), intent(in) :: friction                  !! coefficient of friction f > 0
@@ -73,9 +73,12 @@ contains
       real(dp), dimension(curve_points) :: load, x, y   ! P - Q/f of the point, its logarithm, approach [Delta]
       real(dp) :: foretold
       logical, dimension(curve_points) :: foreseen, known   ! whether y needs no points beside it; whether it is solved
-      integer :: i, middle, step   ! middle: of the interval before, in which i is; step: between the points to be solved
+      integer :: i
+      integer :: middle   ! of the interval before, in which i is
+      integer :: step     ! between the points to be solved
 
-      load = [(solution%pbar_over_pstar - real(i - 1, dp)/(curve_points - 1)*slip%tangential/friction, i=1, curve_points)]
+      load = [(real(i - 1, dp)/(curve_points - 1), i=1, curve_points)]
+      load = solution%pbar_over_pstar - load*slip%tangential/friction
       x = log(max(load, tiny(load)))
       y(1) = solution%value(approach)
       y(curve_points) = approach_of(slip%stick)

@@ -228,8 +228,8 @@ contains
             call fatal_error(error, exit_bad_input, 'the load of percolates is not found by a solver that '// &
                              "estimates no errors: give solver = 'auto'")
          else if (.not. self%results%keeps_fields) then
-            call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session was '// &
-                             'opened without them')
+            call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session '// &
+                             'was opened without them')
          end if
          if (allocated(error)) return
       end if

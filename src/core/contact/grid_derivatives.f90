@@ -18,8 +18,8 @@ contains
 
    !> Solves two loads below and two above that of a solution and takes differences. The outer two loads are solved on
    !> the grid before alone (C29d). If the five loads are too far from one another, two nearer loads are solved too, and
-   !> the better of both differences is taken. Derivatives that the
-   !> differences do not show are unknown; all are unknown if one of the loads is not solved.
+   !> the better of both differences is taken. Derivatives that the differences do not show are unknown; all are unknown
+   !> if one of the loads is not solved.
    subroutine differentiate_on_grid(surface, points, record, history, answer)
       type(surface_type), intent(in) :: surface      !! surface on the cell that was solved
       integer, intent(in) :: points(2)               !! points of the grid on the whole cell; in 1-D the first counts

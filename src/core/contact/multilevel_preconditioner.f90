@@ -123,8 +123,8 @@ contains
    end subroutine average_contact
 
    !> Applies J: continues a field to the points outside the contact (C4b), (C4c). The field is averaged over the grids,
-   !> from fine to coarse, divided by the contact on the last grid, and filled in from coarse to fine. From the first
-   !> grid on whose compliance rises both are by (C4f).
+   !> from fine to coarse, divided by the contact on the last grid, and filled in from coarse to fine. Where the
+   !> compliance rises with the wave number, both are done by (C4f) on this grid and all coarser ones.
    recursive subroutine extend(self, field)
       class(multilevel_preconditioner), intent(inout) :: self
       !> On entry r, zero outside the contact; on return J r; shape (M, slab%columns()). In the recursion this is r_j,

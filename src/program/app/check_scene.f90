@@ -43,7 +43,8 @@ contains
       end associate
       if (reason /= '') call logger%say('because: '//reason)
       if (results%traits%lacks_waves) call logger%note('the grid leaves out waves of the surface, those of less '// &
-         'than two points: the errors of all loads that it solves will be unknown. Give more grid_points, or an accuracy')
+         'than two points: the errors of all loads that it solves will be unknown. Give more grid_points, or an '// &
+         'accuracy')
       if (all(results%traits%finest_grid > 0)) then
          call logger%say('memory: '//memory(results))
          ! A load that is not given by pressure is searched for, and takes more than one solution.
