@@ -2,8 +2,8 @@
 !>
 !>    bench_map FILE PHASE
 !>
-!> PHASE: 'start' reads nothing, 'read' reads the map, 'surface' also makes the surface on a cell of side 1, 'statistics'
-!> also computes the statistics of the heights and the roughness of the surface, as the program does.
+!> PHASE: 'start' reads nothing, 'read' reads the map, 'surface' also makes the surface on a cell of side 1,
+!> 'statistics' also computes the statistics of the heights and the roughness of the surface, as the program does.
 program bench_map
    use, intrinsic :: iso_fortran_env, only: error_unit
    use wavycon_error, only: error_type
