@@ -154,8 +154,8 @@ contains
          end if
          ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
-         if (point%exists .and. maxval(point%error) <= min(worst_error*curve%problem%accuracy, &
-                                                               largest_error)) then
+         if (point%exists .and. &
+             maxval(point%error) <= min(worst_error*curve%problem%accuracy, largest_error)) then
             call add_point(curve, point)
             start = point%answer
             ! Past its last extreme the approach falls with the radius, and no contact is stable from there on.
@@ -171,8 +171,8 @@ contains
                end associate
                if (pools) next = 1.0_dp - next
                next = sqrt(max(next, 0.0_dp)*cell_area/pi)
-               if (next > radius) step = min(step, max(beyond_extreme*(next - radius), &
-                                                          0.1_dp*least_step*full_step))
+               if (next > radius) &
+                  step = min(step, max(beyond_extreme*(next - radius), 0.1_dp*least_step*full_step))
             end if
          else
             radius = radius - step

@@ -110,10 +110,12 @@ contains
             largest = miss
             at_largest = log_p
          end if
-         tolerance = min(max(fraction_of_error*error, least_fraction), largest_fraction)
-         ! A solution on a grid that has coarser ones is expensive.
-         if (traits%coarser_levels > 0) &
+         if (traits%coarser_levels > 0) then
+            ! A solution on a grid that has coarser ones is expensive.
             tolerance = min(max(part_of_stress_error*error, least_fraction), largest_stress_miss)
+         else
+            tolerance = min(max(fraction_of_error*error, least_fraction), largest_fraction)
+         end if
          if (solver%level > 0) tolerance = max(tolerance, min(error, coarse_fraction))
          if (solution%is_good() .and. error > largest_stress_error) solution%status = not_accurate
          if (i > 1 .and. abs(log_p - last_log_p) > 0.0_dp) slope = (miss - last_miss)/(log_p - last_log_p)

@@ -221,18 +221,16 @@ contains
 
       type(memory_table) :: summary
 
-      if (any(loads_by == [by_yield, by_percolation])) then
-         if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
-            call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
-         else if (loads_by == by_percolation .and. .not. self%results%traits%has_errors) then
-            call fatal_error(error, exit_bad_input, 'the load of percolates is not found by a solver that '// &
-                             "estimates no errors: give solver = 'auto'")
-         else if (.not. self%results%keeps_fields) then
-            call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session '// &
-                             'was opened without them')
-         end if
-         if (allocated(error)) return
+      if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
+         call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
+      else if (loads_by == by_percolation .and. .not. self%results%traits%has_errors) then
+         call fatal_error(error, exit_bad_input, 'the load of percolates is not found by a solver that '// &
+                          "estimates no errors: give solver = 'auto'")
+      else if (any(loads_by == [by_yield, by_percolation]) .and. .not. self%results%keeps_fields) then
+         call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session '// &
+                          'was opened without them')
       end if
+      if (allocated(error)) return
       allocate (answer%solution)
       answer%loads_by = loads_by
       answer%target = target(load)

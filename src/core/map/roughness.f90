@@ -44,11 +44,11 @@ contains
       type(wave_stiffness), intent(in), optional :: kernel   !! of the bodies; absent: half-spaces
 
       type(wave_stiffness) :: of_waves
-      !> For each wave number in X the sums (M22) to (M25a) over the waves, in the order of roughness_type, and the
-      !> parts of (M23).
-      real(dp) :: moments(6, series%first():series%last(1))
+      !> For each wave number in X the sums over the waves: (M22), the parts of (M23) along x and along y, (M24) and
+      !> (M25a).
+      real(dp) :: moments(5, series%first():series%last(1))
       real(dp), dimension(series%first():series%last(1)) :: powers, q_squared, x_squared
-      real(dp) :: sums(6), unit
+      real(dp) :: sums(5), unit
       integer :: k, l
 
       ! Wave numbers are taken over 2 pi/unit. So their powers do not overflow and do not all underflow, whatever the
@@ -61,18 +61,19 @@ contains
          powers = wave_powers(series, points, l)
          q_squared = x_squared + (l*(unit/length(2)))**2
          moments(1, :) = moments(1, :) + powers
-         moments(2, :) = moments(2, :) + powers*q_squared
-         moments(3, :) = moments(3, :) + powers*q_squared**2
+         moments(3, :) = moments(3, :) + powers*(l*(unit/length(2)))**2
+         moments(4, :) = moments(4, :) + powers*q_squared**2
          call of_waves%of(q_squared)
-         moments(4, :) = moments(4, :) + powers*q_squared
-         moments(5, :) = moments(5, :) + powers*x_squared
-         moments(6, :) = moments(6, :) + powers*(l*(unit/length(2)))**2
+         moments(5, :) = moments(5, :) + powers*q_squared
       end do
+      moments(2, :) = x_squared*moments(1, :)
       sums = series%rows%column_totals(moments)
-      sums(:3) = amplitude*[1.0_dp, 2*pi/unit, (2*pi/unit)**2]*sqrt(sums(:3))
-      if (series%last(2) > 0) sums(3) = 0.5_dp*sums(3)
-      roughness = roughness_type(sums(1), sums(2), sums(3), amplitude**2*sums(4)/unit, &
-                                 amplitude*(2*pi/unit)*sqrt(sums(5:)))
+      roughness%height = amplitude*sqrt(sums(1))
+      roughness%slopes = amplitude*(2*pi/unit)*sqrt(sums(2:3))
+      roughness%slope = amplitude*(2*pi/unit)*sqrt(sum(sums(2:3)))
+      roughness%curvature = amplitude*(2*pi/unit)**2*sqrt(sums(4))
+      if (series%last(2) > 0) roughness%curvature = 0.5_dp*roughness%curvature
+      roughness%frequency_moment = amplitude**2*sums(5)/unit
    end function roughness_of
 
    !> The isotropic spectrum of a surface, eqs (M26) and (M27). Bin b has the wave numbers from (b - 1/2) dq to
