@@ -247,6 +247,20 @@ class Plot(ProgramTest):
         text = (self.folder/"small.spot_sizes.svg").read_text(encoding="utf-8")
         self.assertNotIn("translate", re.sub("<g[^>]*>", "", text))
 
+    def test_regions(self):
+        """What a map shows of regions is what the table of spots says. Beale's edge is an isobar."""
+        for name in "line.map.dat", "free.map.dat":
+            self.assertIn("repeated along x and y", self.plot("--variable", "regions", name, status=3)[1])
+        if subprocess.run(["python3", "-c", "import numpy"], capture_output=True, check=False).returncode:
+            self.assertIn("regions need numpy", self.plot("--variable", "regions", "auto.map.dat", status=3)[1])
+            return
+        for name in "auto.map.dat", "paper.map.dat":
+            for load, expected in enumerate(({"gap that percolates"}, {"gap that percolates", "spots of contact"},
+                                             {"closed gap", "contact that percolates"}), 1):
+                words = self.drawn("--variable", "regions", "--loads", str(load), name)
+                with self.subTest(name=name, load=load):
+                    self.assertEqual(expected, set(re.findall("closed gap|spots of contact|[a-z]+ that percolates", words)))
+
     def test_heights(self):
         """Without a summary beside it the points are counted."""
         (self.folder/"alone").mkdir()
