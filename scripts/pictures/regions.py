@@ -17,16 +17,19 @@ COLOURS = (*KINDS.values(), *SPOTS)
 def connected(mask: Any, corners: bool) -> Any:
     """Numbers of the connected parts of a mask whose sides are joined, 0 outside. corners: whether points that touch at
     a corner are connected."""
-    numbers = np.where(mask, np.arange(1, mask.size + 1).reshape(mask.shape), 0)
-    joined = np.arange(mask.size + 1)   # the number that each number has become
-    steps = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if corners or abs(i + j) == 1]
+    starts = mask & ~np.pad(mask, ((0, 0), (1, 0)))[:, :-1]
+    numbers = np.where(mask, np.cumsum(starts).reshape(mask.shape), 0)   # of runs of points along rows
+    many = starts.sum() + 1
+    steps = [(0, 1), (1, 0), *[(1, 1), (1, -1)]*corners]
+    neighbours = [(numbers*many + np.roll(numbers, step, (0, 1)))[mask & np.roll(mask, step, (0, 1))] for step in steps]
+    pairs = np.divmod(np.unique(np.concatenate(neighbours)), many)   # runs that are connected
+    joined = np.arange(many)   # the number that each number has become
     while True:
-        largest = np.max([np.roll(numbers, step, (0, 1)) for step in [(0, 0), *steps]], axis=0)*mask
-        if np.array_equal(largest, numbers):
-            return numbers
-        np.maximum.at(joined, numbers, largest)
+        one, other = joined[pairs[0]], joined[pairs[1]]
+        if np.array_equal(one, other):
+            return joined[numbers]
+        np.minimum.at(joined, np.maximum(one, other), np.minimum(one, other))
         joined = joined[joined]
-        numbers = joined[numbers]
 
 
 def regions(contact: Any, mirrored: bool) -> Any:
