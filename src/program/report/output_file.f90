@@ -322,11 +322,13 @@ contains
    subroutine remove_replaced(file)
       type(replaced_file), intent(in) :: file
 
+      integer :: kind
       integer(c_int) :: refusal
 
       if (.not. allocated(file%name)) return
       refusal = refusal_to_write(file%name//c_null_char, file%mark//c_null_char)
-      if (refusal == 0 .and. path_kind(file%name) == path_file) call remove_file(file%name)
+      kind = path_kind(file%name)
+      if (refusal == 0 .and. kind == path_file) call remove_file(file%name)
    end subroutine remove_replaced
 
 end module wavycon_output_file
