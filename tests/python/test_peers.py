@@ -22,7 +22,7 @@ CUT_OFF = 0.23      # between the waves of the cell
 ROUNDING, SINGLE = 1e-12, 1e-6
 # surfalize's Gaussian filter ends four standard deviations from its middle: beyond these lies erfc(4/sqrt(2)) of it.
 END_OF_KERNEL = 2e-4
-# Formats that surfalize writes and SurfaceTopography reads, and the unit [um] that surfalize takes for um in them: files
+# Formats that surfalize writes and SurfaceTopography reads, and the unit [um] that surfalize takes for um: those
 # of TrueMap (.tmd) are in mm, as SurfaceTopography reads them.
 FORMATS = {"al3d": 1, "sdf": 1, "sur": 1, "tmd": 1000}
 
