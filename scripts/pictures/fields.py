@@ -65,7 +65,7 @@ def lines(picture, along=None):
 
 
 def maps(picture):
-    """Maps: a column of panels for each load, contact above pressure above gap; side by side for one load; or regions."""
+    """Maps: a column of panels a load, contact above pressure above gap; side by side for one load; or regions."""
     table = picture.table
     if picture.choice.variable == "regions":
         draw_regions(picture)

@@ -1,5 +1,5 @@
-"""Regions of a map: spots of contact, and the gap, by what percolates. The package wavycon and scripts/plot use this file;
-numpy is all that it needs."""
+"""Regions of a map: spots of contact, and the gap, by what percolates. The package wavycon and scripts/plot use this
+file; numpy is all that it needs."""
 from __future__ import annotations
 
 from collections.abc import Mapping
