@@ -112,6 +112,7 @@ class Names(ValuesTest):
         self.refuse("'mises'|did you mean", wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, stress={"nu": 0.3})[0]
                     .plot_stress_section, "von_mise")
         self.refuse("'area'; did you mean 'contact_area'", results.plot, y="area")
+        self.refuse("'contour'; did you mean 'contours'[?] The tables are ", results.table, "contour")
         self.refuse("must end in .npz or .h5, not in .csv; to_dataframe", results.save, "run.csv")
         self.refuse("'mean_pres'; did you mean 'mean_pressure'", results.plot, x="mean_pres")
 

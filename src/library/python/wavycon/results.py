@@ -231,7 +231,7 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         return f"<p>{html.escape(self.method)}</p><table><tr>{''.join(heads)}</tr>{''.join(rows)}</table>"
 
     def table(self, name: str = "summary") -> Rows:
-        """The rows of a table of all loads, see Result.table; of the surface's tables, 'height' and 'spectrum', once."""
+        """The rows of a table of all loads, see Result.table; 'height' and 'spectrum', those of the surface, once."""
         if self._model is None:
             raise ValueError("there are no loads")
         if "load" not in (self._model.table(name).dtype.names or ()):
@@ -282,7 +282,7 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         path = os.fspath(file)
         if not path.endswith((".npz", ".h5")):
             if (ending := os.path.splitext(path)[1])[1:].isalpha():
-                raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; to_dataframe().to_csv(...) "
+                raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; to_dataframe().to_csv() "
                                  "writes tables with commas")
             path += ".npz"
         with written(path, b"\x89HDF" if path.endswith(".h5") else b"PK") as opened:
