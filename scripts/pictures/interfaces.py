@@ -73,17 +73,18 @@ def slip_maps(picture):
 
 
 def tangential_loads(picture, most):
-    """The blocks to be shown, one for each load and tangential load: at most so many of the loads that are wanted, evenly
-    spread. What is left out is said."""
+    """The blocks to be shown, one for each load and tangential load: at most so many of the loads that are wanted,
+    evenly spread. What is left out is said."""
     table, wanted, slip = picture.table, picture.choice.loads, picture.beside.get("partial_slip")
     places = [place for place, block in enumerate(table.blocks) if wanted is None or block.load in wanted]
     if not places:
         raise CannotBeDrawn(f"it has none of the loads {', '.join(map(str, wanted))}")
     kept = [places[k] for k in chosen(len(places), most)]
     if len(kept) < len(places):
-        print(f"plot: {table.path}: {len(kept)} of its {len(places)} loads and tangential loads are shown; choose loads "
-              "with --loads", file=sys.stderr)
-    part = {(row["load"], row["tangential"]): row["tangential_over_limit"] for row in rows_of(slip.blocks[0])} if slip else {}
+        print(f"plot: {table.path}: {len(kept)} of its {len(places)} loads and tangential loads are shown; choose "
+              "loads with --loads", file=sys.stderr)
+    part = {(row["load"], row["tangential"]): row["tangential_over_limit"]
+            for row in (rows_of(slip.blocks[0]) if slip else ())}
     found = []
     for place in kept:
         block = table.blocks[place]

@@ -10,7 +10,6 @@ import os
 import pathlib
 import re
 import subprocess
-import unittest
 import warnings
 
 from program import ProgramTest, main
