@@ -65,15 +65,17 @@ def lines(picture, along=None):
 
 
 def maps(picture):
-    """Maps: a column of panels for each load, contact above pressure above gap; side by side for one load."""
+    """Maps: a column of panels a load, contact above pressure above gap; side by side for one load; or regions."""
     table = picture.table
+    if picture.choice.variable == "regions":
+        draw_regions(picture)
+        return
     if len(table.cell) == 1:
         take_as_lines(picture)
         lines(picture, X)
         return
     loads = picture.loads(MOST_PANELS)
-    # The paper's series has contact where the pressure exceeds a level.
-    level = table.numbers.get("edge_level", 0.0)*table.numbers.get("p*", 1.0)
+    level = level_of(table)
     found, rows = [], [("contact", ["eval of_contact", "set cbrange [0:1]"], "")]
     for (name, unit, symbol), colours in zip(FIELDS, ("eval of_contact", "eval of_gap")):
         columns = [load.columns[name] for load in loads]
@@ -99,18 +101,50 @@ def maps(picture):
                            for n, (name, colours, label) in enumerate(rows)])
 
 
+def draw_regions(picture):
+    """Maps, a panel for each load: spots of contact in colours, and the gap by whether it percolates."""
+    table = picture.table
+    # With free edges, where there is no p*, nothing is repeated.
+    if len(table.cell) == 1 or "p*" not in table.numbers:
+        raise CannotBeDrawn("regions are those of a surface that is repeated along x and y")
+    try:
+        import regions
+    except ImportError:
+        raise CannotBeDrawn("regions need numpy: python3 -m pip install numpy") from None
+    loads = picture.loads(MOST_PANELS)
+    spots, drawn, entries = picture.beside.get("spots"), [], {}
+    for load in loads:
+        columns, many = load.columns, len(set(load.columns["x"]))
+        contact = regions.np.reshape(columns["pressure"], (-1, many)) > level_of(table)
+        colours = regions.regions(contact, table.mirrored)
+        columns["region"] = colours.ravel().tolist()
+        row = {name: some[load.place] for name, some in spots.columns.items()} if spots else {}
+        entries |= dict(regions.legend(colours, row))
+        drawn.append([f"{picture.image(*closed(table, load.place, lambda kind: (kind,), ('region',)))}:3 with image"])
+    palette = ", ".join(f"{n} '{colour}'" for n, colour in enumerate(regions.COLOURS))
+    last = len(regions.COLOURS) - 1
+    look = [f"set palette maxcolors {last + 1} defined ({palette})", f"set cbrange [0:{last}]"]
+    cells(picture, loads, [("", drawn, look, "")],
+          key=[entry(f"points pt 5 ps 1.5*mark lc rgb '{colour}'", words) for words, colour in entries.items()])
+
+
+def level_of(table):
+    """The pressure above which there is contact: of the paper's series a part of p*, otherwise 0."""
+    return table.numbers.get("edge_level", 0.0)*table.numbers.get("p*", 1.0)
+
+
 def length_of(table):
     """The sides of the cell as a quantity."""
     return Quantity([table], [table.cell], "cell_x")
 
 
-def cells(picture, loads, rows, common=None, size=150, section=None):
+def cells(picture, loads, rows, common=None, size=150, section=None, key=()):
     """Panels of colours over a cell: a column for each load and a row for each field, side by side if there is one
     load.
 
     loads: None without. rows: name of the row, curves of each load, commands of its colours, and the label of a bar, ''
     without. common: the label of one bar for all. size: of a panel. section: the ranges of its axes and their labels in
-    place of those of the cell; it does not have the true shape.
+    place of those of the cell; it does not have the true shape. key: entries of a key at the right.
     """
     length, names = length_of(picture.table), [load.name for load in loads] if loads else [""]*len(rows[0][1])
     (range_x, range_y), labels = section or (([0.0, side] for side in length.numbers), map(length.label, (X, Y)))
@@ -119,7 +153,7 @@ def cells(picture, loads, rows, common=None, size=150, section=None):
     by_load = len(names) > 1
     gaps = 24 if by_load else [109 if label else 24 for *_, label in rows[:-1]]
     across, down = (len(names), len(rows)) if by_load else (len(rows), 1)
-    picture.grid(wide, tall, across, down, (gaps, 16), (96, 100, 60, 46), "xy")
+    picture.grid(wide, tall, across, down, (gaps, 16), (96, 190 if key else 100, 60, 46), "xy")
     font = ",12" if size < 200 else ",14"
     x, y = (Axis(*ends, step_of(360*side/points), label=label, font=font)
             for ends, side, points, label in zip((range_x, range_y), sides, (wide, tall), labels))
@@ -135,7 +169,9 @@ def cells(picture, loads, rows, common=None, size=150, section=None):
                 bar = picture.colours(n, n, label)
             elif common and n == across*down - 1:
                 bar = picture.colours(across - 1, n, common)
-            picture.panel(n, x, y_axis, curves, *look, *colours, *bar, title=above)
+            is_last = c == len(names) - 1 and r == 0
+            picture.panel(n, x, y_axis, [*curves, *(key if is_last else ())], *look, *colours, *bar, title=above,
+                          key=RIGHT if key and is_last else "")
 
 
 def take_as_lines(picture):

@@ -1,10 +1,11 @@
 """The pictures of the tables of &interface: stiffness, partial slip, adhesion."""
 import math
+import sys
 
-from axes import Axis, label_of_unit
+from axes import Axis, chosen, label_of_unit
 from fields import cells, closed
 from picture import APPROACH, AREA, MOST_CURVES, MOST_PANELS, P_BAR, P_STAR, RIGHT, SLIP, TRACTION, CannotBeDrawn, \
-    Quantity, entry, mean_pressure_axis
+    Load, Quantity, entry, mean_pressure_axis, shown
 from table import Block
 
 
@@ -33,13 +34,14 @@ def partial_slip(picture):
         raise CannotBeDrawn("the bodies slide under all its loads")
     slip, x = Quantity([table], "displacement", "Delta"), Axis(0, 1, 0.2, label=f"{TRACTION} / ({{/:Italic f p̄}})")
     stick = Quantity([table], "stick_area_fraction")
-    loads = [(load, table.of_rows("load", load).columns)
-             for load in sorted(set(table.column("load")))[:MOST_CURVES]]
+    numbers = sorted(map(int, set(table.column("load"))))
+    loads = [(numbers[place], table.of_rows("load", numbers[place]).columns)
+             for place in shown(table, numbers, MOST_CURVES, picture.choice.loads, "loads")]
     picture.grid(227, 210, 2, gaps=(96, 0), room=(77, 13, 54, 36))
     for n, (name, found, label) in enumerate((("stick_area_fraction", stick, (AREA, "stick area")),
                                               ("displacement", slip, (SLIP, "displacement")))):
         curves = [picture.curve(f"linespoints ls {31 + k} dt solid", columns["tangential_over_limit"],
-                                found.of(columns[name]), title=f"load {load:g}")
+                                found.of(columns[name]), title=f"load {load}")
                   for k, (load, columns) in enumerate(loads)]
         picture.panel(n, x, found.axis(*label, may_be_wide=False), curves,
                       key="outside top right horizontal samplen 1.5"*n)
@@ -49,24 +51,47 @@ def slip_loops(picture):
     """Tangential load against displacement, a curve for each block."""
     tables = picture.tables
     slip, traction = Quantity(tables, "displacement", "Delta"), Quantity(tables, "tangential_load", "p*")
-    curves = [picture.curve(f"lines ls {31 + k} dt solid", slip.of(block.columns["displacement"]),
-                            traction.of(block.columns["tangential_load"]))
-              for k, block in enumerate(picture.table.blocks[:MOST_CURVES])]
+    curves = [picture.curve(f"lines ls {31 + k} dt solid", slip.of(load.columns["displacement"]),
+                            traction.of(load.columns["tangential_load"]), title=load.name)
+              for k, load in enumerate(tangential_loads(picture, MOST_CURVES))]
     picture.single(slip.axis(SLIP, "displacement", may_be_wide=False),
-                   traction.axis(TRACTION, "tangential load", may_be_wide=False), curves)
+                   traction.axis(TRACTION, "tangential load", may_be_wide=False), curves, key=RIGHT, right=170)
 
 
 def slip_maps(picture):
     """Where the contact sticks, slips and is open, a panel for each block."""
     table = picture.table
-    if table.points:
-        raise CannotBeDrawn("maps of slip are drawn from texts: set map_format = 'text' in &output")
     if len(table.cell) < 2:
         raise CannotBeDrawn("the surface is a profile")
-    drawn = [picture.image(*closed(table, place, lambda state: (state if state > 0 else math.nan,), ("slip_state",)))
-             for place in range(len(table.blocks[:MOST_PANELS]))]
-    cells(picture, None, [("", [[f"{image}:3 with image"] for image in drawn], ["eval of_contact",
-                                                                              "set cbrange [1:2.7]"], "")])
+    loads = tangential_loads(picture, MOST_PANELS)
+    drawn = [picture.image(*closed(table, load.place, lambda state: (state if state > 0 else math.nan,),
+                                   ("slip_state",))) for load in loads]
+    cells(picture, loads, [("", [[f"{image}:3 with image"] for image in drawn],
+                            ["eval of_contact", "set cbrange [1:2.7]"], "")],
+          key=[entry(f"points pt 5 ps 1.5*mark lc rgb '{colour}'", words)
+               for colour, words in (("#a9d0ee", "slips"), ("#316496", "sticks"))])
+
+
+def tangential_loads(picture, most):
+    """The blocks to be shown, one for each load and tangential load: at most so many of the loads that are wanted,
+    evenly spread. What is left out is said."""
+    table, wanted, slip = picture.table, picture.choice.loads, picture.beside.get("partial_slip")
+    places = [place for place, block in enumerate(table.blocks) if wanted is None or block.load in wanted]
+    if not places:
+        raise CannotBeDrawn(f"it has none of the loads {', '.join(map(str, wanted))}")
+    kept = [places[k] for k in chosen(len(places), most)]
+    if len(kept) < len(places):
+        print(f"plot: {table.path}: {len(kept)} of its {len(places)} loads and tangential loads are shown; choose "
+              "loads with --loads", file=sys.stderr)
+    part = {(row["load"], row["tangential"]): row["tangential_over_limit"]
+            for row in (rows_of(slip.blocks[0]) if slip else ())}
+    found = []
+    for place in kept:
+        block = table.blocks[place]
+        limit = part.get((block.load, block.tangential))
+        name = f"tangential {block.tangential}" if limit is None else f"{TRACTION}/({{/:Italic f p̄}}) = {limit:.3g}"
+        found.append(Load(place, [block], f"load {block.load}, {name}", ""))
+    return found
 
 
 # How stretches of a curve with adhesion are drawn, by how their contacts are stable.

@@ -8,7 +8,8 @@ from interfaces import adhesion, interface, partial_slip, slip_loops, slip_maps
 from loading import bounds, details, histogram, spot_sizes, spots, summary, theory
 from stresses import below_crest, largest, planes, section
 
-COMPANIONS = {"lines": ("theory_lines",), "map": ("contour",), "theory": ("summary",), "stress_planes": ("contour",)}
+COMPANIONS = {"lines": ("theory_lines",), "map": ("contour", "spots"), "theory": ("summary",),
+              "stress_planes": ("contour",), "slip_map": ("partial_slip",), "slip_loop": ("partial_slip",)}
 DRAWN = {"summary": summary, "lines": lines, "map": maps, "theory_lines": lines, "contour": edges,
          "coefficients": series, "theory": theory, "details": details, "spectrum": spectra, "height": heights,
          "spots": spots, "spot_sizes": spot_sizes, "histogram": histogram,

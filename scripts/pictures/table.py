@@ -48,6 +48,7 @@ class Block:
         self.load = None   # its number in the deck's order
         self.pbar_over_pstar = math.nan   # with free edges, where there is no p*, the mean pressure
         self.body = 1      # the number of the body whose stresses these are
+        self.tangential = 1   # of partial slip, the number of the tangential load
         self.columns = {name: array.array("d") for name in names}
         self.words = {name: [] for name in names}   # of columns of words, whose numbers are NaN
 
@@ -94,6 +95,8 @@ class Table:
         for block in self.blocks:
             if block.columns.get("body"):
                 block.body = int(block.columns["body"][0])
+            if block.columns.get("tangential"):
+                block.load, block.tangential = (int(block.columns[name][0]) for name in ("load", "tangential"))
 
     def _read_text(self):
         load, words_of_load = None, ""
@@ -159,6 +162,7 @@ class Table:
                 numbers.byteswap()
             block = Block([])
             block.load = place//math.prod(within) + 1
+            block.tangential = place % math.prod(within) + 1
             if len(within) == 2:
                 block.body = place//within[1] % within[0] + 1
             block.columns = {name: numbers[i::len(self.names)] for i, name in enumerate(self.names)}

@@ -13,6 +13,7 @@ module wavycon_deck_session
    use wavycon_load_group, only: check_load_group, list_load_keys, take_loads
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen
+   use wavycon_nearest_name, only: did_you_mean
    use wavycon_notes, only: note_loads, note_scene
    use wavycon_plain_text, only: integer_text, listed, newline
    use wavycon_read_deck, only: parse_deck
@@ -304,7 +305,8 @@ contains
       call all_tables(tables)
       i = findloc(tables%name() == name, .true., dim=1)
       if (i == 0) then
-         call fatal_error(error, exit_bad_input, "there is no table '"//name//"'. The tables are "// &
+         call fatal_error(error, exit_bad_input, "there is no table '"//name//"'"// &
+                          did_you_mean(name, tables%name(), "'", "'", '.')//' The tables are '// &
                           listed(tables%name(), ' and '))
          return
       end if
@@ -365,7 +367,8 @@ contains
 
       i = findloc(names == name, .true., dim=1)
       if (i > 0) number = numbers(i)
-      if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'")
+      if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'"// &
+                                   did_you_mean(name, names, "'", "'"))
    end subroutine pick_number
 
    !> A text by its name, of a solved load or of the session. Errors: exit_bad_input for a name that does not exist.

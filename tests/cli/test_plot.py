@@ -64,7 +64,8 @@ DECKS = {
                "&output spectrum = t, height = t, map_points = 16 /",
     "unsolved": "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1, 0.22861 /\n"
                 "&method solver = 'fitted', accuracy = 1e-6 /",
-    "slip": WAVE + "&interface friction = 0.5, tangential_over_normal = 0.1, 0.3, nu = 0.3, slip_loop = t, slip_map = t,\n"
+    "slip": WAVE.replace("0, 0.1", "0.1") +
+            "&interface friction = 0.5, tangential_over_normal = 0.1, 0.3, nu = 0.3, slip_loop = t, slip_map = t,\n"
             "work_of_adhesion = 0.05, resistivity1 = 1, resistivity2 = 1 /\n&method solver = 'auto', accuracy = 1e-2 /\n"
             "&output map_points = 16 /",
     "free": "&scene pressure_unit = 'MPa', length_unit = 'mm' /\n&surface kind = 'ball', radius = 1, length_x = 0.2, points = 32 /\n"
@@ -122,7 +123,7 @@ SHOWN = {
     "--body 2 bodies.stress_largest.dat": ("[MPa]", "first body"),
     "--body 2 --depths 1,9 bodies.stress_planes.npy": ("[MPa]", ""),
     "slip.interface.dat": ("contact stiffness|resistance", ""),
-    "slip.partial_slip.dat": ("stick area|displacement|load 2|load 3", ""),
+    "slip.partial_slip.dat": ("stick area|displacement|load 1|load 2", ""),
     "slip.slip_loop.dat": ("tangential load|displacement", ""),
     "slip.slip_map.dat": ("1|0.5", ""),
     "slip.adhesion.dat": ("pull-off|jump to spots|unstable|separate pools", ""),
@@ -247,6 +248,21 @@ class Plot(ProgramTest):
         text = (self.folder/"small.spot_sizes.svg").read_text(encoding="utf-8")
         self.assertNotIn("translate", re.sub("<g[^>]*>", "", text))
 
+    def test_regions(self):
+        """What a map shows of regions is what the table of spots says. Beale's edge is an isobar."""
+        for name in "line.map.dat", "free.map.dat":
+            self.assertIn("repeated along x and y", self.plot("--variable", "regions", name, status=3)[1])
+        if subprocess.run(["python3", "-c", "import numpy"], capture_output=True, check=False).returncode:
+            self.assertIn("regions need numpy", self.plot("--variable", "regions", "auto.map.dat", status=3)[1])
+            return
+        words = re.compile("closed gap|spots of contact|[a-z]+ that percolates")
+        for name in "auto.map.dat", "paper.map.dat":
+            for load, expected in enumerate(({"gap that percolates"}, {"gap that percolates", "spots of contact"},
+                                             {"closed gap", "contact that percolates"}), 1):
+                drawn = self.drawn("--variable", "regions", "--loads", str(load), name)
+                with self.subTest(name=name, load=load):
+                    self.assertEqual(expected, set(words.findall(drawn)))
+
     def test_heights(self):
         """Without a summary beside it the points are counted."""
         (self.folder/"alone").mkdir()
@@ -334,8 +350,15 @@ class Plot(ProgramTest):
         self.assertIn("--body: invalid choice", self.plot("--body", "3", "stress.stress_line.dat", status=1)[1])
 
     def test_the_interface(self):
-        self.run_deck("array", DECKS["slip"].replace("map_points", "map_format = 'npy', map_points") + "\n")
-        self.assertIn("drawn from texts: set map_format", self.plot("array.slip_map.npy", status=3)[1])
+        """Blocks of loads and tangential loads have names, in both formats, and what is left out is said."""
+        self.run_deck("array", DECKS["slip"].replace("map_points", "map_format = 'npy', map_points")
+                      .replace("0.1, 0.3", "0.1, 0.2, 0.3") + "\n")
+        for table in "slip.slip_loop.dat", "slip.slip_map.dat":
+            self.assertIn("load 2, Q/(f p̄) = 0.2", self.drawn(table))
+            self.assertNotIn("load 2, ", self.drawn("--loads", "1", table))
+            self.assertIn("none of the loads 9", self.plot("--loads", "9", table, status=3)[1])
+        self.assertIn("4 of its 6 loads and tangential", self.plot("--format", "svg", "array.slip_map.npy")[1])
+        self.assertRegex(self.drawn("--loads", "2", "array.slip_map.npy"), "load 2, .* = 0.2.*slips.*sticks.* = 0.6")
 
     def test_free_edges(self):
         # Each of the three quantities has a bar at both loads.

@@ -721,7 +721,8 @@ class Files(PackageTest):
 
     def test_misuse(self):
         (self.folder/"words.txt").write_text("no heights")
-        self.refuse("cannot read it: .*the formats that can be read are gsf, al3d, .*, x3p", wc.read, "words.txt")
+        self.refuse("cannot read it: the formats that can be read are gsf, al3d, .*, x3p.*; wavycon.file", wc.read,
+                    "words.txt")
         self.refuse("there is no such file", wc.read, "none.opd", error=OSError)
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")

@@ -111,6 +111,9 @@ class Names(ValuesTest):
         self.refuse("'presure'; did you mean 'pressure'", results[0].plot_map, "presure")
         self.refuse("'mises'|did you mean", wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, stress={"nu": 0.3})[0]
                     .plot_stress_section, "von_mise")
+        self.refuse("'area'; did you mean 'contact_area'", results.plot, y="area")
+        self.refuse("'contour'; did you mean 'contours'[?] The tables are ", results.table, "contour")
+        self.refuse("must end in .npz or .h5, not in .csv; to_dataframe", results.save, "run.csv")
         self.refuse("'mean_pres'; did you mean 'mean_pressure'", results.plot, x="mean_pres")
 
     def test_a_package_that_is_not_there(self):
@@ -291,6 +294,11 @@ class Pictures(ValuesTest):
         self.assertAlmostEqual(plain[0].gap.max()/plain.amplitude, shown.max(), delta=1e-12)
         numpy.testing.assert_array_equal(plain[0].gap == 0, shown.mask.reshape(plain[0].gap.shape))
 
+    def test_tables_of_the_surface(self):
+        """All loads have the same surface."""
+        results = self.solve_rough()
+        self.assertEqual((64*64, 3*64*64), (len(results.table("height")), len(results.table("map"))))
+        self.assertEqual(len(results.surface.spectrum), len(results.to_dataframe("spectrum")))
 
     def test_regions(self):
         """What the picture says of percolation is what the table of spots says, also of a mirrored map."""

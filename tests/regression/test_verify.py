@@ -130,6 +130,11 @@ class Verify(ProgramTest):
         self.assertIn("--solve needs the program wavycon, and the table wave_2d or hexagonal", self.verify(
             "surface,pbar_over_pstar,compliance\nwave_2d,0.123,1\n", "interface", "--solve", status=1))
 
+    def test_decimal_commas(self):
+        text = self.areas().replace(",", ";").replace(".", ",")
+        self.assertIn(",", text)
+        self.assertEqual(self.verify(self.areas(), "wave_2d"), self.verify(text, "wave_2d"))
+
     def test_a_column_for_all_rows(self):
         record, = (record for record in Table(REFERENCE / "yield.dat").records()
                    if tuple(record.values())[:4] == ("hexagonal", "constrained", "0.5", "0.3"))

@@ -8,7 +8,7 @@ module wavycon_collected_table
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
    use wavycon_memory_table, only: column_list
-   use wavycon_output_file, only: blank_mark, comma_line, output_file, with_blanks
+   use wavycon_output_file, only: blank_mark, comma_line, output_file, table_mark, with_blanks
    use wavycon_plain_text, only: escaped, lower_case, newline
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
@@ -26,9 +26,6 @@ module wavycon_collected_table
 
    !> Most bytes of 'group_key': two names of at most name_length bytes of wavycon_key_table.
    integer, parameter :: longest_key_name = 49
-
-   !> The first words of the table, as of all tables.
-   character(*), parameter :: table_mark = '# wavycon '
 
    !> The first words of a table with commas, and the end of the name of its file.
    character(*), parameter :: comma_mark = 'deck,case,', comma_ending = '.csv'

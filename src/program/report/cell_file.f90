@@ -5,7 +5,7 @@ module wavycon_cell_file
    use wavycon_contact_fields, only: contact_fields
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: column_list, column_type, of_integers
-   use wavycon_output_file, only: output_file
+   use wavycon_output_file, only: npy_mark, output_file, table_mark
    use wavycon_plain_text, only: integer_text, newline
    use wavycon_results, only: results_type
    use wavycon_system, only: has_memory_for
@@ -37,7 +37,8 @@ module wavycon_cell_file
 
 contains
 
-   !> Opens <case>.<file>.dat or <case>.<file>.npy, `file` being that of the table, on the first rank. Afterwards
+   !> Opens <case>.<file>.dat or <case>.<file>.npy, `file` being that of the table, on the first rank. When it is
+   !> complete it also replaces the other one, and a table with commas, of an earlier run. Afterwards
    !> `file%is_open` says whether the file could be opened and whether there is enough memory for a grid of its points.
    subroutine open_cell_file(self, results, table, planes, numbers_a_point, subject)
       class(cell_file), intent(out) :: self
@@ -51,6 +52,7 @@ contains
       character(*), intent(in) :: subject       !! words before the number of points in the message on memory
 
       integer :: counted
+      character(:), allocatable :: name
       type(column_type), allocatable :: columns(:)
 
       self%points = map_points(results)
@@ -62,13 +64,17 @@ contains
       self%offset = map_offset(results, self%points)
       self%is_here = results%sharing%is_first
       if (.not. self%is_here) return
+      name = results%scene%case//'.'//trim(table%file)
       if (self%as_text) then
          call results%open_table(trim(table%file), table%columns, self%file)
+         call self%file%replace(results%scene%directory, name//'.npy', npy_mark)
       else
          columns = column_list(table%columns)
          columns = pack(columns, columns%kind /= of_integers)
-         call self%file%open(results%scene%directory, results%scene%case//'.'//trim(table%file)//'.npy', &
+         call self%file%open(results%scene%directory, name//'.npy', &
                              npy_header([planes, self%points([2, 1])], columns%name))
+         call self%file%replace(results%scene%directory, name//'.dat', table_mark)
+         call self%file%replace(results%scene%directory, name//'.csv', table%columns(:index(table%columns, '[') - 1))
       end if
       call check_memory(self%file, self%points, numbers_a_point, subject)
    end subroutine open_cell_file
@@ -159,7 +165,7 @@ contains
       character(:), allocatable :: header
 
       !> The first bytes. Two bytes with the length of the rest of the header follow, the lower one first.
-      character(*), parameter :: magic = char(147)//'NUMPY'//char(1)//char(0)
+      character(*), parameter :: magic = npy_mark//char(1)//char(0)
       integer, parameter :: before_words = len(magic) + 2
       character(:), allocatable :: number, words
       integer :: i, length

@@ -20,6 +20,9 @@ module wavycon_output_file
    !> Stands for a blank inside a word of a line.
    character, parameter, public :: blank_mark = achar(31)
 
+   !> How tables and files of numpy begin: a file of this name that begins otherwise is not replaced.
+   character(*), parameter, public :: table_mark = '# wavycon ', npy_mark = char(147)//'NUMPY'
+
    !> Width of the narrowest column: a real number of 16 digits with a three-digit exponent, and blanks before it.
    integer, parameter :: narrowest = 25
 
@@ -34,14 +37,20 @@ module wavycon_output_file
       end subroutine put_in_columns
    end interface
 
+   !> A file of an earlier run, of the same table in another format.
+   type :: replaced_file
+      character(:), allocatable :: name   !! path; not allocated if there is no such file
+      character(:), allocatable :: mark   !! its first bytes
+   end type replaced_file
+
    type :: output_file
       private
       !> The table in memory that replaces the file; it must exist until `finish` is called.
       type(memory_table), pointer, public :: memory => null()
       type(c_ptr) :: file = c_null_ptr            !! the open file, from open_written
       type(c_ptr) :: commas = c_null_ptr          !! the open file of the same table with commas, without a head
-      character(:), allocatable :: comma_name     !! path of this file; not allocated if it can have none
-      logical :: with_commas = .false.            !! whether this file is written
+      character(:), allocatable :: comma_name     !! path of this file; not allocated if it is not written
+      type(replaced_file) :: replaced(2)          !! files that `finish` removes
       character(:), allocatable :: name           !! path of the file
       character(:), allocatable :: trouble        !! message of the first error; not allocated if there was none
       type(column_type), allocatable :: columns(:)   !! columns of a table; not allocated for other files
@@ -51,6 +60,7 @@ module wavycon_output_file
       integer(c_int), allocatable :: kinds(:)            !! kind of each column: of_reals, of_integers, of_words
    contains
       procedure :: open => open_file
+      procedure :: replace
       procedure :: is_open
       procedure :: put
       procedure :: put_numbers
@@ -64,25 +74,34 @@ module wavycon_output_file
 contains
 
    !> Opens a file for writing. `finish` reports the errors of this and of all other procedures.
-   subroutine open_file(self, directory, name, head, comma_name, with_commas)
+   subroutine open_file(self, directory, name, head, comma_name)
       class(output_file), intent(out) :: self
       character(*), intent(in) :: directory      !! an existing directory
       character(*), intent(in) :: name           !! name of the file in the directory
       character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
-      !> Name of the file of the same table with commas, and whether it is written. If not, `finish` removes that of an
-      !> earlier run.
-      character(*), intent(in), optional :: comma_name
-      logical, intent(in), optional :: with_commas   !! present with comma_name
+      character(*), intent(in), optional :: comma_name   !! name of the file of the same table with commas
 
       self%name = directory//'/'//name
       self%file = open_written(self%name//c_null_char)
       if (present(comma_name)) then
          self%comma_name = directory//'/'//comma_name
-         self%with_commas = with_commas
-         if (with_commas) self%commas = open_written(self%comma_name//c_null_char)
+         self%commas = open_written(self%comma_name//c_null_char)
       end if
       if (present(head)) call check(self, put_text(self%file, head, len(head, c_size_t)))
    end subroutine open_file
+
+   !> Makes `finish` remove a file of an earlier run that has the same table in another format, at most two such files.
+   subroutine replace(self, directory, name, mark)
+      class(output_file), intent(inout) :: self
+      character(*), intent(in) :: directory, name   !! as of `open`
+      character(*), intent(in) :: mark              !! the first bytes of such a file; another file of this name stays
+
+      integer :: i
+
+      i = merge(2, 1, allocated(self%replaced(1)%name))
+      self%replaced(i)%name = directory//'/'//name
+      self%replaced(i)%mark = mark
+   end subroutine replace
 
    !> Whether the file is open and no error has occurred.
    pure logical function is_open(self)
@@ -159,7 +178,7 @@ contains
       do i = 1, size(units)
          units(i) = '['//trim(self%columns(i)%unit)//']'
       end do
-      if (self%with_commas .and. .not. self%has_names) &
+      if (allocated(self%comma_name) .and. .not. self%has_names) &
          call put_commas(self, comma_line(aligned(self, self%columns%name), aligned(self, units)))
       self%has_names = .true.
       call self%put(aligned(self, self%columns%name))
@@ -254,7 +273,7 @@ contains
          end do
       end if
       call self%put(line)
-      if (self%with_commas) call put_commas(self, comma_line(line))
+      if (allocated(self%comma_name)) call put_commas(self, comma_line(line))
    end subroutine put_row
 
    !> Records an error of the operating system, if there is one.
@@ -281,8 +300,7 @@ contains
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: kind
-      integer(c_int) :: refusal
+      integer :: i
 
       if (associated(self%memory)) then
          if (self%memory%is_full) call self%note_trouble('there is not enough memory for all rows')
@@ -291,16 +309,26 @@ contains
       end if
       if (allocated(self%columns) .and. .not. self%has_names) call put_names(self)
       call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
-      if (self%with_commas) then
+      if (allocated(self%comma_name)) &
          call check(self, end_written(self%commas, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int), self%comma_name)
-      else if (allocated(self%comma_name) .and. self%is_open()) then
-         ! Another file of this name, which does not begin with the name of the first column, stays.
-         refusal = refusal_to_write(self%comma_name//c_null_char, trim(self%columns(1)%name)//c_null_char)
-         kind = path_kind(self%comma_name)
-         if (refusal == 0 .and. kind == path_file) call remove_file(self%comma_name)
-      end if
+      do i = 1, size(self%replaced)
+         if (self%is_open()) call remove_replaced(self%replaced(i))
+      end do
       if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
    end subroutine finish
+
+   !> Removes a file of an earlier run, if there is one.
+   subroutine remove_replaced(file)
+      type(replaced_file), intent(in) :: file
+
+      integer :: kind
+      integer(c_int) :: refusal
+
+      if (.not. allocated(file%name)) return
+      refusal = refusal_to_write(file%name//c_null_char, file%mark//c_null_char)
+      kind = path_kind(file%name)
+      if (refusal == 0 .and. kind == path_file) call remove_file(file%name)
+   end subroutine remove_replaced
 
 end module wavycon_output_file

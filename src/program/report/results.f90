@@ -105,8 +105,12 @@ contains
          file%memory => self%memory
       else
          comma_name = self%scene%case//'.'//table_file//'.csv'
-         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', comma_name=comma_name, &
-                        with_commas=self%scene%output%csv%is_true)
+         if (self%scene%output%csv%is_true) then
+            call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', comma_name=comma_name)
+         else
+            call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat')
+            call file%replace(self%scene%directory, comma_name, columns(:index(columns, '[') - 1))
+         end if
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
          if (self%with_adhesion) then
             call file%put('# adhesion: the contacts are those with it; of each load the stable one of the largest area')

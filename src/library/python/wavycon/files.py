@@ -72,8 +72,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             sides = list(map(float, topography.physical_sizes)) if known else [None]*info.dim
     except Exception as error:
         # Its readers raise whatever their formats bring about.
-        raise ValueError(f"{file}: SurfaceTopography cannot read it: {type(error).__name__}: "
-                         f"{''.join(str(error).strip().splitlines()[:1])}{formats(error)}") from error
+        raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
     return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
 
 
@@ -82,12 +81,13 @@ def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
         return opened.read(number)
 
 
-def formats(error: Exception) -> str:
-    """The formats that can be read, in words behind the error that a file has none of them."""
+def reason(error: Exception) -> str:
+    """Why a file cannot be read, in one line; if it has none of the formats these, and what else reads numbers."""
     if type(error).__name__ != "CannotDetectFileFormat":
-        return ""
+        return f"{type(error).__name__}: {''.join(str(error).strip().splitlines()[:1])}"
     readers = need("SurfaceTopography.IO", "files").readers
-    return f"; the formats that can be read are gsf, {', '.join(sorted(one.format() for one in readers))}"
+    return (f"the formats that can be read are gsf, {', '.join(sorted(one.format() for one in readers))}; "
+            "wavycon.file(file=...) reads numbers with commas or semicolons too")
 
 
 def choose(channels: list[Any], channel: str | int | None) -> Any:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import regions
 from .library import need
 from .surfaces import unknown
 
@@ -16,10 +17,6 @@ if TYPE_CHECKING:
 
 UNRESOLVED = 4   # the status code; from 10 on loads were not solved as requested
 PLACES = ("x", "y", "depth", "distance")
-# Regions of a map: what each is called, with its colour, in the legend alone for spots, and the colours of spots.
-REGIONS = {"gap that percolates": "#d9e8f5", "closed gap": "#f0a830", "contact that percolates": "#33202a",
-           "spots of contact": "#b0b0b0"}
-SPOTS = ("#1f77b4", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#17a398")
 
 
 def axes(ax: Any) -> Any:
@@ -98,51 +95,21 @@ def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: A
     return mesh(ax, result.x, result.y, values, words, xlabel=x, ylabel=y, aspect="equal", style=style)
 
 
-def connected(mask: Any, corners: bool) -> Any:
-    """Numbers of the connected parts of a mask whose sides are joined, 0 outside. corners: whether points that touch at
-    a corner are connected."""
-    numbers = np.where(mask, np.arange(1, mask.size + 1).reshape(mask.shape), 0)
-    joined = np.arange(mask.size + 1)   # the number that each number has become
-    steps = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if corners or abs(i + j) == 1]
-    while True:
-        largest = np.max([np.roll(numbers, step, (0, 1)) for step in [(0, 0), *steps]], axis=0)*mask
-        if np.array_equal(largest, numbers):
-            return numbers
-        np.maximum.at(joined, numbers, largest)
-        joined = joined[joined]
-        numbers = joined[numbers]
-
-
 def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
-    """Draws spots in colours, and the gap by whether it percolates. On two by two cells a region that percolates is
-    connected with its own copy; on a mirrored map it goes from border to border. The edge is that of the table spots,
-    of the paper's series an isobar."""
-    facts, (rows, columns) = result._facts, result.pressure.shape
-    is_periodic, isobar = "edges = 'mirror'" not in facts.deck, re.search(r"(?m)^ *edge_level = (\S+)", facts.deck)
+    """Draws spots in colours, and the gap by whether it percolates. The edge is that of the table spots, of the paper's
+    series an isobar."""
+    facts, isobar = result._facts, re.search(r"(?m)^ *edge_level = (\S+)", result._facts.deck)
     edge = facts.p_star*float(isobar[1]) if isobar else 0.0
-    colours = np.zeros((rows, columns), dtype=int)
-    for is_contact in False, True:
-        mask = (result.pressure > edge) == is_contact
-        numbers = connected(mask if is_periodic else np.pad(mask, (0, 1)), is_contact)[:rows, :columns]
-        if is_periodic:
-            cells = connected(np.tile(mask, (2, 2)), is_contact).reshape(2, rows, 2, columns).swapaxes(1, 2)
-            through = numbers[mask & (cells.reshape(4, rows, columns)[1:] == cells[0, 0]).any(0)]
-        else:
-            through = np.append(*(np.intersect1d(*ends) for ends in (numbers[[0, -1]], numbers[:, [0, -1]].T)))
-        spots = len(REGIONS) + np.unique(numbers, return_inverse=True)[1].reshape(numbers.shape) % len(SPOTS)
-        kinds = np.where(np.isin(numbers, through), 2*is_contact, spots if is_contact else 1)
-        colours[mask] = kinds[mask]
+    colours = regions.regions(result.pressure > edge, "edges = 'mirror'" in facts.deck)
     ax.pcolormesh(result.x, result.y, colours, **{"shading": "nearest", "rasterized": True, "vmin": 0, "cmap":
-                  need("matplotlib.colors", "plot").ListedColormap([*REGIONS.values(), *SPOTS]),
-                  "vmax": len(REGIONS) + len(SPOTS) - 1, **style})
+                  need("matplotlib.colors", "plot").ListedColormap(regions.COLOURS),
+                  "vmax": len(regions.COLOURS) - 1, **style})
     said: dict[str, float] = {}
     with contextlib.suppress(ValueError):   # of saved results without the table
         table = result.table("spots")
         said = dict(zip(table.dtype.names or (), table[0]))
-    for kind, (name, colour) in enumerate(REGIONS.items()):
-        if (colours == kind).any() or (name == "spots of contact" and (colours > kind).any()):
-            along = [axis for axis in "xy" if said.get(f"{name.split()[0]}_percolates_{axis}")]
-            ax.plot([], [], "s", color=colour, label=f"{name} along {along[0]}" if len(along) == 1 else name)
+    for words, colour in regions.legend(colours, said):
+        ax.plot([], [], "s", color=colour, label=words)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False)
     ax.set(title=title(result), aspect="equal", **{f"{axis}label": scaled(facts, axis)[1] for axis in "xy"})
     return ax

@@ -231,9 +231,11 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         return f"<p>{html.escape(self.method)}</p><table><tr>{''.join(heads)}</tr>{''.join(rows)}</table>"
 
     def table(self, name: str = "summary") -> Rows:
-        """The rows of a table of all loads, see Result.table."""
+        """The rows of a table of all loads, see Result.table; 'height' and 'spectrum', those of the surface, once."""
         if self._model is None:
             raise ValueError("there are no loads")
+        if "load" not in (self._model.table(name).dtype.names or ()):
+            return self._model.table(name)
         return locked(np.concatenate([load.table(name) for load in self] or [self._model.table(name)[:0]]))
 
     @cached_property
@@ -267,7 +269,8 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
 
     def save(self, file: str | os.PathLike[str] | IO[bytes], fields: bool = True) -> None:
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to a file .npz or, with
-        h5py, .h5. It appears whole or not at all, and replaces no other kind of file."""
+        h5py, .h5. It appears whole or not at all, and replaces no other kind of file. Tables with commas are those of
+        to_dataframe().to_csv."""
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
         for number, one in [(one._load, one) for one in self] or [(MODEL, one) for one in [self._model] if one]:
@@ -276,7 +279,12 @@ class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
         if hasattr(file, "write"):
             np.savez(file, **content)
             return
-        path = os.fspath(file) + ("" if os.fspath(file).endswith((".npz", ".h5")) else ".npz")
+        path = os.fspath(file)
+        if not path.endswith((".npz", ".h5")):
+            if (ending := os.path.splitext(path)[1])[1:].isalpha():
+                raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; to_dataframe().to_csv() "
+                                 "writes tables with commas")
+            path += ".npz"
         with written(path, b"\x89HDF" if path.endswith(".h5") else b"PK") as opened:
             if path.endswith(".npz"):
                 np.savez(opened, **content)

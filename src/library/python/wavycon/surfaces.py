@@ -42,8 +42,8 @@ def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surfa
 
 
 def unknown(what: str, name: object, names: Iterable[object]) -> str:
-    """That there is no such name, and the nearest one, or all if they are few."""
+    """That there is no such name, and the nearest one, or the shortest that has it in it, or all if they are few."""
     texts = list(map(str, names))
-    near = difflib.get_close_matches(str(name), texts, 1)
+    near = difflib.get_close_matches(str(name), texts, 1) or sorted((one for one in texts if str(name) in one), key=len)
     few = f"; there are {', '.join(texts)}" if texts and len(texts) <= FEW else ""
     return f"there is no {what} {name!r}" + (f"; did you mean {near[0]!r}?" if near else few)
