@@ -128,8 +128,9 @@ class Answer:
                        for name, unit in zip(BOUNDED, ("pstar_amplitude", "amplitude", "amplitude"))]
 
     def relative_width(self):
+        """Of the energy, which may be below 0 where waves rise above the highest point of a map."""
         (lower, upper), *_ = self.bounds
-        return (upper - lower)/upper
+        return (upper - lower)/abs(upper)
 
 
 def solved(program, files, work):

@@ -70,8 +70,9 @@ contains
    end subroutine start
 
    !> Computes the bounds at a mean pressure P, from any pressure and gap. Negative pressures are first set to zero, and
-   !> so are negative gaps without a hardness; the pressure is then changed so that its mean is P. On a grid that is not
-   !> fine enough, with a gap that is NaN, without a finite pressure, or with no pressure at all, the bounds are NaN.
+   !> so are negative gaps without a hardness; the pressure is then changed so that its mean is P. A contact that lies
+   !> between the points has no pressure at any of them: the points with the smallest gap then bear the load. On a grid
+   !> that is not fine enough, with a gap that is NaN, or without a finite pressure the bounds are NaN.
    subroutine bound(self, surface, pressure, gap, pbar_over_pstar, answer)
       class(bounding_grid), intent(in) :: self
       type(surface_type), intent(in) :: surface       !! surface of `start`
@@ -90,9 +91,11 @@ contains
       nan = ieee_value(1.0_dp, ieee_quiet_nan)
       answer = energy_bounds(nan, nan, nan)
       p = min(max(pressure, 0.0_dp), surface%hardness)
-      if (.not. (self%is_fine_enough .and. all(ieee_is_finite(pressure)) .and. any(p > 0.0_dp)) .or. &
-          any(ieee_is_nan(gap))) return
+      if (.not. (self%is_fine_enough .and. all(ieee_is_finite(pressure))) .or. any(ieee_is_nan(gap))) return
       g = min(max(gap, -most_gap), most_gap)
+      if (.not. any(p > 0.0_dp)) then
+         where (g <= minval(g)) p = min(1.0_dp, surface%hardness)
+      end if
       if (.not. surface%has_hardness()) g = max(g, 0.0_dp)
       rounding = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
       mean_p = mean(self, p)
