@@ -151,7 +151,8 @@ def outside(name, bounds, truth):
 
 def differ(some, others):
     """Whether bounds from fields in the deck's units differ from those of the table."""
-    return any(abs(a - b) > CONVERSION*unit for bounds, more, unit in zip(some, others, (some[0][1], 1.0, 1.0))
+    units = max(map(abs, some[0])), 1.0, 1.0
+    return any(abs(a - b) > CONVERSION*unit for bounds, more, unit in zip(some, others, units)
                for a, b in zip(bounds, more))
 
 
