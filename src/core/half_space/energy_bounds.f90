@@ -159,7 +159,6 @@ contains
       last = pressure%last([1, 2])
       with_shape = surface%shape%last(1)
       allocate (half, source=[1.0_dp, (0.5_dp, k=1, last(1))])
-      allocate (folded(size(half)))
       allocate (of_shape(0:last(1)), source=(0.0_dp, 0.0_dp))
       sums = 0.0_dp
       largest = 0.0_dp

@@ -117,10 +117,10 @@ contains
       real(dp), allocatable, intent(out) :: gap(:, :)
 
       class(contact_fields), allocatable :: fields
-      integer :: j, points(2)
+      integer :: i, j, points(2)
       logical :: is_halved(2)
       real(dp) :: offset(2)
-      real(dp), allocatable :: no_shape(:), u(:, :)
+      real(dp), allocatable :: u(:, :)
 
       associate (surface => results%solver%surface, solution => results%loads(load))
          if (.not. solution%has_numbers()) return
@@ -129,10 +129,9 @@ contains
          if (fields%own_points(1) > 0) then
             points = fields%own_slab%points
             allocate (p(points(1), points(2)), gap(points(1), points(2)), u(points(1), 1))
-            ! The shape serves for the displacement alone, which is not used here: zeros do.
-            allocate (no_shape(points(1)), source=0.0_dp)
             do j = 1, points(2)
-               call fields%at_own_column(j, no_shape, p(:, j), u(:, 1), gap(:, j))
+               ! The shape serves for the displacement alone, which is not used here: zeros do.
+               call fields%at_own_column(j, [(0.0_dp, i=1, points(1))], p(:, j), u(:, 1), gap(:, j))
             end do
          else
             points = 1
