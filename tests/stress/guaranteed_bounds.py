@@ -28,7 +28,7 @@ def campaign(settings, work):
     except ImportError as error:
         part.notes.append(f"left out: {error}")
         return part
-    judges, widths, ratios = collections.Counter(), collections.defaultdict(list), collections.defaultdict(list)
+    judges, widths, of_body, ratios = collections.Counter(), *(collections.defaultdict(list) for _ in range(3))
     for name, stream, kind in settings.cases("bounds", *settings.amount((KINDS, 77), (QUICK, 3))):
         case = Case(stream, kind, settings.program, work)
         judge, truth, complaints = case.truth(settings.program, work)
@@ -36,7 +36,8 @@ def campaign(settings, work):
         complaints += more
         if answer and truth:
             judges[judge] += 1
-            widths[f"{kind}, {case.body}"].append(answer.relative_width())
+            widths[kind].append(answer.relative_width())
+            of_body[case.body].append(answer.relative_width())
             complaints += outside("the program's bounds", answer.bounds, truth)
             for own, error, (lower, upper) in zip(answer.own, answer.errors, answer.bounds):
                 # Where there is a hardness the own energy lacks that of the overlap.
@@ -53,7 +54,7 @@ def campaign(settings, work):
         part.count(name, complaints, case.files(case.grid()))
     part.notes.append(f"{sum(map(len, ratios.values()))} times bounds from fields; truth: "
                       + ", ".join(f"{judge} {number}" for judge, number in judges.items()))
-    for what, numbers in (("width", widths), ("fault", ratios)):
+    for what, numbers in (("width", widths), ("width", of_body), ("fault", ratios)):
         part.notes += [f"{what}, {name}: {len(some)} times, median {sorted(some)[len(some)//2]:.2g}, from "
                        f"{min(some):.2g} to {max(some):.2g}, above 1 "
                        f"{sum(one > 1.0 + CONVERSION for one in some)} times"
