@@ -178,7 +178,9 @@ class Library:
         offset = np.full(2, 0.5 if is_mirrored else 0.0)
         self.call("get_grid", one._solution, *other.shape[:0:-1], *map(self.address, (offset, *other)), None)
         random = np.random.default_rng(stream.getrandbits(32))
-        for fault, fields in [*self.faults(p, g, random), ("other points", other)]:
+        # A contact may lie between other points.
+        others = [("other points", other)]*bool(other[0].any())
+        for fault, fields in [*self.faults(p, g, random), *others]:
             fields = [np.ascontiguousarray(field, float) for field in fields]
             bounds = np.empty(6)
             self.call("get_bounds", one._scene, one.mean_pressure, *fields[0].shape[::-1],

@@ -30,6 +30,7 @@ module wavycon_energy_bounds
       logical :: is_fine_enough = .false.   !! whether the grid has all waves of the surface; if not there are no bounds
       type(grid_transform), private :: transform
       type(alias_sums), private :: sums
+      real(dp), private :: eta = 0.0_dp   !! rounding error of a transform over the norm, (E25)
    contains
       procedure :: start
       procedure :: bound
@@ -65,6 +66,7 @@ contains
       self%points = points
       self%cell = points
       where (even .and. points > 1) self%cell = 2*points
+      self%eta = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp))
       self%is_fine_enough = all(surface%shape%last([1, 2]) <= series%last([1, 2]))
       if (self%is_fine_enough) call self%sums%start(self%cell, surface%length, series%last([1, 2]), surface%kernel)
    end subroutine start
@@ -97,7 +99,7 @@ contains
          where (g <= minval(g)) p = min(1.0_dp, surface%hardness)
       end if
       if (.not. surface%has_hardness()) g = max(g, 0.0_dp)
-      rounding = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
+      rounding = self%eta + epsilon(1.0_dp)*sum(self%cell)
       mean_p = mean(self, p)
       call energies(self, surface, p, g, rounding, half_pu, ph, dual)
       ! The pressure is multiplied by a factor that gives it the mean P. With a hardness a factor above 1 might exceed
@@ -181,7 +183,7 @@ contains
          end associate
       end do
       norm = sqrt([mean(self, p**2), sums(4), mean(self, g**2) + sums(4)])
-      sums([1, 3]) = sqrt(sums([1, 3])*(1.0_dp + table_rounding + rounding)) + 2*rounding*sqrt(largest)*norm([1, 3])
+      sums([1, 3]) = sqrt(sums([1, 3])*(1.0_dp + table_rounding + rounding)) + 2*self%eta*sqrt(largest)*norm([1, 3])
       half_pu = 0.5_dp*sums(1)**2/surface%stiffness
       half_uq = 0.5_dp*sums(3)**2*surface%stiffness
       ph = mean(self, p) - sums(2) + 2*rounding*norm(1)*(1.0_dp + norm(2))
