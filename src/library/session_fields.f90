@@ -147,7 +147,6 @@ contains
 
       character(:), allocatable :: trouble
       integer :: least(2)
-      logical :: is_fine_enough
       real(dp) :: first(2), pbar_over_pstar, unit
       type(bounding_grid) :: grid
       type(energy_bounds) :: answer
@@ -171,11 +170,11 @@ contains
          else if (.not. any(pressure > 0.0_dp)) then
             trouble = 'no pressure is above 0'
          else
-            call grid%start(surface, points, surface%mirrored, is_fine_enough)
+            call grid%start(surface, points, surface%mirrored)
             least = surface%shape%last([1, 2])
             least = max(2*least, 1)
             if (surface%mirrored) least = surface%shape%last([1, 2]) + 1
-            if (.not. is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
+            if (.not. grid%is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
                                                 integer_text(least(1))//' x '//integer_text(least(2))//' points'
          end if
          if (trouble /= '') then

@@ -35,9 +35,9 @@ class Scene:
         return f"kind = 'sum', {cell}" + "".join(f",\n   {name} = {', '.join(map(repr, values))}"
                                                  for name, values in keys)
 
-    def files(self, loads, method, e_star=1.0):
-        """The deck and its height map, {file name: text}."""
-        deck = (f"&surface {self.surface()} /\n&material e_star = {e_star!r} /\n"
+    def files(self, loads, method, e_star=1.0, more=""):
+        """The deck and its height map, {file name: text}. `more`: further keys of &material."""
+        deck = (f"&surface {self.surface()} /\n&material e_star = {e_star!r}{more} /\n"
                 f"&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n&method {method} /\n")
         files = {"deck.nml": deck}
         if self.heights:
@@ -84,8 +84,8 @@ class Scene:
         return not self.heights and all(n == 0 for _, _, n, _ in self.waves)
 
 
-def random_scene(stream, kind):
-    a, length = stream.uniform(0.1, 2.0), stream.uniform(0.5, 2.0)
+def random_scene(stream, kind, unit_of_heights=1.0, unit_of_lengths=1.0):
+    a, length = unit_of_heights*stream.uniform(0.1, 2.0), unit_of_lengths*stream.uniform(0.5, 2.0)
     if kind == "wave_1d":
         return Scene(kind, (length, length), [(a, 1, 0, 0.0)],
                      f"kind = 'wave_1d', amplitude = {a!r}, wavelength = {length!r}")
@@ -110,16 +110,17 @@ def random_scene(stream, kind):
                      f"kind = 'hexagonal', amplitude = {a!r}, wavelength = {length!r}")
     if kind in ("file", "even file", "mirrored file"):
         cell = (length, length*stream.choice((0.5, 1.0, 1.5)))
-        return Scene(kind, cell, heights=random_map(stream, kind == "even file"),
-                     edges="mirror" if kind == "mirrored file" else "periodic")
+        scene = Scene(kind, cell, heights=random_map(stream, kind == "even file"),
+                      edges="mirror" if kind == "mirrored file" else "periodic")
+        return scene.scaled(1.0, unit_of_heights)
     even = kind == "even sum"
     waves = []
     for _ in range(stream.randint(1, 4)):
         m, n = stream.randint(1, 3), 0 if kind == "profile" else stream.randint(-3, 3)
         phase = stream.choice((0.0, 0.5)) if even else stream.uniform(-0.5, 0.5)
-        waves.append((stream.uniform(-1.2, 1.2), m, n, phase))
+        waves.append((unit_of_heights*stream.uniform(-1.2, 1.2), m, n, phase))
     if kind != "profile" and all(n == 0 for _, _, n, _ in waves):
-        waves.append((stream.uniform(0.2, 1.2), 0, 1, 0.0 if even else stream.uniform(-0.5, 0.5)))
+        waves.append((unit_of_heights*stream.uniform(0.2, 1.2), 0, 1, 0.0 if even else stream.uniform(-0.5, 0.5)))
     if even:
         # The sum of a wave and its mirror image is even.
         waves = [(a, m, sign*n, phase) for a, m, n, phase in waves for sign in (1, -1)]

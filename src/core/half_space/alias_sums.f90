@@ -30,11 +30,9 @@ module wavycon_alias_sums
    type :: alias_line
       real(dp), allocatable :: weight(:, :)       !! sinc^2 of (E19), shape (0:last, -aliases:aliases)
       real(dp), allocatable :: frequency(:, :)    !! one over the wavelength [1/length], same shape
-      !> Bounds of sums over the aliases with |a| > aliases, shape (0:last): of weight^2/frequency, weight^2*frequency
-      !> and weight^2.
-      real(dp), allocatable, dimension(:) :: far_compliance, far_stiffness, far_weight
-      !> Bounds of sums over the wave and all aliases, shape (0:last): of weight^2*frequency and weight^2.
-      real(dp), allocatable, dimension(:) :: all_stiffness, all_weight
+      !> Bounds of sums of weight^2*frequency^(4 - m), shape (0:last, 3:5): over the aliases with |a| > aliases; and,
+      !> for m = 3 and 4, over the wave and all aliases.
+      real(dp), allocatable, dimension(:, :) :: far, every
    end type alias_line
 
 contains
@@ -62,11 +60,11 @@ contains
       call kernel%of(far)
       !$omp parallel do schedule(static) private(a, b, stiffness, weight)
       do l = 0, last(2)
-         self%compliance(:, l) = x%far_compliance*y%all_weight(l) + x%all_weight*y%far_compliance(l)
+         self%compliance(:, l) = x%far(:, 5)*y%every(l, 4) + x%every(:, 4)*y%far(l, 5)
          ! On a layer shorter waves are less compliant, and no stiffer over their frequency (E32).
          self%stiffness(:, l) = far(1)/closest*( &
-            x%far_stiffness*y%all_weight(l) + x%far_weight*y%all_stiffness(l) &
-            + x%all_stiffness*y%far_weight(l) + x%all_weight*y%far_stiffness(l))
+            x%far(:, 3)*y%every(l, 4) + x%far(:, 4)*y%every(l, 3) &
+            + x%every(:, 3)*y%far(l, 4) + x%every(:, 4)*y%far(l, 3))
          do b = -aliases, aliases
             if (y%weight(l, b) <= 0.0_dp) cycle
             do a = -aliases, aliases
@@ -87,45 +85,33 @@ contains
    end subroutine start
 
    !> Computes the data of one axis. In units of n/length the wave k has the frequency x = k/n and its aliases have x +
-   !> a. Then sinc^2 is (sin(pi x)/pi)^2/(x + a)^2.
+   !> a. Then sinc^2 is (sin(pi x)/pi)^2/(x + a)^2, and (E22) bounds the sums of |x + a|^(-m) over the far aliases.
    pure type(alias_line) function line_of(points, length, last) result(line)
       integer, intent(in) :: points     !! n, number of points along the axis
       real(dp), intent(in) :: length    !! side of the cell [length]
       integer, intent(in) :: last       !! highest wave number
 
-      integer :: a, k
+      integer :: a, k, m
       real(dp) :: unit   ! unit of the frequencies [1/length]
       real(dp) :: s(0:last), x(0:last)
 
       unit = points/length
       x = [(k, k=0, last)]/real(points, dp)
       s = (sin(pi*x)/pi)**2
-      allocate (line%weight(0:last, -aliases:aliases))
+      allocate (line%weight(0:last, -aliases:aliases), line%far(0:last, 3:5))
       allocate (line%frequency, mold=line%weight)
-      allocate (line%far_compliance(0:last))
-      allocate (line%far_stiffness, line%far_weight, line%all_stiffness, line%all_weight, mold=line%far_compliance)
       do a = -aliases, aliases
          line%frequency(:, a) = abs(x + a)*unit
          line%weight(1:, a) = s(1:)/(x(1:) + a)**2
          line%weight(0, a) = merge(1.0_dp, 0.0_dp, a == 0)
       end do
-      line%far_compliance(:) = s**2*rest(5)/unit
-      line%far_stiffness(:) = s**2*rest(3)*unit
-      line%far_weight(:) = s**2*rest(4)
-      line%all_stiffness(:) = line%far_stiffness + sum(line%weight**2*line%frequency, dim=2)
-      line%all_weight(:) = line%far_weight + sum(line%weight**2, dim=2)
-
-   contains
-
-      !> The bound (E22) of the sum of |x + a|^(-m) over |a| > aliases. The function is convex, so that its integral
-      !> from a - 1/2 to a + 1/2 exceeds its value at a.
-      pure function rest(m)
-         integer, intent(in) :: m   !! > 1
-         real(dp) :: rest(0:last)
-
-         rest = ((aliases + 0.5_dp + x)**(1 - m) + (aliases + 0.5_dp - x)**(1 - m))/(m - 1)
-      end function rest
-
+      do m = 3, 5
+         line%far(:, m) = s**2*(((aliases + 0.5_dp + x)**(1 - m) + (aliases + 0.5_dp - x)**(1 - m))/(m - 1)) &
+                          *unit**(4 - m)
+      end do
+      line%every = line%far
+      line%every(:, 3) = line%far(:, 3) + sum(line%weight**2*line%frequency, dim=2)
+      line%every(:, 4) = line%far(:, 4) + sum(line%weight**2, dim=2)
    end function line_of
 
 end module wavycon_alias_sums

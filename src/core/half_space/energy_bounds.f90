@@ -3,7 +3,7 @@
 !> not that on the grid. They hold for every pressure and gap; if these are far from a solution the bounds are wide, but
 !> never false.
 module wavycon_energy_bounds
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_alias_sums, only: alias_sums
    use wavycon_assertion, only: assert
    use wavycon_fourier_series, only: fourier_series
@@ -27,8 +27,10 @@ module wavycon_energy_bounds
    type :: bounding_grid
       integer :: points(2) = 0          !! points of the grid, as in `start`
       integer :: cell(2) = 0            !! points of the grid on the whole cell
+      logical :: is_fine_enough = .false.   !! whether the grid has all waves of the surface; if not there are no bounds
       type(grid_transform), private :: transform
       type(alias_sums), private :: sums
+      real(dp), private :: eta = 0.0_dp   !! rounding error of a transform over the norm, (E25)
    contains
       procedure :: start
       procedure :: bound
@@ -40,18 +42,20 @@ module wavycon_energy_bounds
    !> Factor of (E25): the rounding error of a Fourier transform of n numbers, relative to the norm, is at most this
    !> times 2 + log2 n.
    real(dp), parameter :: transform_rounding = 16*epsilon(1.0_dp)
+   !> Gaps in Delta that are larger in size count as this, as any gap gives bounds: the squares of such gaps are numbers
+   !> yet, while an overflow would have no bounds.
+   real(dp), parameter :: most_gap = 1e100_dp
 
 contains
 
    !> Makes the tables of a grid, if the grid is fine enough.
-   subroutine start(self, surface, points, even, is_fine_enough)
+   subroutine start(self, surface, points, even)
       class(bounding_grid), intent(out) :: self
       type(surface_type), intent(in) :: surface   !! periodic or mirrored, not distributed
       !> Points M, N on the whole cell, the first at X = Y = 0, N = 1 in 1-D; or on a quarter of an even surface's cell,
       !> see wavycon_grid_points.
       integer, intent(in) :: points(2)
       logical, intent(in) :: even                 !! whether the points are those of a quarter
-      logical, intent(out) :: is_fine_enough      !! whether the grid has all waves of the surface
 
       type(fourier_series) :: series
 
@@ -62,13 +66,15 @@ contains
       self%points = points
       self%cell = points
       where (even .and. points > 1) self%cell = 2*points
-      is_fine_enough = all(surface%shape%last([1, 2]) <= series%last([1, 2]))
-      if (is_fine_enough) call self%sums%start(self%cell, surface%length, series%last([1, 2]), surface%kernel)
+      self%eta = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp))
+      self%is_fine_enough = all(surface%shape%last([1, 2]) <= series%last([1, 2]))
+      if (self%is_fine_enough) call self%sums%start(self%cell, surface%length, series%last([1, 2]), surface%kernel)
    end subroutine start
 
    !> Computes the bounds at a mean pressure P, from any pressure and gap. Negative pressures are first set to zero, and
-   !> so are negative gaps without a hardness; the pressure is then changed so that its mean is P. Without a finite
-   !> pressure and gap, or with no pressure at all, the bounds are NaN.
+   !> so are negative gaps without a hardness; the pressure is then changed so that its mean is P. A contact that lies
+   !> between the points has no pressure at any of them: the points with the smallest gap then bear the load. On a grid
+   !> that is not fine enough, with a gap that is NaN, or without a finite pressure the bounds are NaN.
    subroutine bound(self, surface, pressure, gap, pbar_over_pstar, answer)
       class(bounding_grid), intent(in) :: self
       type(surface_type), intent(in) :: surface       !! surface of `start`
@@ -78,20 +84,23 @@ contains
       real(dp), intent(in) :: pbar_over_pstar         !! P >= 0, below the hardness
       type(energy_bounds), intent(out) :: answer
 
+      real(dp), parameter :: outwards(2) = [-1.0_dp, 1.0_dp]
       ! The lower bound (first its energy <u S^-1 u>/2) and the upper bound of F; U and V; H <max(-g, 0)>; eta.
-      real(dp) :: compression, dual, factor, half_pu, mean_p, overlap, ph, primal, rounding, share, width
+      real(dp) :: compression, dual, factor, half_pu, mean_p, nan, overlap, ph, primal, rounding, share, width
       real(dp), allocatable :: g(:, :), p(:, :)
 
       if (pbar_over_pstar <= 0.0_dp) return
-      answer%energy = ieee_value(1.0_dp, ieee_quiet_nan)
-      answer%approach = answer%energy
-      answer%mean_gap = answer%energy
+      nan = ieee_value(1.0_dp, ieee_quiet_nan)
+      answer = energy_bounds(nan, nan, nan)
       p = min(max(pressure, 0.0_dp), surface%hardness)
-      if (.not. (all(ieee_is_finite(pressure)) .and. all(ieee_is_finite(gap)) .and. any(p > 0.0_dp))) return
-      g = gap
-      if (.not. surface%has_hardness()) g = max(gap, 0.0_dp)
-      rounding = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp)) + epsilon(1.0_dp)*sum(self%cell)
-      mean_p = mean(p)
+      if (.not. (self%is_fine_enough .and. all(ieee_is_finite(pressure))) .or. any(ieee_is_nan(gap))) return
+      g = min(max(gap, -most_gap), most_gap)
+      if (.not. any(p > 0.0_dp)) then
+         where (g <= minval(g)) p = min(1.0_dp, surface%hardness)
+      end if
+      if (.not. surface%has_hardness()) g = max(g, 0.0_dp)
+      rounding = self%eta + epsilon(1.0_dp)*sum(self%cell)
+      mean_p = mean(self, p)
       call energies(self, surface, p, g, rounding, half_pu, ph, dual)
       ! The pressure is multiplied by a factor that gives it the mean P. With a hardness a factor above 1 might exceed
       ! H; then the uniform pressure share*H is added instead, which has no elastic energy, and factor + share = 1.
@@ -104,39 +113,29 @@ contains
       half_pu = max(half_pu*factor**2*(1.0_dp + 4*rounding), tiny(1.0_dp))
       ph = ph*factor + share*surface%hardness + 4*rounding*(abs(ph*factor) + share*surface%hardness)
       overlap = 0.0_dp
-      if (surface%has_hardness()) overlap = surface%hardness*mean(max(-g, 0.0_dp))
+      if (surface%has_hardness()) overlap = surface%hardness*mean(self, max(-g, 0.0_dp))
       primal = half_pu + ph
-      dual = pbar_over_pstar*(1.0_dp - mean(g) - rounding*(1.0_dp + mean(abs(g)))) - overlap*(1.0_dp + rounding) - dual
-      answer%energy = [dual - rounding*abs(dual), primal + rounding*abs(primal)]
+      dual = pbar_over_pstar*(1.0_dp - mean(self, g) - rounding*(1.0_dp + mean(self, abs(g)))) &
+             - overlap*(1.0_dp + rounding) - dual
+      answer%energy = [dual, primal] + outwards*rounding*abs([dual, primal])
       ! (E23): the chords from the lower bound at P to the upper bounds at (1 - e) P and (1 + e) P, with the best e.
       width = max(answer%energy(2) - answer%energy(1), tiny(1.0_dp))
-      associate (e => sqrt(width/half_pu), middle => 2*half_pu + ph)
-         answer%approach(1) = middle - width/min(e, 1.0_dp) - min(e, 1.0_dp)*half_pu
-         answer%approach(2) = middle + width/e + e*half_pu
-         answer%approach = (answer%approach + [-rounding, rounding]*(middle + width/e))/pbar_over_pstar
+      associate (e => min(sqrt(width/half_pu), [1.0_dp, huge(1.0_dp)]), middle => 2*half_pu + ph)
+         answer%approach = (middle + outwards*width/e + outwards*e*half_pu &
+                            + outwards*rounding*(middle + width/e(2)))/pbar_over_pstar
       end associate
       ! With a hardness (1 + e) p is not admissible: there is no upper bound of the approach. Without a hardness the
       ! mean gap 1 - delta is not negative.
       if (surface%has_hardness()) then
-         answer%approach(2) = ieee_value(1.0_dp, ieee_quiet_nan)
+         answer%approach(2) = nan
       else
          answer%approach(2) = min(answer%approach(2), 1.0_dp)
          answer%mean_gap = 1.0_dp - answer%approach(2:1:-1)
       end if
       ! What the mean pressure does to a layer, (E31).
       compression = mean_compliance(surface)*pbar_over_pstar
-      answer%approach = answer%approach + compression*[1.0_dp - rounding, 1.0_dp + rounding]
-      answer%energy = answer%energy + 0.5_dp*compression*pbar_over_pstar*[1.0_dp - rounding, 1.0_dp + rounding]
-
-   contains
-
-      !> The mean of a field. Its rounding error is below `rounding` times the mean of the absolute values.
-      real(dp) function mean(field)
-         real(dp), intent(in) :: field(:, :)
-
-         mean = self%transform%slab%sum_of(field)/size(field)
-      end function mean
-
+      answer%approach = answer%approach + compression*(1.0_dp + outwards*rounding)
+      answer%energy = answer%energy + 0.5_dp*compression*pbar_over_pstar*(1.0_dp + outwards*rounding)
    end subroutine bound
 
    !> Upper bounds of the three energies in (E18a), by the sums over waves (E20) and (E21) and with the rounding (E26).
@@ -162,7 +161,6 @@ contains
       last = pressure%last([1, 2])
       with_shape = surface%shape%last(1)
       allocate (half, source=[1.0_dp, (0.5_dp, k=1, last(1))])
-      allocate (folded(size(half)))
       allocate (of_shape(0:last(1)), source=(0.0_dp, 0.0_dp))
       sums = 0.0_dp
       largest = 0.0_dp
@@ -184,13 +182,19 @@ contains
             largest = max(largest, [maxval(folded*compliance), maxval(folded*(stiffness + w**2*f))])
          end associate
       end do
-      associate (slab => self%transform%slab)
-         norm = sqrt([slab%sum_of(p**2)/size(p), sums(4), slab%sum_of(g**2)/size(g) + sums(4)])
-         sums([1, 3]) = sqrt(sums([1, 3])*(1.0_dp + table_rounding + rounding)) + 2*rounding*sqrt(largest)*norm([1, 3])
-         half_pu = 0.5_dp*sums(1)**2/surface%stiffness
-         half_uq = 0.5_dp*sums(3)**2*surface%stiffness
-         ph = slab%sum_of(p)/size(p) - sums(2) + 2*rounding*norm(1)*(1.0_dp + norm(2))
-      end associate
+      norm = sqrt([mean(self, p**2), sums(4), mean(self, g**2) + sums(4)])
+      sums([1, 3]) = sqrt(sums([1, 3])*(1.0_dp + table_rounding + rounding)) + 2*self%eta*sqrt(largest)*norm([1, 3])
+      half_pu = 0.5_dp*sums(1)**2/surface%stiffness
+      half_uq = 0.5_dp*sums(3)**2*surface%stiffness
+      ph = mean(self, p) - sums(2) + 2*rounding*norm(1)*(1.0_dp + norm(2))
    end subroutine energies
+
+   !> The mean of a field. Its rounding error is below `rounding` times the mean of the absolute values.
+   real(dp) function mean(self, field)
+      type(bounding_grid), intent(in) :: self
+      real(dp), intent(in) :: field(:, :)
+
+      mean = self%transform%slab%sum_of(field)/size(field)
+   end function mean
 
 end module wavycon_energy_bounds

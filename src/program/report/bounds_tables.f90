@@ -55,13 +55,11 @@ contains
       type(output_file) :: file
       type(quantities) :: measures
       integer :: cell(2), load
-      logical :: has_bounds, is_fine_enough
       real(dp) :: inside(2), numbers(6), own(3), overlap, unit(6)
       real(dp), allocatable :: gap(:, :), p(:, :)
 
       call results%open_table(trim(table%file), table%columns, file)
       associate (surface => results%solver%surface)
-         is_fine_enough = .false.
          unit = surface%amplitude
          unit(:2) = results%scene%p_star*surface%amplitude*surface%nominal_area()
          do load = 1, size(results%loads)
@@ -70,22 +68,18 @@ contains
             cell = 0
             associate (solution => results%loads(load))
                call fields_of(results, load, p, gap)
-               has_bounds = allocated(p)
-               if (has_bounds) then
-                  if (any(grid%points /= shape(p))) &
-                     call grid%start(surface, shape(p), surface%shape%is_even(), is_fine_enough)
-                  has_bounds = is_fine_enough
-               end if
-               if (has_bounds) then
+               if (allocated(p)) then
+                  if (any(grid%points /= shape(p))) call grid%start(surface, shape(p), surface%shape%is_even())
                   call grid%bound(surface, p, gap, solution%pbar_over_pstar, bounds)
-                  cell = grid%cell/surface%maps_in_cell()
+                  if (grid%is_fine_enough) cell = grid%cell/surface%maps_in_cell()
                   measures = solution%quantities
                   call solution%details(measures)
                   own = or_nan(measures%value([approach, elastic_energy, mean_gap]))
-                  ! H <max(-g, 0)> of (E24). The mean of h + u is 1, so that the negative part of the gap h + u - delta
-                  ! has the mean delta - 1 + mean gap.
+                  ! H <max(-g, 0)> of (E24). The mean of h + u is 1, so that the negative part of the gap h + u -
+                  ! delta_0 has the mean delta_0 - 1 + mean gap, where delta_0 lacks the compression of a layer (E31).
                   overlap = 0.0_dp
-                  if (surface%has_hardness()) overlap = surface%hardness*(own(1) - 1.0_dp + own(3))
+                  if (surface%has_hardness()) overlap = surface%hardness*( &
+                     own(1) - mean_compliance(surface)*solution%pbar_over_pstar - 1.0_dp + own(3))
                   numbers = [bounds%energy, bounds%approach, bounds%mean_gap]
                   ! The solution's own energy F by (E24), and its approach.
                   inside = [inside_of(solution%pbar_over_pstar*own(1) - own(2) - overlap, bounds%energy), &
@@ -123,10 +117,10 @@ contains
       real(dp), allocatable, intent(out) :: gap(:, :)
 
       class(contact_fields), allocatable :: fields
-      integer :: j, points(2)
+      integer :: i, j, points(2)
       logical :: is_halved(2)
       real(dp) :: offset(2)
-      real(dp), allocatable :: no_shape(:), u(:, :)
+      real(dp), allocatable :: u(:, :)
 
       associate (surface => results%solver%surface, solution => results%loads(load))
          if (.not. solution%has_numbers()) return
@@ -135,10 +129,9 @@ contains
          if (fields%own_points(1) > 0) then
             points = fields%own_slab%points
             allocate (p(points(1), points(2)), gap(points(1), points(2)), u(points(1), 1))
-            ! The shape serves for the displacement alone, which is not used here: zeros do.
-            allocate (no_shape(points(1)), source=0.0_dp)
             do j = 1, points(2)
-               call fields%at_own_column(j, no_shape, p(:, j), u(:, 1), gap(:, j))
+               ! The shape serves for the displacement alone, which is not used here: zeros do.
+               call fields%at_own_column(j, [(0.0_dp, i=1, points(1))], p(:, j), u(:, 1), gap(:, j))
             end do
          else
             points = 1

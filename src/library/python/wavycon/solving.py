@@ -59,10 +59,12 @@ def certify(surface: Surface, pressure: npt.ArrayLike, gap: npt.ArrayLike, *, me
     p, g = np.atleast_2d(reals(pressure), reals(gap))
     if p.ndim != 2 or p.shape != g.shape:
         raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {p.shape} and {g.shape}")
+    if mean_pressure is None or np.ndim(mean_pressure):
+        raise ValueError(f"mean_pressure must be one number, got {mean_pressure!r}")
     scene = scene_of(surface, {"mean_pressure": mean_pressure, **options}, keep_fields=False)
     library.tell(library.text(scene, "notes").splitlines())
     bounds = np.empty((3, 2))
-    call("get_bounds", scene, mean_pressure, *p.shape[::-1], *map(address, (p, g, bounds)))
+    call("get_bounds", scene, float(mean_pressure), *p.shape[::-1], *map(address, (p, g, bounds)))
     return Bounds(*((float(lower), float(upper)) for lower, upper in bounds))
 
 
