@@ -284,8 +284,8 @@ contains
 
       place = self%to_radius([1, 2, 1])*([x, y, depth] - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])
       call round_spot_stress(cmplx(place(1), place(2), dp), place(3), self%hertz, self%punch, nu_terms)
-      if (present(error)) error = rounding*(self%hertz + self%punch &
-                                            + maxval(abs(nu_terms))/hypot(norm2(place(:2)) - 1.0_dp, place(3)))
+      if (present(error)) error = rounding*(self%hertz + self%punch + maxval(abs(nu_terms)) &
+                                            /max(hypot(norm2(place(:2)) - 1.0_dp, place(3)), epsilon(error)))
    end subroutine stress_with_adhesion
 
    !> Derivatives with respect to the load. Approach and area are both proportional to the force to the power 2/3.

@@ -193,7 +193,7 @@ contains
       error = rounding*westergaard_peak_pressure_over_pstar(load)
       ! Next to the edge the stresses of the tension change with the distance from it.
       if (self%tension > 0.0_dp) error = error + rounding*maxval(abs(nu_terms)) &
-         /hypot(abs(modulo(x + pi, 2*pi) - pi) - pi*westergaard_contact_area_fraction(load), depth)
+         /max(hypot(abs(modulo(x + pi, 2*pi) - pi) - pi*westergaard_contact_area_fraction(load), depth), epsilon(x))
    end subroutine stress_at
 
    !> Places at which searches for the largest stress start: some across half of the contact and a little beyond it, at

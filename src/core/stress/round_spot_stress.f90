@@ -1,9 +1,9 @@
 !> Stresses below a round spot in closed form: those of Hertz's pressure and of a flat punch, for a ball with adhesion.
 !>
-!> Lengths are over the radius of the spot, and c = z + i. A point force at the complex depth c has the potential of the
-!> flat punch: with R = (r^2 + c^2)^(1/2), Re R >= 0, the function -Im(1/R) is (1 - r^2)^(-1/2) on the spot, 0 in the mean
-!> of both sides outside, and harmonic below (J. W. Harding, I. N. Sneddon, Proc. Camb. Phil. Soc. 41 (1945) 16-26).
-!> Hertz's pressure is the integral of punches over their radius. Both are equations (I23) of src/beyond/README.md.
+!> Lengths are over the radius of the spot, and c = z + i. A point at the complex depth c has the potential of the flat
+!> punch: with R = (r^2 + c^2)^(1/2), Re R >= 0, the function -Im(1/R) is (1 - r^2)^(-1/2) on the spot, 0 outside of it,
+!> and harmonic below. Hertz's pressure is the integral of punches over their radius. Both are (I23) of
+!> src/beyond/README.md.
 module wavycon_round_spot_stress
    use wavycon_kinds, only: dp
    use wavycon_stress_kernel, only: nu_terms_of
@@ -14,8 +14,8 @@ module wavycon_round_spot_stress
 
 contains
 
-   !> The stresses of the pressure hertz (1 - r^2)^(1/2) - punch (1 - r^2)^(-1/2) on the spot r < 1. They are infinite at
-   !> its edge, NaN there.
+   !> The stresses of the pressure hertz (1 - r^2)^(1/2) - punch (1 - r^2)^(-1/2) on the spot r < 1. They are infinite
+   !> at its edge, and huge numbers there.
    pure subroutine round_spot_stress(place, z, hertz, punch, nu_terms)
       complex(dp), intent(in) :: place         !! x + i y from the middle of the spot, over its radius
       real(dp), intent(in) :: z                !! depth over the radius, >= 0
@@ -32,6 +32,7 @@ contains
       r2 = place%re**2 + place%im**2
       ! r^2 + c^2, with 1 - r^2 from the difference of r and 1. On the surface the sign of the imaginary part is +.
       root = sqrt(cmplx(z**2 - (1.0_dp - abs(place))*(1.0_dp + abs(place)), 2*z, dp))
+      if (abs(root) <= 0.0_dp) root = epsilon(1.0_dp)
       u = root + c
       h = hertz*aimag(root - z*log(u)) + punch*aimag(1/root)
       hz = -hertz*aimag(log(u) - i/root) - punch*aimag(c/root**3)

@@ -40,7 +40,7 @@ contains
    !>
    !>     F_T - T = T (1 - P1)/[R (cos w + R)],   dF_T/d(X + i Z) = T (1 - P1) sin w/(2 R^3),
    !>
-   !> which are infinite at the edge of contact: the stresses are NaN there.
+   !> which are infinite at the edge of contact: the stresses are huge there.
    pure subroutine westergaard_stress(x, z, pbar_over_pstar, nu_terms, tension)
       real(dp), intent(in) :: x                !! 2 pi x/lambda, from a crest [rad]
       real(dp), intent(in) :: z                !! 2 pi z/lambda, depth, >= 0 [rad]
@@ -106,6 +106,7 @@ contains
       if (abs(root) > 0) slope = (0.0_dp, 1.0_dp)*load*decay*z*((root + (1 - load)*minus_i_sin_w)/root)/total**2
       if (.not. present(tension)) return
       if (tension <= 0) return
+      if (abs(root) <= 0) root = epsilon(1.0_dp)
       change = change - tension*(1 - load)*decay/(root*(cos_w + root))
       slope = slope - (0.0_dp, 0.5_dp)*z*tension*(1 - load)*decay*minus_i_sin_w/root**3
    end subroutine partial_contact
