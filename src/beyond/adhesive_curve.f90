@@ -6,6 +6,8 @@ module wavycon_adhesive_curve
    use wavycon_adhesive_contact, only: adhesive_point, adhesive_problem, approach_jump, approach_pull_off, &
       approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
+   use wavycon_beyond_tuning, only: beyond_extreme, finer_by, first_over_critical, least_step, radius_growth, &
+      radius_step, ratio_growth, ratio_of_extremes, worst_error
    use wavycon_constants, only: pi
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: converged, not_accurate, not_found
@@ -32,21 +34,6 @@ module wavycon_adhesive_curve
 
    !> Number of points of a curve in closed form.
    integer, parameter :: closed_form_points = 95
-   !> Largest step of the radius of a spot or pool: over the radius of a circle as large as its cell, and over the
-   !> radius itself.
-   real(dp), parameter :: radius_step = 0.025_dp, radius_growth = 0.2_dp
-   !> Largest growth of the merging ratio (1 where spots touch) in a step, over 1 less the ratio. With 0.2 the last
-   !> extreme of the pools of the square wave with w' = 0.05 is lost at the accuracy 1e-3.
-   real(dp), parameter :: ratio_growth = 0.12_dp
-   !> The branch ends where the approach falls at a merging ratio above this. The last extremes are at 0.83 and more.
-   real(dp), parameter :: ratio_of_extremes = 0.6_dp
-   !> The branch also ends if there is no solution even after a step of this part of the largest step.
-   real(dp), parameter :: least_step = 0.02_dp
-   !> Factor on the accuracy of a point that is solved again, as the sign of its slope is not sure. Told errors of
-   !> slopes have a safety of 5: half of them is enough.
-   real(dp), parameter :: finer_by = 0.2_dp
-   !> Step towards the last extreme of the approach, over the distance that is extrapolated from the last slopes.
-   real(dp), parameter :: beyond_extreme = 1.3_dp
 
 contains
 
@@ -115,8 +102,7 @@ contains
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
 
-      real(dp), parameter :: first_over_critical = 0.4_dp, largest_first = 0.1_dp, worst_error = 10.0_dp, &
-         largest_error = 0.02_dp
+      real(dp), parameter :: largest_first = 0.1_dp, largest_error = 0.02_dp
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step

@@ -313,7 +313,7 @@ contains
       writer = tables(i)
       ! Here a table needs no key of &output that requests it.
       if (writer%of_adhesion) writer%asked_by(2) = ''
-      if (writer%group == 'stress' .and. .not. allocated(self%results%scene%stress_setting)) then
+      if (index(writer%file, 'stress_') > 0 .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
       else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then
          trouble = 'the deck has no group &interface that asks for it'

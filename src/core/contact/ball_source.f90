@@ -1,6 +1,6 @@
 !> Hertz's contact of a ball with free edges (src/core/contact/hertz_ball.f90). The measures, the fields at the surface
 !> and the edge of contact are closed forms. The stresses are computed on grids, on a rectangle in proportion to the
-!> contact.
+!> contact; those of a round ball with adhesion are closed forms too.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_ball_source
@@ -21,6 +21,7 @@ module wavycon_ball_source
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
+   use wavycon_round_spot_stress, only: round_spot_stress
    use wavycon_solution_record, only: by_closed_form
    use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_surface, only: surface_type
@@ -58,6 +59,14 @@ module wavycon_ball_source
       procedure :: at => stress_at
       procedure :: start_points
    end type ball_stress_fields
+
+   !> Stresses below a round ball with adhesion. Their mean pressure is 0, as nothing acts far away.
+   type, extends(stress_fields) :: adhesive_ball_stress_fields
+      real(dp) :: to_radius(2) = 0.0_dp             !! x and y of X = Y = 1 over the radius of contact
+      real(dp) :: hertz = 0.0_dp, punch = 0.0_dp    !! as of round_spot_stress [p*]
+   contains
+      procedure :: at => stress_with_adhesion
+   end type adhesive_ball_stress_fields
 
 contains
 
@@ -193,7 +202,7 @@ contains
    end subroutine contact_contours
 
    !> The stresses below the ball, computed on grids on a rectangle whose sides are four half axes. So the step of the
-   !> grid is the same part of the contact at every load.
+   !> grid is the same part of the contact at every load. With adhesion the ball is round, and they are closed forms.
    subroutine stresses(self, surface, answer)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -204,6 +213,15 @@ contains
       type(grid_contact) :: solver
       type(surface_type) :: own
 
+      if (self%contact%tension > 0.0_dp) then
+         associate (contact => self%contact, p_star => surface%full_contact_pressure(1.0_dp))
+            allocate (answer, source=adhesive_ball_stress_fields( &
+               maps_in_cell=surface%maps_in_cell(), side_ratio=surface%length(2)/surface%length(1), &
+               to_radius=surface%length/(2*pi*contact%half_axis), hertz=contact%peak_pressure/p_star, &
+               punch=contact%tension/(2*contact%contact_area()*p_star)))
+         end associate
+         return
+      end if
       own = surface_of_ball(4*self%contact%half_axis, ball_radii(surface))
       allocate (stress)
       stress%unit = own%full_contact_pressure(1.0_dp)/surface%full_contact_pressure(1.0_dp)
@@ -251,6 +269,24 @@ contains
       end do
       places%width = places%width/maxval(self%angle_ratio)
    end subroutine start_points
+
+   !> The stresses at a point below a round ball with adhesion.
+   subroutine stress_with_adhesion(self, x, y, depth, nu_terms, error)
+      class(adhesive_ball_stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: x, y
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: nu_terms(6, 2)
+      real(dp), intent(out), optional :: error
+
+      !> Error relative to the pressures and, next to the edge, to the stress over the distance from the edge.
+      real(dp), parameter :: rounding = 1e-14_dp
+      real(dp) :: place(3)   ! from the middle of the contact, over its radius
+
+      place = self%to_radius([1, 2, 1])*([x, y, depth] - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])
+      call round_spot_stress(cmplx(place(1), place(2), dp), place(3), self%hertz, self%punch, nu_terms)
+      if (present(error)) error = rounding*(self%hertz + self%punch + maxval(abs(nu_terms)) &
+                                            /max(hypot(norm2(place(:2)) - 1.0_dp, place(3)), epsilon(error)))
+   end subroutine stress_with_adhesion
 
    !> Derivatives with respect to the load. Approach and area are both proportional to the force to the power 2/3.
    subroutine derivatives(self, surface, answer)

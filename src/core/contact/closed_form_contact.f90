@@ -54,6 +54,7 @@ module wavycon_closed_form_contact
    end type closed_form_fields
 
    type, extends(stress_fields) :: closed_form_stress_fields
+      real(dp) :: tension = 0.0_dp            !! T, as in closed_form_source; pbar_over_pstar is P
    contains
       procedure :: at => stress_at
       procedure :: start_points
@@ -169,10 +170,11 @@ contains
       class(stress_fields), allocatable, intent(out) :: answer
 
       associate (unused => surface); end associate
-      allocate (answer, source=closed_form_stress_fields(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1))
+      allocate (answer, source=closed_form_stress_fields(pbar_over_pstar=self%record%pbar_over_pstar, dimension=1, &
+                                                         tension=self%tension))
    end subroutine stresses
 
-   !> The stresses below Westergaard's pressure.
+   !> The stresses below Westergaard's pressure, with adhesion less those of flat punches: (I24) of src/beyond.
    subroutine stress_at(self, x, y, depth, nu_terms, error)
       class(closed_form_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
@@ -182,10 +184,16 @@ contains
 
       !> Error of the stresses relative to the peak pressure.
       real(dp), parameter :: rounding = 1e-14_dp
+      real(dp) :: load   ! P + T
 
       associate (unused => y); end associate
-      call westergaard_stress(x, depth, self%pbar_over_pstar, nu_terms)
-      if (present(error)) error = rounding*westergaard_peak_pressure_over_pstar(self%pbar_over_pstar)
+      load = self%pbar_over_pstar + self%tension
+      call westergaard_stress(x, depth, load, nu_terms, self%tension)
+      if (.not. present(error)) return
+      error = rounding*westergaard_peak_pressure_over_pstar(load)
+      ! Next to the edge the stresses of the tension change with the distance from it.
+      if (self%tension > 0.0_dp) error = error + rounding*maxval(abs(nu_terms)) &
+         /max(hypot(abs(modulo(x + pi, 2*pi) - pi) - pi*westergaard_contact_area_fraction(load), depth), epsilon(x))
    end subroutine stress_at
 
    !> Places at which searches for the largest stress start: some across half of the contact and a little beyond it, at

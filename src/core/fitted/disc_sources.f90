@@ -10,7 +10,7 @@ module wavycon_disc_sources
    implicit none (type, external)
    private
 
-   public :: copies, disc_sources, find_density, linearise_sources, start_disc_sources
+   public :: copies, disc_sources, find_density, linearise_sources, source_power, start_disc_sources
 
    !> A whole spot or pool as point sources.
    type :: disc_sources
@@ -37,9 +37,7 @@ contains
 
       if (solution%pool) sources%source = merge(of_gradient, of_gap, gradient)
       associate (fold => solution%basis%fold)
-         ! At the edge the gradient of a gap is proportional to the root of 1 - |w|^2, as a pressure is.
-         call start_disc_rule(rule, merge(0.5_dp, solution%basis%power, gradient), fold, radii, &
-                              (angles + 2*fold - 1)/(2*fold))
+         call start_disc_rule(rule, source_power(solution, gradient), fold, radii, (angles + 2*fold - 1)/(2*fold))
          allocate (density(size(rule%point)))
          call find_density(solution, gradient, size(density), rule%point, &
                            (1.0_dp - abs(rule%point))*(1.0_dp + abs(rule%point)), density)
@@ -56,8 +54,7 @@ contains
 
    !> The density of sources on the disc, without its singular factor: the source times the Jacobian, J p, J g or, for
    !> the gap's gradient, README.md (F54), divided by the power of 1 - |w|^2 that the source is proportional to at the
-   !> edge. Without adhesion this power is 1/2 both for a pressure and for the gradient of a gap, so that one rule
-   !> serves both: README.md, section 13.
+   !> edge, `source_power`.
    subroutine find_density(solution, gradient, n, w, inside, density)
       type(fitted_function), intent(in) :: solution
       logical, intent(in) :: gradient              !! whether the source is the gradient of the gap
@@ -75,12 +72,22 @@ contains
       f = matmul(values, solution%c)
       if (gradient) then
          call solution%basis%slopes(n, w, values, slope_x, slope_y)
-         f_slope = inside*cmplx(matmul(slope_x, solution%c), matmul(slope_y, solution%c), dp) - 3*f*w
+         f_slope = inside*cmplx(matmul(slope_x, solution%c), matmul(slope_y, solution%c), dp) - 2*solution%basis%power*f*w
          density = slope*f_slope - conjugate_slope*conjg(f_slope)
       else
          density = f*(slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2))
       end if
    end subroutine find_density
+
+   !> The power of 1 - |w|^2 to which a source is proportional at the edge. It is 1/2 both for a pressure and for the
+   !> gradient of a gap, with adhesion -1/2, so that one rule serves both: README.md, section 13.
+   pure real(dp) function source_power(solution, gradient)
+      type(fitted_function), intent(in) :: solution
+      logical, intent(in) :: gradient              !! whether the source is the gradient of the gap
+
+      source_power = solution%basis%power
+      if (gradient) source_power = source_power - 1.0_dp
+   end function source_power
 
    !> Adds the fields of all sources at one point.
    pure subroutine add_at(self, kernel, place, depth, fields)

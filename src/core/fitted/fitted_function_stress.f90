@@ -43,7 +43,7 @@ contains
    subroutine start_fitted_function_stress(stress, lattice, solution, accuracy)
       type(fitted_function_stress), intent(out) :: stress
       type(wave_lattice), intent(in) :: lattice
-      type(fitted_function), intent(in) :: solution      !! the solution of the lattice, without adhesion
+      type(fitted_function), intent(in) :: solution      !! the solution of the lattice
       real(dp), intent(in) :: accuracy                   !! error of the stresses over the peak pressure
 
       complex(dp), allocatable :: centre(:)

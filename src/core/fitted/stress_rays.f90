@@ -6,7 +6,7 @@
 !> the distances.
 module wavycon_stress_rays
    use wavycon_constants, only: pi
-   use wavycon_disc_sources, only: find_density
+   use wavycon_disc_sources, only: find_density, source_power
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: ray_angles_of_strain, ray_angles_per_unit, ray_points, ray_points_per_degree, &
       ray_points_per_unit, ray_points_per_unit_and_degree
@@ -101,7 +101,7 @@ contains
          end do
       end do
       if (on_surface .and. .not. solution%pool) &
-         fields(h_field, 1) = fields(h_field, 1) + density_at_origin(1)%re*sqrt(edge) &
+         fields(h_field, 1) = fields(h_field, 1) + density_at_origin(1)%re*sqrt(edge)**nint(2*source_power(solution, .false.)) &
          /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
 
    contains
@@ -181,11 +181,9 @@ contains
                source = of_pressure
                if (solution%pool) source = merge(of_gradient, of_gap, self%kernel == all_fields)
                call find_density(solution, source == of_gradient, n, w, root**2, density)
-               ! dt = root dsigma. The density is multiplied by its power of 1 - |w|^2, which is less by 1 for a
-               ! gradient.
+               ! dt = root dsigma. The density is multiplied by its power of 1 - |w|^2.
                at_t = weight*0.5_dp*(last - first)*nodes%weight*width*cosh(eta)*root
-               density = density*(at_t*root*t)*root**nint(2*solution%basis%power &
-                                                          - merge(3, 1, source == of_gradient))
+               density = density*(at_t*root*t)*root**nint(2*source_power(solution, source == of_gradient) - 1.0_dp)
                do k = 1, size(offset)
                   call add_sources(self%kernel, source, n, offset(k)%re - difference%re, offset(k)%im - difference%im, &
                                    depth(k), density%re, density%im, fields(:, k))
@@ -195,7 +193,8 @@ contains
                ! The principal value: the term 1/t times the value at t = 0 is subtracted, as its integral from a small
                ! circle in z is known.
                associate (remainder => weight*log(forward*sqrt(squared)/solution%shape%b(0)) - sum(at_t/t), &
-                          at_origin => density_at_origin(1)*sqrt(edge), own => fields(:, 1))
+                          at_origin => density_at_origin(1)*sqrt(edge)**nint(2*source_power(solution, solution%pool)), &
+                          own => fields(:, 1))
                   if (solution%pool) then
                      kernel = -conjg(stretch)*at_origin/sqrt(squared)**3/(4*pi**2)
                      own(h_field) = own(h_field) + remainder*kernel%re

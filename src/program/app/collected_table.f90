@@ -62,7 +62,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: full, trouble
-      character(16), allocatable :: kinds(:)
+      character(24), allocatable :: kinds(:)
       integer :: d, k, number
       type(table_type), allocatable :: tables(:)
 

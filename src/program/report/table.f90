@@ -24,7 +24,7 @@ module wavycon_table
    !> A table. The type has no allocatable components, because gfortran 12 loses the memory of those in array
    !> constructors.
    type :: table_type
-      character(16) :: file = ''          !! the table is <case>.<file>.dat
+      character(24) :: file = ''          !! the table is <case>.<file>.dat
       character(16) :: key = ''           !! the logical key that requests the table; empty: the table has no such key
       character(9) :: group = 'output'    !! group of the key: 'output', 'load', 'stress' or 'interface'
       character(160) :: meaning = ''      !! one sentence for the reference of keys of &output

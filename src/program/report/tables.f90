@@ -40,11 +40,14 @@ contains
       tables = [summary_tables(), line_tables(), map_tables(), spot_tables(), theory_tables(), surface_tables(), &
                 stress_tables(), interface_tables(), bounds_tables()]
       ! The fields of the contact with adhesion get tables of their own, beside the tables without adhesion.
-      of_adhesion = pack(tables, tables%key == 'lines' .or. tables%key == 'map' .or. tables%key == 'contours')
+      ! Largest stresses are not among them: they are infinite at the edge.
+      of_adhesion = pack(tables, tables%key == 'lines' .or. tables%key == 'map' .or. tables%key == 'contours' .or. &
+                         (tables%group == 'stress' .and. tables%key /= 'largest'))
       do i = 1, size(of_adhesion)
          associate (table => of_adhesion(i))
             table%of_adhesion = .true.
-            table%asked_by = [character(len(table%asked_by)) :: 'work_of_adhesion', 'output.'//trim(table%key)]
+            table%asked_by = [character(len(table%asked_by)) :: 'work_of_adhesion', &
+                              trim(table%group)//'.'//trim(table%key)]
             table%group = 'interface'
             table%key = ''
             table%file = 'adhesion_'//trim(table%file)

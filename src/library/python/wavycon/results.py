@@ -92,8 +92,9 @@ class Result(Columns[float, str]):
         """A table of the program, as a structured array of shape (rows,): 'summary', that of a key of &output, such as
         'spots', 'contours', 'lines', 'map' or 'spectrum', with percolates=... 'percolation', with stress={...}
         'stress_largest', 'stress_line', 'stress_section' or 'stress_planes', with interface={...} 'interface',
-        'partial_slip', 'slip_loop', 'slip_map', 'adhesion', 'adhesion_lines', 'adhesion_map' or 'adhesion_contour'.
-        Made when it is first asked for."""
+        'partial_slip', 'slip_loop', 'slip_map', 'adhesion', 'adhesion_lines', 'adhesion_map' or 'adhesion_contour',
+        with both 'adhesion_stress_line', 'adhesion_stress_section' or 'adhesion_stress_planes'. Made when it is first
+        asked for."""
         if name not in self._tables:
             self._tables[name], units = library.table(self._live(name), name, self._load)
             self._facts.units.update(units)
