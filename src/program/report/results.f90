@@ -98,14 +98,12 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each column; `unit_in_words` makes labels of the units
       type(output_file), intent(out) :: file
 
-      character(:), allocatable :: comma_name
       type(column_type), allocatable :: list(:)
 
       if (associated(self%memory)) then
          file%memory => self%memory
       else
-         comma_name = self%scene%case//'.'//table_file//'.csv'
-         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', comma_name=comma_name, &
+         call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', &
                         with_commas=self%scene%output%csv%is_true)
          call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
          if (self%with_adhesion) then
