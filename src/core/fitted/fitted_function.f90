@@ -62,9 +62,8 @@ contains
       call start_disc_polynomials(copy%basis, self%basis%fold, degree, self%basis%power)
       copy%c = [(0.0_dp, i=1, copy%basis%terms)]
       do i = 1, copy%basis%terms
-         associate (angular => copy%basis%angular(i), radial => copy%basis%radial(i))
-            n = findloc(self%basis%angular == angular .and. self%basis%radial == radial, .true., dim=1)
-         end associate
+         n = findloc(self%basis%angular == copy%basis%angular(i) .and. self%basis%radial == copy%basis%radial(i), &
+                     .true., dim=1)
          if (n > 0) copy%c(i) = self%c(n)
       end do
       deallocate (copy%shape%b)

@@ -254,7 +254,6 @@ contains
       class(output_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: kind
       integer(c_int) :: refusal
 
       if (associated(self%memory)) then
@@ -269,8 +268,7 @@ contains
       else if (allocated(self%comma_name) .and. self%is_open()) then
          ! Another file of this name, which does not begin with the name of the first column, stays.
          refusal = refusal_to_write(self%comma_name//c_null_char, trim(self%columns(1)%name)//c_null_char)
-         kind = path_kind(self%comma_name)
-         if (refusal == 0 .and. kind == path_file) call remove_file(self%comma_name)
+         if (path_kind(self%comma_name) == path_file .and. refusal == 0) call remove_file(self%comma_name)
       end if
       if (allocated(self%trouble)) &
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)

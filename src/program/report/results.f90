@@ -188,11 +188,9 @@ contains
 
       character(:), allocatable :: words
 
-      associate (solution => self%loads(load))
-         words = 'pbar/p* = '//exact_number(solution%pbar_over_pstar)
-         if (self%solver%surface%has_free_edges) words = 'mean pressure = '//exact_number(self%mean_pressure(load))
-         call file%begin_block('load '//integer_text(load)//': '//words//', '//trim(status_name(solution%status)))
-      end associate
+      words = 'pbar/p* = '//exact_number(self%loads(load)%pbar_over_pstar)
+      if (self%solver%surface%has_free_edges) words = 'mean pressure = '//exact_number(self%mean_pressure(load))
+      call file%begin_block('load '//integer_text(load)//': '//words//', '//trim(status_name(self%loads(load)%status)))
    end subroutine begin_block
 
    !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*,
