@@ -6,7 +6,7 @@ module wavycon_plain_text
    private
 
    public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
-   public :: clauses, in_quotes, listed, percent
+   public :: clauses, in_quotes, listed, percent, replaced, with_mark
    public :: is_printable, escaped, excerpt, character_count
 
    !> An integer in decimal, without blanks.
@@ -165,15 +165,37 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: constant
 
+      constant = "'"//with_mark(text, "'", "'")//"'"
+   end function quoted
+
+   !> The text with a mark before each of some bytes.
+   pure function with_mark(text, bytes, mark) result(marked)
+      character(*), intent(in) :: text
+      character(*), intent(in) :: bytes   !! the bytes that get the mark
+      character, intent(in) :: mark
+      character(:), allocatable :: marked
+
       integer :: i
 
-      constant = "'"
+      marked = ''
       do i = 1, len(text)
-         constant = constant//text(i:i)
-         if (text(i:i) == "'") constant = constant//"'"
+         if (index(bytes, text(i:i)) > 0) marked = marked//mark
+         marked = marked//text(i:i)
       end do
-      constant = constant//"'"
-   end function quoted
+   end function with_mark
+
+   !> The text with another byte in place of one.
+   pure function replaced(text, old, new) result(changed)
+      character(*), intent(in) :: text
+      character, intent(in) :: old, new
+      character(len(text)) :: changed
+
+      integer :: i
+
+      do i = 1, len(text)
+         changed(i:i) = merge(new, text(i:i), text(i:i) == old)
+      end do
+   end function replaced
 
    !> The value of a Fortran character constant, in quotes of either kind.
    pure function unquoted(constant) result(text)

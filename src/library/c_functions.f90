@@ -115,10 +115,9 @@ contains
          case ('solution')
             call get_of_solution(this%contents, text_at(name), value, this%trouble)
          case ('table')
-            associate (table => this%contents%table)
-               call pick_number([character(7) :: 'rows', 'columns'], real([table%rows, size(table%columns)], dp), &
-                                text_at(name), value, this%trouble)
-            end associate
+            call pick_number([character(7) :: 'rows', 'columns'], &
+                             real([this%contents%table%rows, size(this%contents%table%columns)], dp), &
+                             text_at(name), value, this%trouble)
          case default
             call fatal_error(this%trouble, exit_bad_input, not_a_handle//'scene')
          end select

@@ -170,19 +170,16 @@ contains
       if (contents%mark /= our_mark) contents => nothing
    end function object_at
 
-   !> A text from C; empty if the pointer is null.
+   !> A text from C, whose pointer is not null.
    pure function text_at(bytes) result(text)
-      character(kind=c_char), intent(in), optional :: bytes(*)
+      character(kind=c_char), intent(in) :: bytes(*)
       character(:), allocatable :: text
 
       integer :: length
 
-      length = 0
-      if (present(bytes)) then
-         do length = 0, most_bytes - 1
-            if (bytes(length + 1) == c_null_char) exit
-         end do
-      end if
+      do length = 0, most_bytes - 1
+         if (bytes(length + 1) == c_null_char) exit
+      end do
       allocate (character(length) :: text)
       if (length > 0) text = transfer(bytes(:length), text)
    end function text_at

@@ -280,8 +280,7 @@ contains
       beside = low(:, 1)
       do j = 1, size(field, 2)
          here(1:m) = field(:, j)
-         here(0) = here(image_of_point(0, m, even))
-         here(m + 1) = here(image_of_point(m + 1, m, even))
+         here([0, m + 1]) = here(image_of_point([0, m + 1], m, even))
          if (j < size(field, 2)) then
             beside = beside + field(:, j + 1)
          else

@@ -260,8 +260,7 @@ contains
 
          associate (m => size(pressure))
             marked(1:m) = merge(1.0_dp, 0.0_dp, is_free(pressure, state%hardness))
-            marked(0) = marked(image_of_point(0, m, even))
-            marked(m + 1) = marked(image_of_point(m + 1, m, even))
+            marked([0, m + 1]) = marked(image_of_point([0, m + 1], m, even))
          end associate
       end function marked
 

@@ -70,9 +70,7 @@ contains
 
       is_here = .true.
       if (self%distributed_points == 0) return
-      associate (slab => self%edge%slab)
-         call slab%gather_whole(self%edge%pressure_or_gap, values, first_only=.true.)
-      end associate
+      call self%edge%slab%gather_whole(self%edge%pressure_or_gap, values, first_only=.true.)
       is_here = allocated(values)
       if (.not. is_here) return
       allocate (whole)

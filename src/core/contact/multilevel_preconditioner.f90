@@ -258,8 +258,7 @@ contains
          associate (values => grid%values, near => before + (j + 1)/2, other => before + (j + 1)/2 + 1 - 2*mod(j, 2))
             line(1:m) = factor*(0.75_sp*values(:, near) + 0.25_sp*values(:, other))
          end associate
-         line(0) = line(image_of_point(0, m, grid%even))
-         line(m + 1) = line(image_of_point(m + 1, m, grid%even))
+         line([0, m + 1]) = line(image_of_point([0, m + 1], m, grid%even))
          associate (contact => grid%contact(:, j))
             do i = 1, m
                fine(2*i - 1, j) = fine(2*i - 1, j) + (weight(1) + weight(2)*contact(2*i - 1)) &
@@ -302,8 +301,7 @@ contains
                end if
             end associate
          end do
-         line(0) = line(image_of_point(0, m, grid%even))
-         line(m + 1) = line(image_of_point(m + 1, m, grid%even))
+         line([0, m + 1]) = line(image_of_point([0, m + 1], m, grid%even))
          do i = 1, m/2
             grid%values(i, before + j) = factor*(0.75_sp*(line(2*i - 1) + line(2*i)) &
                                                      + 0.25_sp*(line(2*i - 2) + line(2*i + 1)))

@@ -74,9 +74,7 @@ contains
       new%images = equations%images
       equations = new
       fold = like%basis%fold
-      associate (adhesive => like%work > 0.0_dp)
-         equations%constraints = merge(0, 1, like%pool .and. .not. adhesive)
-      end associate
+      equations%constraints = merge(0, 1, like%pool .and. like%work <= 0.0_dp)
       equations%before_shape = like%basis%terms + equations%constraints
       equations%unknowns = equations%before_shape + size(like%shape%b)
       ! The rule of chords for the singular integral and the rule over the disc for the images.

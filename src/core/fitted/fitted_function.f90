@@ -58,16 +58,15 @@ contains
 
       integer :: i, n
 
-      copy%pool = self%pool
+      copy = self
       call start_disc_polynomials(copy%basis, self%basis%fold, degree, self%basis%power)
-      allocate (copy%c(copy%basis%terms), source=0.0_dp)
+      copy%c = [(0.0_dp, i=1, copy%basis%terms)]
       do i = 1, copy%basis%terms
-         associate (angular => copy%basis%angular(i), radial => copy%basis%radial(i))
-            n = findloc(self%basis%angular == angular .and. self%basis%radial == radial, .true., dim=1)
-         end associate
+         n = findloc(self%basis%angular == copy%basis%angular(i) .and. self%basis%radial == copy%basis%radial(i), &
+                     .true., dim=1)
          if (n > 0) copy%c(i) = self%c(n)
       end do
-      copy%shape%fold = self%shape%fold
+      deallocate (copy%shape%b)
       allocate (copy%shape%b(0:shape_terms), source=0.0_dp)
       n = min(shape_terms, ubound(self%shape%b, 1))
       copy%shape%b(:n) = self%shape%b(:n)
@@ -75,10 +74,6 @@ contains
       ! README.md (F18): on a circle the changes of tau and b_1 together move a point of the edge by
       ! -2 i tau b_0 w sin(fold phi), which is along the edge.
       copy%shape%b(1) = copy%shape%b(1) + (clustering - self%shape%clustering)*copy%shape%b(0)
-      copy%approach = self%approach
-      copy%load = self%load
-      copy%work = self%work
-      copy%area = self%area
    end function resized
 
    !> The pressure or gap at a point of the disc; 0 outside and on the edge. The value at the centre is a spot's peak

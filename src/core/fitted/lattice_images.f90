@@ -73,9 +73,8 @@ contains
       ! axisymmetric terms as in a Chebyshev series.
       distance = minval(abs(point), abs(point) >= clearance)/radius - 1.0_dp
       e_folds = -log(tolerance)
-      associate (fold => now%basis%fold)
-         degree = max(fold*(ceiling(e_folds/(fold*log(distance))) - 1), 2*(ceiling(e_folds/(2*acosh(distance))) - 1))
-      end associate
+      degree = max(now%basis%fold*(ceiling(e_folds/(now%basis%fold*log(distance))) - 1), &
+                   2*(ceiling(e_folds/(2*acosh(distance))) - 1))
       point = pack(point, abs(point) < clearance .and. abs(point) > 0.0_dp)
       if (size(point) > most_near_points) return
       self%radius = radius

@@ -128,21 +128,11 @@ contains
          found = newton%valid
          if (.not. found .or. reached >= area) exit
          reached = min(load_step_ratio*reached, area)
-         now = scaled_to_area(now, reached)
+         now%shape%b = now%shape%b*sqrt(reached/now%shape%area())
+         now%area = reached
       end do
       iterations = iterations + newton%iterations
    end subroutine start_at_area
-
-   !> A spot or pool with adhesion, scaled to another area without a change of pressures and gaps.
-   pure function scaled_to_area(from, area) result(scaled)
-      type(fitted_function), intent(in) :: from
-      real(dp), intent(in) :: area      !! the other area [s^2]
-      type(fitted_function) :: scaled
-
-      scaled = from
-      scaled%shape%b = from%shape%b*sqrt(area/from%shape%area())
-      scaled%area = area
-   end function scaled_to_area
 
    !> Whether a solution of another load can be the start for a load: it is a spot or pool as asked for, its load is
    !> within one step, and its shape does not touch the neighbours when it is scaled to the load.

@@ -110,17 +110,16 @@ contains
       real(dp), allocatable :: heights(:)
 
       is_there = .true.
+      allocate (order(size(height, 1)))
       do j = 1, size(height, 2)
          if (allocated(missing)) is_there = .not. missing(:, j)
          heights = pack(height(:, j), is_there)
          n = size(heights)
          if (n == 0) cycle
-         allocate (order(n))
          call gsl_sort_index(order, heights, 1_c_size_t, int(n, c_size_t))
          ! The order counts from 0.
          where (is_there) height(:, j) = height(:, j) - &
                                          0.5_dp*(heights(order((n + 1)/2) + 1) + heights(order(n/2 + 1) + 1))
-         deallocate (order)
       end do
    end subroutine level_lines
 

@@ -4,7 +4,7 @@ module wavycon_npy_map
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type
    use wavycon_measured_map, only: laid_along_x, measured_map
-   use wavycon_plain_text, only: excerpt
+   use wavycon_plain_text, only: excerpt, replaced
    implicit none (type, external)
    private
 
@@ -96,14 +96,10 @@ contains
       character(*), intent(in) :: key
       character(:), allocatable :: entry
 
-      integer :: i, first
+      integer :: first
 
-      entry = words
-      do i = 1, len(entry)
-         ! Python may write double quotes, and Python 2 writes an L behind some numbers.
-         if (entry(i:i) == '"') entry(i:i) = "'"
-         if (entry(i:i) == 'L') entry(i:i) = ' '
-      end do
+      ! Python may write double quotes, and Python 2 writes an L behind some numbers.
+      entry = replaced(replaced(words, '"', "'"), 'L', ' ')
       first = index(entry, "'"//key//"'")
       entry = adjustl(entry(first + len(key) + 2:))
       if (first == 0 .or. index(entry, ':') /= 1) entry = ' '

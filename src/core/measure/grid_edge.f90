@@ -192,8 +192,7 @@ contains
       else
          values(1:m) = self%pressure_or_gap(:, l - self%slab%first + 1)
       end if
-      values(0) = values(self%index_in_grid(0, 1))
-      values(m + 1) = values(self%index_in_grid(m + 1, 1))
+      values([0, m + 1]) = values(self%index_in_grid([0, m + 1], 1))
    end function column
 
    !> Whether a column has points in contact. If the grid is distributed the result is .true., as this is not known for

@@ -8,8 +8,8 @@ module wavycon_collected_table
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
    use wavycon_memory_table, only: column_list
-   use wavycon_output_file, only: blank_mark, comma_line, output_file, table_mark, with_blanks
-   use wavycon_plain_text, only: escaped, lower_case, newline
+   use wavycon_output_file, only: blank_mark, comma_line, output_file, table_mark
+   use wavycon_plain_text, only: escaped, lower_case, newline, replaced
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
    use wavycon_system, only: error_text, full_path, make_directories, path_directory, path_kind, refusal_to_write
@@ -132,22 +132,9 @@ contains
             if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
          end associate
       end if
-      word = without_blanks(word)
+      word = replaced(escaped(word), ' ', blank_mark)
       if (word == '') word = '-'
    end function word_of
-
-   !> A text as one word of a table: blanks become `blank_mark`.
-   pure function without_blanks(text) result(word)
-      character(*), intent(in) :: text
-      character(:), allocatable :: word
-
-      integer :: i
-
-      word = escaped(text)
-      do i = 1, len(word)
-         if (word(i:i) == ' ') word(i:i) = blank_mark
-      end do
-   end function without_blanks
 
    !> Writes the table. A key has a column if the command line sets the key, or if a deck gives it and its value differs
    !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. Units are
@@ -175,7 +162,7 @@ contains
       do d = 1, size(solved)
          call read_summary(solved(d), error)
          if (allocated(error)) return
-         width(:2) = max(width(:2), [len(without_blanks(solved(d)%path)), len(solved(d)%case)] + 1)
+         width(:2) = max(width(:2), [len(escaped(solved(d)%path)), len(solved(d)%case)] + 1)
          do k = 1, size(columns)
             associate (key => solved(d)%keys(columns(k)))
                width(2 + k) = max(width(2 + k), len(key%word) + 1, len_trim(key%name) + 1)
@@ -213,7 +200,7 @@ contains
       end do
       call put(line//names, units)
       do d = 1, size(solved)
-         line = cell(1, without_blanks(solved(d)%path))//cell(2, solved(d)%case)
+         line = cell(1, replaced(escaped(solved(d)%path), ' ', blank_mark))//cell(2, solved(d)%case)
          do k = 1, size(columns)
             line = line//cell(2 + k, solved(d)%keys(columns(k))%word)
          end do
@@ -246,7 +233,7 @@ contains
          if (has_commas(path)) then
             call file%put(comma_line(line, units))
          else
-            call file%put(with_blanks(line, '_'))
+            call file%put(replaced(line, blank_mark, '_'))
          end if
       end subroutine put
 

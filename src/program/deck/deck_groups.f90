@@ -12,7 +12,7 @@ module wavycon_deck_groups
    use wavycon_methods, only: list_method_keys
    use wavycon_nearest_name, only: did_you_mean, nearest_name
    use wavycon_output_group, only: list_output_keys
-   use wavycon_plain_text, only: excerpt, in_quotes, integer_text, listed, lower_case, newline, quoted
+   use wavycon_plain_text, only: excerpt, in_quotes, integer_text, listed, lower_case, newline, quoted, replaced
    use wavycon_problems, only: problem_list_type
    use wavycon_scene, only: scene_type
    use wavycon_scene_group, only: list_scene_keys
@@ -383,10 +383,7 @@ contains
 
       words = '; its keys are '//listed(keys%name)
       if (len(key) > longest) return
-      name_words = key
-      do i = 1, len(key)
-         if (key(i:i) == '_') name_words(i:i) = ' '
-      end do
+      name_words = replaced(key, '_', ' ')
       if (name_words == '') return
       allocate (split, source=words_of(name_words))
       longest_word = trim(split(maxloc(len_trim(split), dim=1)))

@@ -6,7 +6,7 @@ module wavycon_key_reference
    use wavycon_key_table, only: allowed_values, full_meaning, integer_value, key_type, name_length, no_bound, &
       real_value, text_value, words_of
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: exact_number, integer_text, newline
+   use wavycon_plain_text, only: exact_number, integer_text, newline, with_mark
    use wavycon_scene, only: scene_type
    implicit none (type, external)
    private
@@ -171,14 +171,7 @@ contains
       character(*), intent(in) :: words
       character(:), allocatable :: json
 
-      integer :: i
-
-      json = '"'
-      do i = 1, len_trim(words)
-         if (any(words(i:i) == ['"', '\'])) json = json//'\'
-         json = json//words(i:i)
-      end do
-      json = json//'"'
+      json = '"'//with_mark(trim(words), '"\', '\')//'"'
    end function text
 
 end module wavycon_key_reference

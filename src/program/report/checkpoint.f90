@@ -15,9 +15,10 @@ module wavycon_checkpoint
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_error, only: error_type, exit_bad_input, fatal_error
+   use wavycon_file_bytes, only: open_file
    use wavycon_kinds, only: dp
-   use wavycon_plain_text, only: escaped, excerpt, integer_text, newline, system_words
+   use wavycon_plain_text, only: escaped, excerpt, integer_text, newline
    use wavycon_ranks, only: is_first_rank
    use wavycon_results, only: results_type
    use wavycon_system, only: end_written, file_size, note_kept, open_written, path_absent, path_file, path_kind, &
@@ -239,17 +240,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len(mark)) :: start
-      character(200) :: message
       character(:), allocatable :: trouble
       integer(int64), allocatable :: words(:)
       integer :: load, record, status, unit
 
-      open (newunit=unit, file=name, access='stream', form='unformatted', status='old', action='read', &
-            iostat=status, iomsg=message)
-      if (status /= 0) then
-         call fatal_error(error, exit_file_trouble, escaped(name)//': cannot be read: '//system_words(message))
-         return
-      end if
+      call open_file(name, unit, error)
+      if (allocated(error)) return
       trouble = ''
       read (unit, iostat=status) start
       if (status /= 0 .or. start /= mark) trouble = 'this is no checkpoint of this version of wavycon'

@@ -9,13 +9,13 @@ module wavycon_output_file
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: column_type, longest_column, memory_table, of_words
-   use wavycon_plain_text, only: escaped, newline
+   use wavycon_plain_text, only: escaped, newline, replaced, with_mark
    use wavycon_system, only: end_written, error_text, open_written, path_file, path_kind, put_bytes, put_text, &
       refusal_to_write, remove_file
    implicit none (type, external)
    private
 
-   public :: comma_line, output_file, with_blanks
+   public :: comma_line, output_file
 
    !> Stands for a blank inside a word of a line.
    character, parameter, public :: blank_mark = achar(31)
@@ -58,6 +58,7 @@ module wavycon_output_file
       integer :: blocks = 0                       !! number of data sets begun by begin_block
       integer(c_int), allocatable :: column_end(:)       !! position in a row at which each column ends
       integer(c_int), allocatable :: kinds(:)            !! kind of each column: of_reals, of_integers, of_words
+      character(:), allocatable :: units                 !! the line of the units, each in brackets
    contains
       procedure :: open => open_file
       procedure :: replace
@@ -135,7 +136,6 @@ contains
       type(column_type), intent(in) :: columns(:)   !! names without blanks; units are shown in brackets
 
       character(longest_column + 2) :: in_brackets(size(columns))
-      character(:), allocatable :: line
       integer :: i, last, width
 
       if (associated(self%memory)) call self%memory%start(columns)
@@ -149,9 +149,8 @@ contains
          last = last + width
          self%column_end(i) = last
       end do
-      line = aligned(self, in_brackets)
-      line(1:1) = '#'
-      call self%put(line)
+      self%units = aligned(self, in_brackets)
+      call self%put('#'//self%units(2:))
    end subroutine put_columns
 
    !> A line with a word at the right of each of the first columns.
@@ -172,14 +171,8 @@ contains
    subroutine put_names(self)
       type(output_file), intent(inout) :: self
 
-      character(longest_column + 2) :: units(size(self%columns))
-      integer :: i
-
-      do i = 1, size(units)
-         units(i) = '['//trim(self%columns(i)%unit)//']'
-      end do
       if (allocated(self%comma_name) .and. .not. self%has_names) &
-         call put_commas(self, comma_line(aligned(self, self%columns%name), aligned(self, units)))
+         call put_commas(self, comma_line(aligned(self, self%columns%name), self%units))
       self%has_names = .true.
       call self%put(aligned(self, self%columns%name))
    end subroutine put_names
@@ -201,7 +194,6 @@ contains
       character(:), allocatable :: text
 
       character(:), allocatable :: rest, rest_of_units, unit, word
-      integer :: i
 
       text = ''
       rest = adjustl(line)
@@ -213,29 +205,11 @@ contains
          unit = rest_of_units(:index(rest_of_units//' ', ' ') - 1)
          rest_of_units = adjustl(rest_of_units(len(unit) + 1:))
          if (unit /= '[-]') word = word//unit
-         if (scan(word, ',"') > 0) then
-            do i = len(word), 1, -1
-               if (word(i:i) == '"') word = word(:i)//word(i:)
-            end do
-            word = '"'//word//'"'
-         end if
+         if (scan(word, ',"') > 0) word = '"'//with_mark(word, '"', '"')//'"'
          text = text//','//word
       end do
-      text = with_blanks(text(2:), ' ')
+      text = replaced(text(2:), blank_mark, ' ')
    end function comma_line
-
-   !> A text with another character in place of each `blank_mark`.
-   pure function with_blanks(text, blank) result(words)
-      character(*), intent(in) :: text
-      character, intent(in) :: blank
-      character(len(text)) :: words
-
-      integer :: i
-
-      do i = 1, len(text)
-         words(i:i) = merge(blank, text(i:i), text(i:i) == blank_mark)
-      end do
-   end function with_blanks
 
    !> Begins a block, a data set that gnuplot's `index` counts: two blank lines, unless the block is the first, a
    !> comment, and the names of the columns, which gnuplot looks for at the head of each data set.

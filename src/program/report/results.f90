@@ -98,7 +98,6 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each column; `unit_in_words` makes labels of the units
       type(output_file), intent(out) :: file
 
-      character(:), allocatable :: comma_name
       type(column_type), allocatable :: list(:)
 
       if (associated(self%memory)) then
@@ -194,11 +193,9 @@ contains
 
       character(:), allocatable :: words
 
-      associate (solution => self%loads(load))
-         words = 'pbar/p* = '//exact_number(solution%pbar_over_pstar)
-         if (self%solver%surface%has_free_edges) words = 'mean pressure = '//exact_number(self%mean_pressure(load))
-         call file%begin_block('load '//integer_text(load)//': '//words//', '//trim(status_name(solution%status)))
-      end associate
+      words = 'pbar/p* = '//exact_number(self%loads(load)%pbar_over_pstar)
+      if (self%solver%surface%has_free_edges) words = 'mean pressure = '//exact_number(self%mean_pressure(load))
+      call file%begin_block('load '//integer_text(load)//': '//words//', '//trim(status_name(self%loads(load)%status)))
    end subroutine begin_block
 
    !> A number that is in units of p*, for a table: unchanged, but NaN on a surface with free edges, which has no p*,
