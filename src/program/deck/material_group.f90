@@ -45,7 +45,7 @@ contains
          'Thickness of an elastic layer, which is the first body: e1 and nu1, or e_star and layer_nu, are its own. '// &
          'Without it the bodies are half-spaces. Within a factor of 1e6 of the longer side of the cell.', above=0))
       call keys%add(values%layer_base, key_type(choice_value, 'layer_base', "'bonded'", '', &
-         "what the layer lies on: 'bonded', on a body that it is bonded to, rigid unless base_e is given; "// &
+         "What the layer lies on: 'bonded', on a body that it is bonded to, rigid unless base_e is given; "// &
          "'smooth', on a rigid body on which it slides without friction.", choices='bonded smooth', &
          needs='layer_thickness'))
       call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
