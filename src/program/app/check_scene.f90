@@ -48,8 +48,8 @@ contains
          'accuracy')
       if (all(results%traits%finest_grid > 0)) then
          call logger%say('memory: '//memory(results))
-         ! A load that is not given by pressure is searched for. On maps of 512 x 512 and 1024 x 1024 points searches for
-         ! yield and percolation took the time of so many solutions or more.
+         ! A load that is not given by pressure is searched for. On maps of 512 x 512 and 1024 x 1024 points searches
+         ! for yield and percolation took the time of so many solutions or more.
          words = 'at least '
          if (results%scene%loads_by == by_pressure) words = 'some '
          solutions = 1
