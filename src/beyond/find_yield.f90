@@ -11,6 +11,7 @@ module wavycon_find_yield
    use wavycon_contact_tuning, only: coarse_fraction, fraction_of_error, largest_fraction, largest_stress_error, &
       largest_stress_miss, least_fraction, longest_rise, most_solves, part_of_stress_error
    use wavycon_kinds, only: dp
+   use wavycon_largest_stress, only: largest_stress
    use wavycon_quantities, only: unknown
    use wavycon_solution_record, only: no_solution
    use wavycon_stress_fields, only: stress_fields
@@ -33,11 +34,14 @@ contains
    !>
    !> If the solver has coarser grids, the search is done on each of them first, from the coarsest on. Each search
    !> begins at the last load and slope of the one before.
-   subroutine solve_for_yield(solver, setting, target, solution)
+   subroutine solve_for_yield(solver, setting, target, solution, stresses)
       class(contact_solver), intent(inout) :: solver    !! started with keep_fields
       type(stress_setting), intent(in) :: setting       !! with yield stresses
       real(dp), intent(in) :: target                    !! stress over yield stress, > 0; 1 is first yield
       type(contact_solution), intent(out) :: solution   !! the contact at the load found
+      !> Its largest von Mises (1) and shear stress (2) in each body, shape (2, bodies), if the solver has coarser grids
+      !> and a load is found; otherwise unchanged.
+      type(largest_stress), intent(inout), optional :: stresses(:, :)
 
       real(dp) :: first_log_p, log_p, slope
       type(solver_traits) :: traits
@@ -51,7 +55,7 @@ contains
       call solver%set_search(.true.)
       do level = traits%coarser_levels, 0, -1
          solver%level = level
-         call find_root(solver, setting, log(target), log_p, slope, solution)
+         call find_root(solver, setting, log(target), log_p, slope, solution, stresses)
          if (solution%status == interrupted) exit
          if (solution%status == not_found) then
             log_p = first_log_p
@@ -60,17 +64,19 @@ contains
       end do
       call solver%set_search(.false.)
       solver%level = 0
+      if (present(stresses) .and. any(solution%status == [interrupted, not_found])) stresses = largest_stress()
    end subroutine solve_for_yield
 
    !> Solves ln r(P) = log_target on one grid by the secant method. A step that would leave the bracket of the root or
    !> reach the hardness is replaced by bisection.
-   subroutine find_root(solver, setting, log_target, log_p, slope, solution)
+   subroutine find_root(solver, setting, log_target, log_p, slope, solution, stresses)
       class(contact_solver), intent(inout) :: solver
       type(stress_setting), intent(in) :: setting
       real(dp), intent(in) :: log_target
       real(dp), intent(inout) :: log_p               !! ln P: of the first load on entry, to begin the next grid on exit
       real(dp), intent(inout) :: slope               !! d ln r/d ln P there
       type(contact_solution), intent(out) :: solution
+      type(largest_stress), intent(inout), optional :: stresses(:, :)   !! as of solve_for_yield
 
       class(stress_fields), allocatable :: fields
       type(solver_traits) :: traits
@@ -100,7 +106,12 @@ contains
          call solver%solve(exp(log_p), solution)
          if (solution%status == interrupted) return
          call solution%stresses(solver%surface, fields)
-         call setting%find_over_yield_stress(fields, ratio, error)
+         if (solver%level == 0 .and. traits%coarser_levels > 0 .and. present(stresses)) then
+            ! The load is likely to be the one found.
+            call setting%find_over_yield_stress(fields, ratio, error, stresses)
+         else
+            call setting%find_over_yield_stress(fields, ratio, error)
+         end if
          if (.not. ieee_is_finite(ratio)) exit   ! NaN if the load has no solution
          miss = log(ratio) - log_target
          error = error/ratio

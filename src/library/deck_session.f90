@@ -17,6 +17,7 @@ module wavycon_deck_session
    use wavycon_notes, only: note_loads, note_scene
    use wavycon_plain_text, only: integer_text, listed, newline
    use wavycon_read_deck, only: parse_deck
+   use wavycon_quantities, only: quantities
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: start_results
@@ -72,6 +73,7 @@ module wavycon_deck_session
       real(dp) :: target = 0.0_dp                     !! the value that was given, as in scene_type
       type(memory_table) :: summary                   !! the summary, with one row
       type(contact_spots), allocatable :: spots(:)    !! one element, made at its first use
+      type(quantities), allocatable :: slopes(:)      !! the same, of the derivatives by P
       class(contact_fields), allocatable :: fields    !! made at their first use
       class(stress_fields), allocatable :: stresses   !! made at their first use
    end type solved_load
@@ -261,6 +263,7 @@ contains
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
          call move_alloc(solved%spots, results%spots)
+         call move_alloc(solved%slopes, results%slopes)
          results%scene%mean_pressure = solved%mean_pressure
          if (name == 'stress_largest') then
             if (allocated(results%largest_stresses)) deallocate (results%largest_stresses)
@@ -282,6 +285,7 @@ contains
          nullify (results%memory)
          call results%loads(1)%move_to(solved%solution)
          call move_alloc(results%spots, solved%spots)
+         call move_alloc(results%slopes, solved%slopes)
       end associate
    end subroutine make_table
 

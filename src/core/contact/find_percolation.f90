@@ -8,7 +8,7 @@ module wavycon_find_percolation
    use wavycon_contact_spots, only: contact_spots
    use wavycon_contact_status, only: not_found
    use wavycon_contact_tuning, only: coarse_fraction, lightest_load, most_solves, part_of_area_error, &
-      percolation_safety, value_roundings
+      percolation_safety, value_roundings, widest_bracket
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: contact_area, is_known, last_before, percolation
    implicit none (type, external)
@@ -61,14 +61,14 @@ contains
       solution%value(last_before) = before
       solution%value(percolation) = solution%pbar_over_pstar
       if (.not. is_known(solution%error(contact_area))) return
-      associate (a => solution%value(contact_area), p => solution%pbar_over_pstar)
+      associate (p => solution%pbar_over_pstar)
          solution%error(percolation) = p - before + percolation_safety*max(change, &
-            p*abs(1.0_dp - p)*solution%error(contact_area)/(least_slope*max(a*(1.0_dp - a), epsilon(a))))
+                                                                           p*abs(1.0_dp - p)*logit_error(solution))
       end associate
    end subroutine solve_for_percolation
 
    !> Searches at one level. Steps away from the first load double until a bracket is found, which is then halved until
-   !> it is shorter than the error of the area tells.
+   !> its width hardly adds to the error of the load, (C18a).
    subroutine halve_bracket(solver, what, logit_p, before, solution)
       class(contact_solver), intent(inout) :: solver
       integer, intent(in) :: what                       !! place in `percolations`
@@ -84,19 +84,18 @@ contains
       most = min(1.0_dp, solver%surface%hardness)
       low = -huge(low)
       high = huge(high)
+      tolerance = widest_bracket
       step = coarse_fraction
       before = -1.0_dp
       do i = 1, most_solves
          call solver%solve(most/(1.0_dp + exp(-logit_p)), now)
          call now%spots(solver%surface, regions)
          if (.not. allocated(regions%spots)) exit
-         associate (area => now%value(contact_area))
-            tolerance = max(value_roundings*epsilon(area), part_of_area_error* &
-               min(now%error(contact_area)/max(min(area, 1.0_dp - area), epsilon(area)), coarse_fraction))
-         end associate
          if (is_past(regions, what)) then
             high = logit_p
             call now%move_to(solution)
+            tolerance = max(value_roundings*epsilon(high), &
+                            min(part_of_area_error*logit_error(solution), widest_bracket))
          else
             low = logit_p
             before = now%pbar_over_pstar
@@ -117,6 +116,15 @@ contains
       before = -1.0_dp
       call now%move_to(solution)
    end subroutine halve_bracket
+
+   !> The error of logit P that follows from that of the area of contact, (C18b).
+   pure real(dp) function logit_error(solution)
+      type(contact_solution), intent(in) :: solution
+
+      associate (area => solution%value(contact_area))
+         logit_error = solution%error(contact_area)/(least_slope*max(area*(1.0_dp - area), epsilon(area)))
+      end associate
+   end function logit_error
 
    !> Whether the regions are those of loads past the jump: the contact percolates, or the gap does not.
    pure logical function is_past(regions, what)

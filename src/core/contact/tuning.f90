@@ -141,14 +141,15 @@ module wavycon_contact_tuning
    !> On grids with coarser levels the search for first yield ends when the stress differs from its target by this part
    !> of the stress's error estimate, but at most by the second constant, relative. On 1024 x 1024 points of self-affine
    !> maps the last coarser level leads so close to the load that one or two solutions on these points are then enough.
-   !> With .01 and 1e-4 it took two or three, each with a search for the largest stress, which takes as long.
-   real(dp), parameter, public :: part_of_stress_error = 0.1_dp, largest_stress_miss = 1e-3_dp
+   !> With .1 next to full contact it took three, each with a search for the largest stress, which takes longer.
+   real(dp), parameter, public :: part_of_stress_error = 0.3_dp, largest_stress_miss = 1e-3_dp
    !> The load of first yield has the status not_accurate if the relative error of the stress is larger than this. This
    !> includes grids of a height map's own points: the largest stress may be that below a single point.
    real(dp), parameter, public :: largest_stress_error = 0.5_dp
    !> The bracket of the load at which contact or gap begins or ends to percolate is halved until it is shorter than
-   !> this part of the relative error of the area (C18a): closer loads are not told apart by the grid.
-   real(dp), parameter, public :: part_of_area_error = 0.1_dp
+   !> this part of the error that the area's error makes of logit P, and than the second constant (C18a). So it adds at
+   !> most .15 of itself to the told error. Next to the load at which spots merge a fitted solution takes up to 7 s.
+   real(dp), parameter, public :: part_of_area_error = 0.3_dp, widest_bracket = 2e-3_dp
    !> Factor of (C18b) on the change of that load from the next coarser level, and on what the error of the area makes
    !> of it. Contact closes the last neck across a rough cell late by a distance of the order of a step, so that the
    !> load may converge with the step, not with its square: with 1.25 and 1 the largest error was .96 of its estimate.

@@ -144,8 +144,8 @@ contains
    !>
    !> The number of spectra says which fields they belong to. 6: the components xx, yy, zz, xy, xz, yz, (S1). 9: also
    !> the sums S, S_x and S_y of the error, (S5). 5: the numbers of the deviator, (S10): eta_1, eta_2, and sqrt(3) times
-   !> xy, xz and yz. 2: below an even pressure, the sum of these five without eta_2, and eta_2. With 5 and 2 waves with
-   !> q Z > `faintest_on_planes` are left out.
+   !> xy, xz and yz. 3: without xz and yz, which are zero at the surface. 2: below an even pressure, the sum of these
+   !> five without eta_2, and eta_2. With 5, 3 and 2 waves with q Z > `faintest_on_planes` are left out.
    subroutine find_spectra(self, points, offset, depth, nu, spectra)
       class(pressure_wave_sums), intent(in) :: self
       integer, intent(in) :: points(2)                 !! N_x, N_y of the plane
@@ -177,12 +177,14 @@ contains
          case (2)
             here(:, 1) = sqrt3*cmplx((0.5_dp*(k**2 - q_y**2) + k*q_y)*shear, (k + q_y)*depth, dp)*wave
             here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
-         case (5)
+         case (3, 5)
             here(:, 1) = 0.5_dp*sqrt3*(k**2 - q_y**2)*shear*wave
             here(:, 2) = (0.5_dp - nu + 1.5_dp*q_z)*wave
             here(:, 3) = sqrt3*k*q_y*shear*wave
-            here(:, 4) = cmplx(0.0_dp, sqrt3*k*depth, dp)*wave
-            here(:, 5) = cmplx(0.0_dp, sqrt3*q_y*depth, dp)*wave
+            if (number == 5) then
+               here(:, 4) = cmplx(0.0_dp, sqrt3*k*depth, dp)*wave
+               here(:, 5) = cmplx(0.0_dp, sqrt3*q_y*depth, dp)*wave
+            end if
          case default
             here(:, xy) = k*q_y*shear*wave
             here(:, xz) = cmplx(0.0_dp, k*depth, dp)*wave
@@ -220,7 +222,8 @@ contains
       type(grid_transform) :: plane
       integer :: i, j, number
 
-      number = merge(2, 5, self%pressure%is_even())
+      number = merge(3, 5, depth <= 0.0_dp)
+      if (self%pressure%is_even()) number = 2
       allocate (spectra(0:points(1)/2, 0:points(2) - 1, number))
       call self%find_spectra(points, [0.0_dp, 0.0_dp], depth, body%nu, spectra)
       mean = body%stress(no_waves, pbar_over_pstar)
@@ -229,7 +232,8 @@ contains
       do i = 1, number
          call plane%sum_along_y(spectra(:, :, i))
       end do
-      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(first(1):last(1)), values(0:points(1) - 1, 5))
+      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(first(1):last(1)))
+      allocate (values(0:points(1) - 1, 5), source=0.0_dp)
       largest = -1.0_dp
       do j = first(2), last(2)
          do i = 1, number

@@ -406,15 +406,37 @@ contains
          real(dp), intent(in) :: depth      !! Z, in the angles of the cell or window of the waves [rad]
          integer :: number(2)
 
-         !> The numbers of points are multiples of this, as transforms of such lengths are fast.
-         integer, parameter :: multiple = 8
          real(dp) :: most(2)
 
          most = 2.0_dp*waves%pressure%last([1, 2])
          if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, waves%side_ratio])
-         number = max(plane_points, multiple*ceiling(most/multiple))
+         number = fast_length(max(plane_points, ceiling(most)))
          if (self%dimension == 1) number(2) = 1
       end function points_of
+
+      !> The least multiple of 8 that is not below a number and has no prime factor above 5: transforms of such lengths
+      !> are fast.
+      elemental integer function fast_length(least)
+         integer, intent(in) :: least
+
+         integer :: rest
+
+         fast_length = 8*((least + 7)/8)
+         do
+            rest = fast_length
+            do while (mod(rest, 2) == 0)
+               rest = rest/2
+            end do
+            do while (mod(rest, 3) == 0)
+               rest = rest/3
+            end do
+            do while (mod(rest, 5) == 0)
+               rest = rest/5
+            end do
+            if (rest == 1) exit
+            fast_length = fast_length + 8
+         end do
+      end function fast_length
 
       !> Appends to `places` the points of the largest stresses on some of the planes below the cell or below a window.
       subroutine scan(waves, first, last, corner, extent, from, to)

@@ -35,31 +35,36 @@ contains
    end function over_yield_stress
 
    !> Finds the largest ratio of equivalent stress to yield stress, over all places and both bodies.
-   subroutine find_over_yield_stress(self, fields, ratio, error)
+   subroutine find_over_yield_stress(self, fields, ratio, error, stresses)
       class(stress_setting), intent(in) :: self          !! yield_stress is allocated
       class(stress_fields), intent(inout) :: fields      !! the stresses of one load
       real(dp), intent(out) :: ratio                     !! [-]; NaN if the load has no solution
       real(dp), intent(out) :: error                     !! estimate of the error of the ratio; NaN if there is none
+      !> Von Mises stress (1) and shear stress (2) of each body, shape (2, bodies). If present both are searched for.
+      type(largest_stress), intent(out), optional :: stresses(:, :)
 
-      type(largest_stress) :: largest
+      type(largest_stress) :: largest(2)
       real(dp) :: of_body
       integer :: i
 
       ratio = 0.0_dp
       error = 0.0_dp
       do i = 1, size(self%body)
-         if (self%by_shear) then
-            call find_largest_stresses(fields, self%body(i), shear=largest)
+         if (present(stresses)) then
+            call find_largest_stresses(fields, self%body(i), largest(1), largest(2))
+            stresses(:, i) = largest
+         else if (self%by_shear) then
+            call find_largest_stresses(fields, self%body(i), shear=largest(2))
          else
-            call find_largest_stresses(fields, self%body(i), yielding=largest)
+            call find_largest_stresses(fields, self%body(i), yielding=largest(1))
          end if
-         of_body = self%over_yield_stress(i, largest%value, largest%value)
+         of_body = self%over_yield_stress(i, largest(1)%value, largest(2)%value)
          ! The ratio is NaN if the load has no solution. A comparison with NaN stops a build that traps exceptions.
          if (.not. ieee_is_nan(of_body)) then
             if (of_body < ratio) cycle
          end if
          ratio = of_body
-         error = self%over_yield_stress(i, largest%error, largest%error)
+         error = self%over_yield_stress(i, largest(1)%error, largest(2)%error)
       end do
    end subroutine find_over_yield_stress
 

@@ -28,7 +28,8 @@ contains
    function interface_tables() result(tables)
       type(table_type) :: tables(4)
 
-      tables(1) = table_type('interface', group='interface', needs_fields=.true., put_load=put_interface, &
+      tables(1) = table_type('interface', group='interface', needs_fields=.true., needs_slopes=.true., &
+         put_load=put_interface, &
          columns='load[#] pbar_over_pstar[-] mean_pressure[pressure] '// &
          'contact_stiffness[pressure/length] contact_stiffness_error[pressure/length] '// &
          'contact_stiffness_normalised[-] contact_stiffness_normalised_error[-] contact_area_slope[-] '// &
@@ -36,7 +37,7 @@ contains
          'contact_resistance[resistivity*length] contact_resistance_error[resistivity*length] status_code[#] '// &
          'status[word]')
       tables(2) = table_type('partial_slip', group='interface', asked_by=[character(16) :: 'friction', ''], &
-         needs_fields=.true., put_load=put_slip, &
+         needs_fields=.true., needs_slopes=.true., put_load=put_slip, &
          columns='load[#] tangential[#] mean_pressure[pressure] tangential_load[pressure] '// &
          'tangential_over_limit[-] stick_pbar_over_pstar[-] contact_area_fraction[-] stick_area_fraction[-] '// &
          'stick_area_error[-] displacement[length] displacement_error[length] least_displacement[length] '// &
@@ -61,16 +62,15 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(quantities) :: slopes
       real(dp) :: resistance(2), stiffness(2)
 
-      associate (solution => results%loads(load), surface => results%solver%surface, scene => results%scene)
+      associate (solution => results%loads(load), slopes => results%slopes(load), &
+                 surface => results%solver%surface, scene => results%scene)
          stiffness = not_a_number()
          resistance = not_a_number()
          if (solution%status == no_load) then
             stiffness = 0.0_dp
          else if (solution%has_numbers()) then
-            call solution%derivatives(surface, slopes)
             associate (slope => slopes%value(gap_slope), error => or_nan(slopes%error(gap_slope)))
                if (slope < 0.0_dp) stiffness = [-1.0_dp, error/slope]/slope
                if (scene%interface_setting%resistivity > 0.0_dp .and. is_known(slope)) resistance = &
@@ -93,14 +93,13 @@ contains
       integer, intent(in) :: load
       type(output_file), intent(inout) :: file
 
-      type(quantities) :: slopes(2)   ! derivatives at the mean pressure P, and at that of the stick contact, P*
+      type(quantities) :: stick_slopes   ! derivatives at the mean pressure P* of the stick contact
       integer :: i
       real(dp) :: displacement(2), energy(2), stiffness
       real(dp) :: of_stick(3)   ! stick contact: mean pressure [p*], area fraction and its error
 
       associate (solution => results%loads(load), setting => results%scene%interface_setting, &
                  p_star => results%scene%p_star, amplitude => results%solver%surface%amplitude)
-         call solution%derivatives(results%solver%surface, slopes(1))
          do i = 1, size(results%slip, 1)
             associate (slip => results%slip(i, load), stick => results%slip(i, load)%stick)
                stiffness = not_a_number()
@@ -111,15 +110,15 @@ contains
                   of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%value(contact_area), &
                               or_nan(stick%error(contact_area))]
                   displacement = setting%friction*amplitude*or_nan(relative_displacement(solution, stick))
-                  call stick%derivatives(results%solver%surface, slopes(2))
+                  call stick%derivatives(results%solver%surface, stick_slopes)
                   if (results%traits%has_errors) then
                      energy = setting%kappa(1)*setting%friction**2*p_star*amplitude* &
-                              or_nan(cycle_energy(solution, stick, slopes))
+                              or_nan(cycle_energy(solution, stick, [results%slopes(load), stick_slopes]))
                   else
                      of_stick(3) = not_a_number()
                      displacement(2) = not_a_number()
                   end if
-                  associate (slope => slopes(2)%value(gap_slope))
+                  associate (slope => stick_slopes%value(gap_slope))
                      if (slope < 0.0_dp) stiffness = -p_star/(setting%kappa(1)*amplitude*slope)
                   end associate
                end if

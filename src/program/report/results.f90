@@ -37,6 +37,8 @@ module wavycon_results
       type(contact_solution), allocatable :: loads(:)
       !> Spots and pools of each load, which several tables need; not allocated before `find_spots`.
       type(contact_spots), allocatable :: spots(:)
+      !> Derivatives of each load by P, which two tables need; not allocated before `find_slopes`.
+      type(quantities), allocatable :: slopes(:)
       !> The largest von Mises stress (1) and the largest shear stress (2), shape (2, bodies, loads); not allocated
       !> unless the deck asks for them.
       type(largest_stress), allocatable :: largest_stresses(:, :, :)
@@ -50,6 +52,7 @@ module wavycon_results
       type(memory_table), pointer :: memory => null()        !! if associated, a table is written to it, not to a file
    contains
       procedure :: find_spots
+      procedure :: find_slopes
       procedure :: swap_contacts
       procedure :: open_table
       procedure :: begin_block
@@ -75,6 +78,19 @@ contains
          call self%loads(load)%spots(self%solver%surface, self%spots(load))
       end do
    end subroutine find_spots
+
+   !> Finds the derivatives with respect to the load of all loads, unless they are known.
+   subroutine find_slopes(self)
+      class(results_type), intent(inout) :: self   !! with a solution for each load; gets `slopes`
+
+      integer :: load
+
+      if (allocated(self%slopes)) return
+      allocate (self%slopes(size(self%loads)))
+      do load = 1, size(self%loads)
+         call self%loads(load)%derivatives(self%solver%surface, self%slopes(load))
+      end do
+   end subroutine find_slopes
 
    !> Exchanges the contacts without adhesion, `loads`, and those with adhesion, `adhesive_loads`. Procedures that write
    !> tables from `loads` then write those of the contact with adhesion. A second call restores the contacts.

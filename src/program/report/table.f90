@@ -37,6 +37,7 @@ module wavycon_table
       logical :: of_adhesion = .false.    !! whether the contacts are those with adhesion
       logical :: needs_fields = .false.   !! whether the table is made from fields, edges or details of the solutions
       logical :: needs_spots = .false.    !! whether `spots` of the results must be found first
+      logical :: needs_slopes = .false.   !! whether `slopes` of the results must be found first
       !> Whether the table needs the whole surface, with a p* and a Delta that are not zero.
       logical :: needs_surface = .true.
       !> Whether all ranks write the table together; null: the first rank writes the table.
@@ -164,7 +165,7 @@ contains
    !> Writes the table to a file or, if the results have a table in memory, to that. Errors: exit_file_trouble.
    subroutine write_table(self, results, error)
       class(table_type), intent(in) :: self
-      type(results_type), intent(inout) :: results   !! with a solution for each load; gets `spots` if needed
+      type(results_type), intent(inout) :: results   !! with a solution for each load; gets what the table needs
       type(error_type), allocatable, intent(out) :: error
 
       type(output_file) :: file
@@ -172,6 +173,7 @@ contains
 
       if (self%of_adhesion) call results%swap_contacts()
       if (self%needs_spots) call results%find_spots()
+      if (self%needs_slopes) call results%find_slopes()
       if (associated(self%write_all)) then
          call self%write_all(results, error)
       else

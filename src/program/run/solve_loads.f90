@@ -82,6 +82,8 @@ contains
       associate (target => results%scene%target, loads_by => results%scene%loads_by, solver => results%solver, &
                  order => results%order)
          if (are_distributed) call results%sharing%work_alone(.true.)
+         if (loads_by == by_yield .and. results%scene%stress%largest%is_true) &
+            allocate (results%largest_stresses(2, size(results%scene%stress_setting%body), size(order)))
          progress%log => logger
          progress%loads = size(order)
          solver%progress => progress
@@ -93,7 +95,12 @@ contains
             if (known(load)) then
                call solver%skip_load(target(load))
             else
-               call solve_target(solver, loads_by, target(load), results%loads(load), results%scene%stress_setting)
+               if (allocated(results%largest_stresses)) then
+                  call solve_for_yield(solver, results%scene%stress_setting, target(load), results%loads(load), &
+                                       results%largest_stresses(:, :, load))
+               else
+                  call solve_target(solver, loads_by, target(load), results%loads(load), results%scene%stress_setting)
+               end if
                call checkpoint%add(load, results%loads(load))
                progress%solved = progress%solved + 1
                progress%last = logger%elapsed()
@@ -132,8 +139,9 @@ contains
       end if
    end subroutine solve_target
 
-   !> Finds the largest von Mises stress and the largest shear stress of each load and body. If the loads are
-   !> distributed, each rank does so for its own loads and then gets the stresses of the others.
+   !> Finds the largest von Mises stress and the largest shear stress of each load and body, unless a search for yield
+   !> has found them. If the loads are distributed, each rank does so for its own loads and then gets the stresses of
+   !> the others.
    subroutine find_stresses(results, logger)
       type(results_type), intent(inout) :: results   !! with a group &stress and all loads solved with their fields
       type(run_log), intent(inout) :: logger         !! shows the progress
@@ -146,9 +154,11 @@ contains
       are_distributed = results%sharing%kind == distributed_loads
       if (are_distributed) call results%sharing%work_alone(.true.)
       associate (setting => results%scene%stress_setting)
-         allocate (results%largest_stresses(2, size(setting%body), size(results%loads)))
+         if (.not. allocated(results%largest_stresses)) &
+            allocate (results%largest_stresses(2, size(setting%body), size(results%loads)))
          do load = 1, size(results%loads)
             if (.not. results%sharing%is_own_load(load)) cycle
+            if (all(results%largest_stresses(:, :, load)%value > 0.0_dp)) cycle
             call results%loads(load)%stresses(results%solver%surface, fields)
             if (results%loads(load)%is_good() .and. .not. fields%exist) call logger%note( &
                'there is not enough memory for the stresses of load '//integer_text(load))
