@@ -114,6 +114,7 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each column; `unit_in_words` makes labels of the units
       type(output_file), intent(out) :: file
 
+      character(:), allocatable :: comma_name
       type(column_type), allocatable :: list(:)
 
       if (associated(self%memory)) then
