@@ -60,7 +60,8 @@ contains
       if (before < 0.0_dp) return
       solution%value(last_before) = before
       solution%value(percolation) = solution%pbar_over_pstar
-      associate (a => solution%value(contact_area), error => solution%error(contact_area), p => solution%pbar_over_pstar)
+      associate (a => solution%value(contact_area), error => solution%error(contact_area), &
+                 p => solution%pbar_over_pstar)
          ! An area that its error does not tell from 0 or 1 says nothing of the load; nor does an unknown error.
          if (.not. error < min(a, 1.0_dp - a)) return
          solution%error(percolation) = p - before + percolation_safety*max(change, &
