@@ -12,7 +12,7 @@ module wavycon_deck_session
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, list_load_keys, take_loads
    use wavycon_memory_table, only: memory_table, of_words
-   use wavycon_methods, only: why_chosen
+   use wavycon_methods, only: why_chosen, without_errors
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_notes, only: note_loads, note_scene
    use wavycon_plain_text, only: integer_text, listed, newline
@@ -219,13 +219,14 @@ contains
       type(solved_load), intent(out) :: answer
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: words
       type(memory_table) :: summary
 
+      words = without_errors(self%results%scene%method%solver%text, self%results%solver%surface)
       if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
          call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
-      else if (loads_by == by_percolation .and. .not. self%results%traits%has_errors) then
-         call fatal_error(error, exit_bad_input, 'the load of percolates is not found by a solver that '// &
-                          "estimates no errors: give solver = 'auto'")
+      else if (loads_by == by_percolation .and. words /= '') then
+         call fatal_error(error, exit_bad_input, words)
       else if (any(loads_by == [by_yield, by_percolation]) .and. .not. self%results%keeps_fields) then
          call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session '// &
                           'was opened without them')

@@ -33,6 +33,9 @@ module wavycon_correction_state
       logical, allocatable :: has_entered(:)      !! whether a chunk has points that became free, shape (region%chunks)
       real(sp) :: approach = 0.0_sp               !! change of the approach, which is still to be subtracted from `gap`
       real(sp) :: allowance = huge(1.0_sp)        !! points with a smaller overlap than this do not enter (C8)
+      !> Points with a smaller overlap than this part of the gap at the free points, `free_gap`, do not enter (C8d).
+      real(sp) :: part_of_free_gap = 0.0_sp
+      real(sp) :: free_gap = 0.0_sp               !! root mean square gap at the free points
       real(sp), allocatable :: start_pressure(:)  !! pressure p at the start
       real(sp), allocatable :: below_hardness(:)  !! H - p at the start; not allocated without a hardness
       real(sp), allocatable :: change(:)          !! change of the pressure since the start
@@ -171,7 +174,7 @@ contains
       class(correction_state), intent(inout) :: self
       real(sp), intent(in), optional :: displacement(:, :)   !! shape (M, slab%columns())
 
-      real(dp) :: sums(2)
+      real(dp) :: sums(3)
       real(dp), allocatable :: chunk_sums(:, :)
       real(sp) :: added(longest_chunk)
       integer :: c, n
@@ -185,11 +188,15 @@ contains
                call self%region%take_chunk(c, displacement, added)
                self%gap(a:b) = self%gap(a:b) + added(:n)
             end if
-            chunk_sums(:, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, self%gap(a:b), 1)]
+            added(:n) = contact(a:b)*self%gap(a:b)
+            chunk_sums(:, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, added, 1), &
+                                sdot(n, added, 1, added, 1)]
          end associate
       end do
       sums = self%totals(chunk_sums)
-      mean_gap = real(sums(2)/max(sums(1), 1.0_dp), sp)
+      sums(2:) = sums(2:)/max(sums(1), 1.0_dp)
+      mean_gap = real(sums(2), sp)
+      self%free_gap = real(sqrt(max(sums(3) - sums(2)**2, 0.0_dp)), sp)
    end function mean_gap
 
    !> Updates the contact after a step, in one pass over the points and with one message. Points that overlap become
@@ -202,13 +209,15 @@ contains
       real(sp), intent(in), optional :: direction(:)    !! d, direction of the pressure, shape (region%points)
       real(sp), intent(in), optional :: image(:, :)     !! S d, displacement of `direction`, shape (M, slab%columns())
 
-      real(dp) :: shift, sums(5)
+      real(dp) :: shift, squares, sums(5)
       real(dp), allocatable :: chunk_sums(:, :)
+      real(sp) :: allowance
       ! The new set of free points, those that become free, the gap less its mean, and the overlap at other points.
       real(sp), dimension(longest_chunk) :: contact, enter, gap, outside
       integer :: c, n
 
       allocate (chunk_sums(size(sums), self%region%chunks))
+      allowance = max(self%allowance, self%part_of_free_gap*self%free_gap)
       !$omp parallel do num_threads(self%region%threads) private(contact, enter, gap, n, outside)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
@@ -224,7 +233,7 @@ contains
                ! At the hardness the condition on the gap has the other sign (C21).
                where (self%below_hardness(a:b) <= self%change(a:b)) outside(:n) = -gap(:n)
             end if
-            enter(:n) = merge(1.0_sp - self%contact(a:b), 0.0_sp, outside(:n) < -self%allowance)
+            enter(:n) = merge(1.0_sp - self%contact(a:b), 0.0_sp, outside(:n) < -allowance)
             contact(:n) = self%contact(a:b) + enter(:n)
             outside(:n) = (1.0_sp - contact(:n))*min(outside(:n), 0.0_sp)
             gap(:n) = contact(:n)*gap(:n)
@@ -241,8 +250,9 @@ contains
       ! Without free points the shift is zero. The next step of `solve_on_grid` computes the approach from all points.
       shift = sums(2)/max(sums(1), 1.0_dp)
       self%approach = real(mean + shift, sp)
-      self%residual = self%scale*sqrt(max(sums(3) - sums(1)*shift**2 + sums(4), 0.0_dp) &
-                                      /product(real(self%slab%points, dp)))
+      squares = sums(3) - sums(1)*shift**2
+      self%free_gap = real(sqrt(max(squares, 0.0_dp)/max(sums(1), 1.0_dp)), sp)
+      self%residual = self%scale*sqrt(max(squares + sums(4), 0.0_dp)/product(real(self%slab%points, dp)))
    end subroutine update_contact
 
    !> Adds sums over chunks to sums over the grid. If the grid is distributed this takes one message.

@@ -6,11 +6,11 @@ module wavycon_find_percolation
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_spots
-   use wavycon_contact_status, only: not_found
+   use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, lightest_load, most_solves, part_of_area_error, &
       percolation_safety, value_roundings, widest_bracket
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: contact_area, is_known, last_before, percolation
+   use wavycon_quantities, only: contact_area, last_before, percolation
    implicit none (type, external)
    private
 
@@ -33,7 +33,7 @@ contains
    !> quantities more. `last_before` is the largest load below for which the contrary was found. `percolation` is the
    !> load of the solution, with the error (C18b). The status is not_found, and both quantities are unknown, if no load
    !> or every load is past the jump; the load is then the last one tried. A load without spots ends the search with its
-   !> status.
+   !> status, with not_accurate if the solver has found no solution.
    subroutine solve_for_percolation(solver, what, solution)
       class(contact_solver), intent(inout) :: solver    !! started with keep_fields, on a periodic surface in 2-D
       integer, intent(in) :: what                       !! place in `percolations`
@@ -60,8 +60,9 @@ contains
       if (before < 0.0_dp) return
       solution%value(last_before) = before
       solution%value(percolation) = solution%pbar_over_pstar
-      if (.not. is_known(solution%error(contact_area))) return
-      associate (p => solution%pbar_over_pstar)
+      associate (a => solution%value(contact_area), p => solution%pbar_over_pstar)
+         ! An area that its error does not tell from 0 or 1 says nothing of the load; nor does an unknown error.
+         if (.not. solution%error(contact_area) < min(a, 1.0_dp - a)) return
          solution%error(percolation) = p - before + percolation_safety*max(change, &
                                                                            p*abs(1.0_dp - p)*logit_error(solution))
       end associate
@@ -90,7 +91,11 @@ contains
       do i = 1, most_solves
          call solver%solve(most/(1.0_dp + exp(-logit_p)), now)
          call now%spots(solver%surface, regions)
-         if (.not. allocated(regions%spots)) exit
+         if (.not. allocated(regions%spots)) then
+            ! The solver failed: that says nothing of the side on which the jump is.
+            if (now%status == not_found) now%status = not_accurate
+            exit
+         end if
          if (is_past(regions, what)) then
             high = logit_p
             call now%move_to(solution)

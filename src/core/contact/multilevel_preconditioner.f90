@@ -26,7 +26,7 @@ module wavycon_multilevel_preconditioner
       logical, private :: even = .false.       !! whether the grid continues by mirror images, otherwise periodically
       !> c of (C4c) without (C4e), the factor for each doubling of the distance from the contact.
       real(sp), private :: decay = 1.0_sp
-      real(sp), private :: reach = 1.0_sp      !! factor (C4e) of c
+      real(sp), private :: reach = 1.0_sp      !! max(0, -n_j), the factor of c in (C4e)
       real(sp), private :: factor = 1.0_sp     !! of the values that the next grid fills in: c, or 1 of (C4f)
       logical, private :: is_balance = .false.   !! whether the field is q_j of (C4f), which becomes s_j
       !> Of (C4f): -b_j, and the weights of q and of I s, each a + b w_j for the numbers (a, b).
@@ -78,7 +78,7 @@ contains
       grid%even = even
       grid%slab = slab
       order = real(kernel%order(frequency), sp)
-      grid%reach = min(1.0_sp, max(0.0_sp, -order))/max(1.0_sp, -order)
+      grid%reach = max(0.0_sp, -order)
       if (grid%is_balance) then
          grid%own = -min(1.0_sp, max(0.0_sp, 0.5_sp*order))
          grid%taken = [1.0_sp + grid%own, -grid%own]
@@ -113,7 +113,7 @@ contains
          call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
          self%decay = self%coarser%decay
-         self%factor = self%decay*self%reach
+         self%factor = min(1.0_sp, self%decay*self%reach)
          if (self%coarser%is_balance) self%factor = 1.0_sp
       else
          total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))

@@ -8,8 +8,8 @@ module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: longest_chunk
-   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, stencil_fraction, &
-      whole_step
+   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, plate_order, &
+      plate_overlap, stencil_fraction, whole_step
    use wavycon_correction_state, only: correction_state
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -50,6 +50,7 @@ contains
       real(sp) :: expected_step                !! of the next iteration; 0: unknown
       integer :: iterations
       logical :: is_bounded                    !! whether d is the change of the pressure (C7a)
+      logical :: is_plate                      !! whether a stiff layer bends like a plate (C8d)
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
       call assert(most_iterations > 0, 'most_iterations > 0')
@@ -61,6 +62,8 @@ contains
       ! A smaller overlap may be rounding: a point that has it would enter and leave the contact again and again.
       state%allowance = real(overlap_part*part, sp)
       expected_step = real(first_step, sp)
+      is_plate = half_space%steepest_order < plate_order
+      if (is_plate) state%part_of_free_gap = real(plate_overlap, sp)
       iterations = 0
       do while (state%residual > part*state%scale .and. iterations < most_iterations)
          if (present(progress)) grid%interrupted = progress%shall_stop(iterations, state%residual)
@@ -71,6 +74,7 @@ contains
          if (blocked > blocked_part*state%contact_points) &
             call precondition(extension, stencil, half_space, state, field)
          call find_direction(state, field, r, d, descent)                            ! (C5): field = d
+         if (is_plate) expected_step = 0.0_sp                                        ! no (C7a)
          call bound_direction(state, expected_step, d, field, is_bounded)            ! (C7a)
          call state%displace(half_space, field)                                      !       field = Sd
          if (is_bounded) then

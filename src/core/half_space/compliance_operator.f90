@@ -28,6 +28,8 @@ module wavycon_compliance_operator
       real(dp) :: stiffness_per_step(2) = 0.0_dp
       !> Frequency of the wave whose wave number is one over the shorter step, in the unit of `kernel`.
       real(dp) :: frequency_of_step = 0.0_dp
+      !> The least power of the wave number with which the compliance goes about a wave of the grid, (E33).
+      real(dp) :: steepest_order = -1.0_dp
       logical :: is_free = .false.                 !! whether the surface has free edges: displacements have a mean
       type(convolution_dp), private :: in_double     !! S in double precision
       type(convolution_sp), private :: in_single     !! S, on periodic surfaces also its inverse, in single precision
@@ -52,6 +54,7 @@ contains
 
       real(dp), allocatable :: love(:, :)   ! Love's coefficients (E15), then their transform
       real(dp) :: per_wave(2), step(2)
+      integer :: i
 
       self%even = surface%shape%is_even()
       self%points = points
@@ -63,6 +66,8 @@ contains
       if (points(2) == 1) step(2) = surface%length(2)
       self%stiffness_per_step = surface%stiffness/step
       self%frequency_of_step = maxval(self%stiffness_per_step)/(2*pi)
+      self%steepest_order = minval([(self%kernel%order(scale(self%frequency_of_step, -i)), &
+                                     i=0, exponent(real(maxval(points))))])
       ! Frequencies are multiplied by the stiffness sigma: then they are p*/Delta, of the order of one in any unit of
       ! length.
       per_wave = surface%stiffness/(merge(2, 1, self%even .and. self%points > 1)*self%points*step)

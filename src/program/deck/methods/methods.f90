@@ -23,7 +23,8 @@ module wavycon_methods
    implicit none (type, external)
    private
 
-   public :: check_method_group, list_method_keys, points_of_grid, solvers_for, traits_of, start_solver, why_chosen
+   public :: check_method_group, list_method_keys, points_of_grid, solvers_for, traits_of, start_solver, why_chosen, &
+      without_errors
 
    !> All solvers, in the order of the key reference.
    character(*), parameter :: names = 'auto beale series fitted grid closed_form'
@@ -83,6 +84,20 @@ contains
          'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=101))
    end subroutine list_method_keys
 
+   !> Why a solver cannot find the load of percolation, and what can; '' if it finds it.
+   function without_errors(solver, surface) result(words)
+      character(*), intent(in) :: solver          !! name of a solver
+      type(surface_type), intent(in) :: surface   !! that it can solve
+      character(:), allocatable :: words
+
+      type(solver_traits) :: traits
+
+      words = ''
+      traits = traits_of(solver)
+      if (.not. traits%has_errors) words = "solver = '"//solver//"' estimates no errors, without which the load of "// &
+                                           'percolates is not found. Give '//solvers_for(surface, 'errors')
+   end function without_errors
+
    !> Sets the defaults that depend on the surface and checks the keys against the solver. A solver that cannot solve
    !> the surface, or cannot find the load of percolation, is reported.
    subroutine check_method_group(values, load, surface)
@@ -91,7 +106,6 @@ contains
       type(surface_type), allocatable, intent(in) :: surface     !! not allocated if it could not be made
 
       character(:), allocatable :: solver, words
-      type(solver_traits) :: traits
 
       ! All checks need the surface.
       if (.not. allocated(surface) .or. values%solver%is_bad) return
@@ -101,10 +115,8 @@ contains
          call values%complain(values%solver, "solver = '"//solver//"' "//words//'. Give '//solvers_for(surface))
          return
       end if
-      traits = traits_of(solver)
-      if (load%percolates%is_given .and. .not. traits%has_errors) call values%complain(values%solver, &
-         "solver = '"//solver//"' estimates no errors, without which the load of percolates is not found. Give "// &
-         solvers_for(surface, 'errors'))
+      words = without_errors(solver, surface)
+      if (load%percolates%is_given .and. words /= '') call values%complain(values%solver, words)
       select case (solver)
       case ('beale', 'series')
          call check_series_keys(values, surface)
