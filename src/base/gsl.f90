@@ -22,52 +22,6 @@ module wavycon_gsl
    !> Type of interpolation: piecewise cubic polynomials without extremes between the points (Steffen 1990).
    type(c_ptr), protected, bind(c, name='gsl_interp_steffen') :: gsl_interp_steffen
 
-   !> What several procedures of the library have in common: their arguments.
-   abstract interface
-      pure real(c_double) function of_modulus(k, mode) bind(c)
-         import :: c_double, c_int
-         real(c_double), intent(in), value :: k
-         integer(c_int), intent(in), value :: mode
-      end function of_modulus
-
-      pure real(c_double) function of_three_numbers(x, y, z, mode) bind(c)
-         import :: c_double, c_int
-         real(c_double), intent(in), value :: x, y, z
-         integer(c_int), intent(in), value :: mode
-      end function of_three_numbers
-
-      type(c_ptr) function address_from(object) bind(c)
-         import :: c_ptr
-         type(c_ptr), value :: object
-      end function address_from
-
-      subroutine free(object) bind(c)
-         import :: c_ptr
-         type(c_ptr), value :: object
-      end subroutine free
-   end interface
-
-   !> Complete elliptic integrals of modulus k: that of the first kind K, and D = (K - E)/k^2. With mode = 0 they have
-   !> the accuracy of double precision.
-   procedure(of_modulus), bind(c, name='gsl_sf_ellint_Kcomp') :: gsl_sf_ellint_Kcomp
-   procedure(of_modulus), bind(c, name='gsl_sf_ellint_Dcomp') :: gsl_sf_ellint_Dcomp
-
-   !> Carlson's elliptic integrals R_F(x, y, z) and R_D(x, y, z) of positive arguments, of which x may be 0.
-   procedure(of_three_numbers), bind(c, name='gsl_sf_ellint_RF') :: gsl_sf_ellint_RF
-   procedure(of_three_numbers), bind(c, name='gsl_sf_ellint_RD') :: gsl_sf_ellint_RD
-
-   !> The nodes and the weights of a Gauss rule, each a double[n] that belongs to the rule.
-   procedure(address_from), bind(c, name='gsl_integration_fixed_nodes') :: gsl_integration_fixed_nodes
-   procedure(address_from), bind(c, name='gsl_integration_fixed_weights') :: gsl_integration_fixed_weights
-
-   !> Allocates a generator of random numbers of a type; a null pointer if there is not enough memory.
-   procedure(address_from), bind(c, name='gsl_rng_alloc') :: gsl_rng_alloc
-
-   !> These free a Gauss rule, an interpolation, and a generator of random numbers.
-   procedure(free), bind(c, name='gsl_integration_fixed_free') :: gsl_integration_fixed_free
-   procedure(free), bind(c, name='gsl_interp_free') :: gsl_interp_free
-   procedure(free), bind(c, name='gsl_rng_free') :: gsl_rng_free
-
    interface
       !> Legendre polynomials P_0(x) .. P_lmax(x), -1 <= x <= 1; returns 0 on success.
       integer(c_int) function gsl_sf_legendre_pl_array(lmax, x, values) bind(c, name='gsl_sf_legendre_Pl_array')
@@ -76,6 +30,31 @@ module wavycon_gsl
          real(c_double), value :: x
          real(c_double), intent(out) :: values(*)
       end function gsl_sf_legendre_pl_array
+
+      !> Complete elliptic integrals of modulus k: that of the first kind K, and D = (K - E)/k^2. With mode = 0 they
+      !> have the accuracy of double precision.
+      pure real(c_double) function gsl_sf_ellint_Kcomp(k, mode) bind(c, name='gsl_sf_ellint_Kcomp')
+         import :: c_double, c_int
+         real(c_double), intent(in), value :: k
+         integer(c_int), intent(in), value :: mode
+      end function gsl_sf_ellint_Kcomp
+      pure real(c_double) function gsl_sf_ellint_Dcomp(k, mode) bind(c, name='gsl_sf_ellint_Dcomp')
+         import :: c_double, c_int
+         real(c_double), intent(in), value :: k
+         integer(c_int), intent(in), value :: mode
+      end function gsl_sf_ellint_Dcomp
+
+      !> Carlson's elliptic integrals R_F(x, y, z) and R_D(x, y, z) of positive arguments, of which x may be 0.
+      pure real(c_double) function gsl_sf_ellint_RF(x, y, z, mode) bind(c, name='gsl_sf_ellint_RF')
+         import :: c_double, c_int
+         real(c_double), intent(in), value :: x, y, z
+         integer(c_int), intent(in), value :: mode
+      end function gsl_sf_ellint_RF
+      pure real(c_double) function gsl_sf_ellint_RD(x, y, z, mode) bind(c, name='gsl_sf_ellint_RD')
+         import :: c_double, c_int
+         real(c_double), intent(in), value :: x, y, z
+         integer(c_int), intent(in), value :: mode
+      end function gsl_sf_ellint_RD
 
       !> A Gauss rule of n nodes on a..b for one of the library's weights; a null pointer if an argument is out of range
       !> or there is not enough memory.
@@ -86,6 +65,24 @@ module wavycon_gsl
          integer(c_size_t), value :: n
          real(c_double), value :: a, b, alpha, beta
       end function gsl_integration_fixed_alloc
+
+      !> Frees a Gauss rule.
+      subroutine gsl_integration_fixed_free(w) bind(c, name='gsl_integration_fixed_free')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end subroutine gsl_integration_fixed_free
+
+      !> The nodes of a Gauss rule, a double[n] that belongs to the rule.
+      type(c_ptr) function gsl_integration_fixed_nodes(w) bind(c, name='gsl_integration_fixed_nodes')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end function gsl_integration_fixed_nodes
+
+      !> The weights of a Gauss rule, a double[n] that belongs to the rule.
+      type(c_ptr) function gsl_integration_fixed_weights(w) bind(c, name='gsl_integration_fixed_weights')
+         import :: c_ptr
+         type(c_ptr), value :: w
+      end function gsl_integration_fixed_weights
 
       !> Allocates an interpolation between `points` pairs; a null pointer if there is not enough memory.
       type(c_ptr) function gsl_interp_alloc(t, points) bind(c, name='gsl_interp_alloc')
@@ -110,6 +107,18 @@ module wavycon_gsl
          real(c_double), value :: x
       end function gsl_interp_eval
 
+      !> Frees an interpolation.
+      subroutine gsl_interp_free(interp) bind(c, name='gsl_interp_free')
+         import :: c_ptr
+         type(c_ptr), value :: interp
+      end subroutine gsl_interp_free
+
+      !> Allocates a generator of random numbers; a null pointer if there is not enough memory.
+      type(c_ptr) function gsl_rng_alloc(t) bind(c, name='gsl_rng_alloc')
+         import :: c_ptr
+         type(c_ptr), value :: t
+      end function gsl_rng_alloc
+
       !> Starts a generator from a seed, 1 to 2^32 - 1.
       subroutine gsl_rng_set(r, seed) bind(c, name='gsl_rng_set')
          import :: c_long, c_ptr
@@ -122,6 +131,12 @@ module wavycon_gsl
          import :: c_double, c_ptr
          type(c_ptr), value :: r
       end function gsl_rng_uniform
+
+      !> Frees a generator of random numbers.
+      subroutine gsl_rng_free(r) bind(c, name='gsl_rng_free')
+         import :: c_ptr
+         type(c_ptr), value :: r
+      end subroutine gsl_rng_free
 
       !> Turns off the error handler, which ends the program; returns the previous handler.
       type(c_funptr) function gsl_set_error_handler_off() bind(c, name='gsl_set_error_handler_off')

@@ -36,14 +36,17 @@ module wavycon_deck_session
    public :: check_ready, deck_session, pick_number, solved_load
 
    !> In C programs other threads may call the library while one solves a load, but not with the same session: c_lock.c.
-   abstract interface
-      subroutine note_solve(is_solving) bind(c)
+   interface
+      subroutine begin_solve(is_solving) bind(c, name='wavycon_begin_solve')
          import :: c_int
          integer(c_int), intent(inout) :: is_solving
-      end subroutine note_solve
+      end subroutine begin_solve
+
+      subroutine end_solve(is_solving) bind(c, name='wavycon_end_solve')
+         import :: c_int
+         integer(c_int), intent(inout) :: is_solving
+      end subroutine end_solve
    end interface
-   procedure(note_solve), bind(c, name='wavycon_begin_solve') :: begin_solve
-   procedure(note_solve), bind(c, name='wavycon_end_solve') :: end_solve
 
    !> A deck with its solver started.
    type :: deck_session

@@ -16,53 +16,6 @@ module wavycon_system
    !> Values of `path_kind`.
    integer, parameter, public :: path_absent = 0, path_directory = 1, path_file = 2, path_device = 3, path_unknown = 4
 
-   !> What several functions have in common: one argument, a text, or none.
-   abstract interface
-      subroutine take_text(text) bind(c)
-         import :: c_char
-         character(kind=c_char), intent(in) :: text(*)
-      end subroutine take_text
-
-      integer(c_int) function whole_number() bind(c)
-         import :: c_int
-      end function whole_number
-
-      integer(c_int64_t) function number_of_bytes() bind(c)
-         import :: c_int64_t
-      end function number_of_bytes
-   end interface
-
-   !> Removes a file, if it exists. The argument is its path.
-   procedure(take_text), bind(c, name='wavycon_remove') :: c_remove
-
-   !> Notes that a file was read: this run will not replace it. The argument is its path.
-   procedure(take_text), bind(c, name='wavycon_note_input') :: note_input
-
-   !> Removes from a directory the unfinished files of processes of this machine that were killed. The argument is the
-   !> path of the directory.
-   procedure(take_text), bind(c, name='wavycon_remove_leftovers') :: remove_leftovers
-
-   !> Sets the words that tell a user, if the program is interrupted, which results of the run are kept.
-   procedure(take_text), bind(c, name='wavycon_note_kept') :: note_kept
-
-   !> Writes a text to standard output at once: the buffer is flushed.
-   procedure(take_text), bind(c, name='wavycon_print') :: print_text
-
-   !> The first error of writing to standard output; 0 if there was none.
-   procedure(whole_number), bind(c, name='wavycon_print_trouble') :: print_trouble
-
-   !> The width in characters of the terminal to which standard output goes; 0 if standard output is no terminal, or if
-   !> the program runs in the background.
-   procedure(whole_number), bind(c, name='wavycon_terminal_columns') :: terminal_columns
-
-   !> The limit on the stack [byte] (ulimit -s).
-   procedure(number_of_bytes), bind(c, name='wavycon_stack_limit') :: stack_limit
-
-   !> Memory that this process may still allocate and use without swapping [byte]; -1 if the system does not say. It is
-   !> the memory of the machine that is free or can be freed, but at most the rest of the limits of a container or a
-   !> batch job (control groups of Linux) and of the limit on the address space (ulimit -v).
-   procedure(number_of_bytes), bind(c, name='wavycon_available_memory') :: available_memory
-
    interface
       !> The kind of file that a path names, one of the values of `path_kind`, and the file's `bytes`.
       integer(c_int) function c_path_kind(path, bytes) bind(c, name='wavycon_path_kind')
@@ -77,6 +30,17 @@ module wavycon_system
          character(kind=c_char), intent(in) :: path(*)
       end function c_make_directory
 
+      !> Removes a file, if it exists.
+      subroutine c_remove(path) bind(c, name='wavycon_remove')
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine c_remove
+
+      !> The limit on the stack [byte] (ulimit -s).
+      integer(c_int64_t) function stack_limit() bind(c, name='wavycon_stack_limit')
+         import :: c_int64_t
+      end function stack_limit
+
       !> Prepares the process, once at its start. A write beyond the limit on file sizes (ulimit -f) then fails as on a
       !> full disk, instead of ending the program. Deallocated memory is kept for later arrays, instead of being given
       !> back to the system. OpenBLAS uses one thread: its default, all processors, saves no time for the small matrices
@@ -85,6 +49,25 @@ module wavycon_system
       !> N.B. These settings hold for the whole process: programs may call this procedure, a library must not.
       subroutine prepare_process() bind(c, name='wavycon_prepare_process')
       end subroutine prepare_process
+
+      !> The width in characters of the terminal to which standard output goes; 0 if standard output is no terminal, or
+      !> if the program runs in the background.
+      integer(c_int) function terminal_columns() bind(c, name='wavycon_terminal_columns')
+         import :: c_int
+      end function terminal_columns
+
+      !> Sets the words that tell a user, if the program is interrupted, which results of the run are kept.
+      subroutine note_kept(words) bind(c, name='wavycon_note_kept')
+         import :: c_char
+         character(kind=c_char), intent(in) :: words(*)
+      end subroutine note_kept
+
+      !> Memory that this process may still allocate and use without swapping [byte]; -1 if the system does not say. It
+      !> is the memory of the machine that is free or can be freed, but at most the rest of the limits of a container or
+      !> a batch job (control groups of Linux) and of the limit on the address space (ulimit -v).
+      integer(c_int64_t) function available_memory() bind(c, name='wavycon_available_memory')
+         import :: c_int64_t
+      end function available_memory
 
       !> The C library's realpath: the absolute path without symbolic links; null if there is no such file.
       type(c_ptr) function c_realpath(path, full) bind(c, name='realpath')
@@ -130,6 +113,29 @@ module wavycon_system
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(in) :: mark(*)      !! first bytes of files that may be replaced; empty: any
       end function refusal_to_write
+
+      !> Notes that a file was read: this run will not replace it.
+      subroutine note_input(path) bind(c, name='wavycon_note_input')
+         import :: c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end subroutine note_input
+
+      !> Removes from a directory the unfinished files of processes of this machine that were killed.
+      subroutine remove_leftovers(directory) bind(c, name='wavycon_remove_leftovers')
+         import :: c_char
+         character(kind=c_char), intent(in) :: directory(*)
+      end subroutine remove_leftovers
+
+      !> Writes a text to standard output at once: the buffer is flushed.
+      subroutine print_text(text) bind(c, name='wavycon_print')
+         import :: c_char
+         character(kind=c_char), intent(in) :: text(*)
+      end subroutine print_text
+
+      !> The first error of writing to standard output; 0 if there was none.
+      integer(c_int) function print_trouble() bind(c, name='wavycon_print_trouble')
+         import :: c_int
+      end function print_trouble
 
       !> The message of an error, with a null character at its end.
       subroutine c_error_text(number, text, length) bind(c, name='wavycon_error_text')
