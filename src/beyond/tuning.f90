@@ -1,5 +1,5 @@
 !> Tuned constants of the curve of adhesive contacts: numbers that no theory gives, each with its reason. README.md,
-!> section 4, has what half and twice each value does (scripts/constants).
+!> section 5, has what half and twice each value does (scripts/constants).
 module wavycon_beyond_tuning
    use wavycon_kinds, only: dp
    implicit none (type, external)

@@ -16,8 +16,8 @@ module wavycon_deck_session
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_notes, only: note_loads, note_scene
    use wavycon_plain_text, only: integer_text, listed, newline
-   use wavycon_read_deck, only: parse_deck
    use wavycon_quantities, only: quantities
+   use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_run_scene, only: start_results
