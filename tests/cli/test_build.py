@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """scripts/build, with a stand-in for cmake: what it builds, what it says, and that two at once do not disturb each other.
+scripts/constants: that cmake accepts its copy of the sources, and that it finds the constants.
 
 usage: test_build.py [unittest's options]
 """
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -90,6 +93,17 @@ class Build(unittest.TestCase):
         self.assertEqual([0, 0, 0], [process.returncode for process in processes], said)
         self.assertEqual(["begins wavycon", "ends wavycon"]*3, self.built())
         self.assertEqual(2, sum("waiting for another build to end" in words for words in said), said)
+
+
+class Constants(unittest.TestCase):
+    def test_a_copy_of_the_sources_can_be_built(self):
+        loader = importlib.machinery.SourceFileLoader("constants", str(SCRIPTS/"constants"))
+        constants = importlib.util.module_from_spec(importlib.util.spec_from_loader("constants", loader))
+        loader.exec_module(constants)
+        with tempfile.TemporaryDirectory() as folder:
+            tree = constants.Tree(pathlib.Path(folder))
+            self.assertTrue((tree.build/"CMakeCache.txt").is_file())
+            self.assertEqual([], [name for name, values in tree.values.items() if not values])
 
 
 if __name__ == "__main__":
