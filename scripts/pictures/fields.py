@@ -90,7 +90,8 @@ def maps(picture):
                    of_sorted([-number for number in reversed(numbers) if number < 0], SHOWN_TENSION)*pulls) or 1.0
         largest = factor*max(map(abs, ends) if pulls else ends)
         most, label = (max(most, largest), label) if largest <= FAR*most else \
-            (most, (label, f"from −{-factor*ends[0]:.4g} to {factor*ends[1]:.4g}" if pulls else f"largest {largest:.4g}"))
+            (most, (label, f"from −{-factor*ends[0]:.4g} to {factor*ends[1]:.4g}" if pulls else
+                    f"largest {largest:.4g}"))
         # As the pictures of stresses: pressure is blue, tension orange.
         rows.append(("", ["eval of_sign", "set palette negative"] if pulls else [colours], label))
         rows[-1][1].append(f"set cbrange [{-most if pulls else 0}:{most!r}]")

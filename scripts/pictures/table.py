@@ -146,7 +146,7 @@ class Table:
         elif name == "surface":
             self.mirrored = words.endswith(", mirrored")
         elif name == "adhesion":
-            self.adhesive = True
+            self.adhesive = words.startswith("the contacts are those with it")
         elif name == "method":
             self.method = words.split(",")[0]
 
