@@ -157,8 +157,8 @@ class Verify(ProgramTest):
                  "mine.csv:3: 'long' in the column 'perimeter' is not a number"),
                 ("pbar_over_pstar,perimeter\n,1\n", "wave_2d", "mine.csv:2: '' in the column 'pbar_over_pstar' is not a"),
                 ("pbar_over_pstar perimeter\n0.1\n", "wave_2d", "mine.csv:2: 1 words, but there are 2 columns\n"),
-                ("pbar_over_pstar,perimeter\n0,1,1,5\n", "wave_2d", "mine.csv:2: 4 words, but there are 2 columns; beside "
-                 "numbers with decimal commas columns are separated by ';'\n"),
+                ("pbar_over_pstar,perimeter\n0,1,1,5\n", "wave_2d", "mine.csv:2: 4 words, but there are 2 columns; "
+                 "beside numbers with decimal commas columns are separated by ';'\n"),
                 ("perimeter,pbar_over_pstar,perimeter\n", "wave_2d", "there are several columns 'perimeter'"),
                 ("P,area\n0.1,1\n", "wave_2d", "Columns are found by their names, and may be renamed, such as P to"),
                 ("\n", "wave_2d", "mine.csv: the file is empty"),
