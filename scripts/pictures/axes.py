@@ -81,7 +81,7 @@ class Scale:
             mantissa, exponent = shown.split("e")
             shown = ("" if mantissa == "1" else f"{mantissa}·") + ten_to(int(exponent))
         over, unit = "/" + self.over if self.over else "", " " + marked_up(self.unit) if self.unit else ""
-        return f"{symbol}{over} = {shown}{unit}"
+        return f"{symbol}{over} = {shown.replace('-', '−')}{unit}"
 
 
 @dataclasses.dataclass(frozen=True)

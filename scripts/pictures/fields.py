@@ -11,6 +11,7 @@ from picture import GAP, MOST_CURVES, MOST_EDGES, MOST_PANELS, P, P_BAR, P_STAR,
 MOST_PIXELS = 800
 # A colour map ends at this part of its numbers if the largest is so many times as large, and then says the largest.
 SHOWN, FAR = 0.995, 1.25
+SHOWN_TENSION = 0.8   # with adhesion tension is infinite at the edge of contact
 SAMPLE = 300000   # numbers of a map from which this is found
 # An outline is this part of the spots' width wide, at most the second number in points. One thinner than the third is
 # not drawn: where spots have few pixels it would hide them.
@@ -75,7 +76,6 @@ def maps(picture):
         lines(picture, X)
         return
     loads = picture.loads(MOST_PANELS)
-    level = level_of(table)
     found, rows = [], [("contact", ["eval of_contact", "set cbrange [0:1]"], "")]
     for (name, unit, symbol), colours in zip(FIELDS, ("eval of_contact", "eval of_gap")):
         columns = [load.columns[name] for load in loads]
@@ -84,15 +84,21 @@ def maps(picture):
         found.append(Quantity([table], [ends], unit))
         label, factor = found[-1].label(symbol, name), found[-1].factors[0]
         numbers = sorted(factor*number for column in columns for number in column[::1 + len(column)//SAMPLE]
-                         if number > 0) or [1.0]
-        most, largest = numbers[int(SHOWN*(len(numbers) - 1))], factor*ends[1]
-        most, label = (max(numbers[-1], largest), label) if largest <= FAR*most else \
-            (most, (label, f"largest {largest:.4g}"))
-        rows.append(("", [colours, f"set cbrange [0:{most!r}]"], label))
+                         if number < 0 or number > 0)
+        pulls = table.adhesive and ends[0] < 0
+        most = max(of_sorted([number for number in numbers if number > 0], SHOWN),
+                   of_sorted([-number for number in reversed(numbers) if number < 0], SHOWN_TENSION)*pulls) or 1.0
+        largest = factor*max(map(abs, ends) if pulls else ends)
+        most, label = (max(most, largest), label) if largest <= FAR*most else \
+            (most, (label, f"from −{-factor*ends[0]:.4g} to {factor*ends[1]:.4g}" if pulls else
+                    f"largest {largest:.4g}"))
+        # As the pictures of stresses: pressure is blue, tension orange.
+        rows.append(("", ["eval of_sign", "set palette negative"] if pulls else [colours], label))
+        rows[-1][1].append(f"set cbrange [{-most if pulls else 0}:{most!r}]")
 
     def fields(pressure, gap):
         """What panels show, white where there is nothing of it: contact, the pressure in it, the gap beside it."""
-        is_contact = pressure > level
+        is_contact = table.is_contact(pressure, gap)
         return (0.75 if is_contact else MISSING, found[0].factors[0]*pressure if is_contact else MISSING,
                 MISSING if is_contact else found[1].factors[0]*gap)
 
@@ -101,9 +107,16 @@ def maps(picture):
                            for n, (name, colours, label) in enumerate(rows)])
 
 
+def of_sorted(numbers, part):
+    """The number below which a part of sorted numbers lies; 0 if there are none."""
+    return numbers[int(part*(len(numbers) - 1))] if numbers else 0.0
+
+
 def draw_regions(picture):
     """Maps, a panel for each load: spots of contact in colours, and the gap by whether it percolates."""
     table = picture.table
+    if not table.numbers:
+        raise CannotBeDrawn("regions of a map in numpy's format need the summary of the same run beside it")
     # With free edges, where there is no p*, nothing is repeated.
     if len(table.cell) == 1 or "p*" not in table.numbers:
         raise CannotBeDrawn("regions are those of a surface that is repeated along x and y")
@@ -115,7 +128,7 @@ def draw_regions(picture):
     spots, drawn, entries = picture.beside.get("spots"), [], {}
     for load in loads:
         columns, many = load.columns, len(set(load.columns["x"]))
-        contact = regions.np.reshape(columns["pressure"], (-1, many)) > level_of(table)
+        contact = table.is_contact(*(regions.np.reshape(columns[name], (-1, many)) for name in ("pressure", "gap")))
         colours = regions.regions(contact, table.mirrored)
         columns["region"] = colours.ravel().tolist()
         row = {name: some[load.place] for name, some in spots.columns.items()} if spots else {}
@@ -126,11 +139,6 @@ def draw_regions(picture):
     look = [f"set palette maxcolors {last + 1} defined ({palette})", f"set cbrange [0:{last}]"]
     cells(picture, loads, [("", drawn, look, "")],
           key=[entry(f"points pt 5 ps 1.5*mark lc rgb '{colour}'", words) for words, colour in entries.items()])
-
-
-def level_of(table):
-    """The pressure above which there is contact: of the paper's series a part of p*, otherwise 0."""
-    return table.numbers.get("edge_level", 0.0)*table.numbers.get("p*", 1.0)
 
 
 def length_of(table):

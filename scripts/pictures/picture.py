@@ -131,12 +131,16 @@ class Picture:
         first, *others = tables or self.tables
         loads = []
         for place, block in enumerate(first.blocks):
+            if not has_numbers(block):
+                if self.choice.loads is None or block.load in self.choice.loads:
+                    print(f"plot: {first.path}: load {block.load} has no numbers and is not shown", file=sys.stderr)
+                continue
             found = [next((one for one in table.blocks if math.isclose(
                 one.pbar_over_pstar, block.pbar_over_pstar, rel_tol=1e-6)), None) for table in others]
             if None not in found:
                 loads.append((place, [block, *found]))
         if not loads:
-            raise CannotBeDrawn("the tables have no load in common")
+            raise CannotBeDrawn("the tables have no load in common" if others else "no load has numbers")
         if others and self.choice.loads is None:
             places = chosen(len(loads), MOST_PANELS)
         else:
@@ -146,7 +150,10 @@ class Picture:
         load = Quantity([first], pressures, "p*")
         found = []
         for n, (place, blocks) in enumerate(loads[one] for one in places):
-            name = load.scale.value(P_BAR, load.factors[0]*p_star*blocks[0].pbar_over_pstar)
+            pressure = p_star*blocks[0].pbar_over_pstar
+            # A map in numpy's format has no loads if there is no summary beside it.
+            name = load.scale.value(P_BAR, load.factors[0]*pressure) if math.isfinite(pressure) else \
+                f"load {blocks[0].load}"
             colour = 0.6 if len(places) == 1 else n/(len(places) - 1)
             found.append(Load(place, blocks, name, f"lc palette cb {colour}"))
         self.compared = ", ".join(load.name for load in found) if others else ""
@@ -243,6 +250,12 @@ class Picture:
         """The entries of a key for runs that are compared."""
         return [entry(f"{kind} ls {31 + run}", name) + " noenhanced"
                 for run, name in enumerate(names_of(self.tables)) if not self.alone]
+
+
+def has_numbers(block):
+    """Whether the fields of a load are known: of one that is not solved, or separated, all are NaN."""
+    columns = [block.columns[name] for name in ("pressure", "von_mises") if name in block.columns]
+    return not columns or any(any(map(math.isfinite, column)) for column in columns)
 
 
 def with_look(look, title):

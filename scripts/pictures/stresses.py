@@ -69,16 +69,16 @@ def section(picture):
     sides = [max(table.column("distance")), max(table.column("depth"))]
     length = Quantity([table], [sides], "cell_x")
     wide, deep = length.of(sides)
-    drawn = [picture.image(*resampled(load.columns, picture.choice.variable, length.factors[0], stress.factors[0]))
+    drawn = [picture.image(*resampled(load.columns, variable_of(picture), length.factors[0], stress.factors[0]))
              for load in loads]
     cells(picture, loads, [("", [[f"{image}:3 with image"] for image in drawn], colours_of(stress), "")],
-          common=stress.label(*SYMBOLS[picture.choice.variable]),
+          common=stress.label(*SYMBOLS[variable_of(picture)]),
           section=(((0, wide), (deep, 0)), (length.label("distance"), length.label(DEPTH, "depth"))))
 
 
 def planes(picture):
     """Planes: a panel for each load and depth; of profiles curves."""
-    table, variable = of_body(picture.table, picture.choice), picture.choice.variable
+    table, variable = of_body(picture.table, picture.choice), variable_of(picture)
     depths = sorted({block.columns["depth"][0] for block in table.blocks})
     at_depth = [table.with_blocks([block for block in table.blocks if block.columns["depth"][0] == depth])
                 for depth in depths]
@@ -111,10 +111,12 @@ def planes(picture):
 
 def stress_of(picture, blocks):
     """The stress that is shown, of these blocks."""
-    name = picture.choice.variable
-    if name not in SYMBOLS:
-        raise CannotBeDrawn(f"there is no stress '{name}'; there are {', '.join(SYMBOLS)}")
-    return Quantity([picture.table.with_blocks(blocks)], name, "p*")
+    return Quantity([picture.table.with_blocks(blocks)], variable_of(picture), "p*")
+
+
+def variable_of(picture):
+    """The column that is shown."""
+    return picture.choice.variable or "von_mises"
 
 
 def colours_of(stress):

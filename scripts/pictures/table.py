@@ -33,6 +33,8 @@ MARKS = {"summary": ("pbar_over_pstar", "active_constraints", "mean_pressure", "
          "bounds": ("pbar_over_pstar", "energy_lower_over_pstar_amplitude", "energy_is_inside")}
 # The labels of units if the deck gives none.
 UNLABELLED = {"pressure", "length"}
+# With adhesion loads below this part of the largest are 0 within their error.
+ROUNDING = 1e-6
 HEAD_NUMBER = re.compile(r"(Delta|p\*|e_star|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
 MAGIC = b"\x93NUMPY\x01\x00"
 
@@ -68,13 +70,16 @@ class Table:
 
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
     `title` is the deck's, '' if it has none; `method` is the first word of its line; `mirrored` says whether the cell
-    is a map that its mirror images continue. The rest of a line that begins a block is not needed.
+    is a map that its mirror images continue; `adhesive` whether these are fields with adhesion, and `family` is then
+    "adhesion_", what stands before the kind in the file's name, otherwise "". The rest of a line that begins a block is
+    not needed.
     """
 
     def __init__(self, path):
         self.path = str(path)
         self.names, self.blocks = [], []
         self.numbers, self.units, self.method, self.title, self.mirrored = {}, {}, "", "", False
+        self.adhesive = False
         self.summary = None   # that of the same run, if there is one
         self.points = None    # of a map in numpy's format
         with open(path, "rb") as file:
@@ -90,13 +95,18 @@ class Table:
             raise NotATable("this table has no picture: it is one load and its error")
         if {"deck", "case"} <= set(self.names):
             raise NotATable("this is a table of several decks; draw their summaries, with --compare in one picture")
+        self.family = "adhesion_" if self._bare_name.endswith(f".adhesion_{self.kind}") else ""
+        self.adhesive = self.adhesive or bool(self.family)   # a map in numpy's format has its name alone
         if not any(len(next(iter(block.columns.values()))) for block in self.blocks):
             raise NotATable("the table has no rows")
+        largest = max(abs(block.pbar_over_pstar) for block in self.blocks)
         for block in self.blocks:
             if block.columns.get("body"):
                 block.body = int(block.columns["body"][0])
             if block.columns.get("tangential"):
                 block.load, block.tangential = (int(block.columns[name][0]) for name in ("load", "tangential"))
+            if self.adhesive and abs(block.pbar_over_pstar) < ROUNDING*largest:
+                block.pbar_over_pstar = 0.0
 
     def _read_text(self):
         load, words_of_load = None, ""
@@ -135,6 +145,8 @@ class Table:
             self.title = words
         elif name == "surface":
             self.mirrored = words.endswith(", mirrored")
+        elif name == "adhesion":
+            self.adhesive = words.startswith("the contacts are those with it")
         elif name == "method":
             self.method = words.split(",")[0]
 
@@ -171,9 +183,20 @@ class Table:
             self.blocks.append(block)
 
     @property
+    def _bare_name(self):
+        return self.path.removesuffix(".dat").removesuffix(".npy")
+
+    @property
     def stem(self):
         """The name of the file without kind and ending."""
-        return self.path.removesuffix(".dat").removesuffix(".npy").removesuffix("." + self.kind)
+        return self._bare_name.removesuffix(f".{self.family}{self.kind}")
+
+    def is_contact(self, pressure, gap):
+        """Whether there is contact, of numbers or of arrays: with adhesion, which bears tension, where there is no gap;
+        otherwise where the pressure is above 0, of the paper's series above a part of p*."""
+        if self.adhesive:
+            return gap <= 0
+        return pressure > self.numbers.get("edge_level", 0.0)*self.numbers.get("p*", 1.0)
 
     def take_head(self, summary):
         """Takes what the summary of the same run says: a map in numpy's format has no head."""

@@ -343,6 +343,8 @@ class Plot(ProgramTest):
 
     def test_stresses(self):
         for words, complaint in ((("--variable", "stress_ab", "stress.stress_section.dat"), "no stress 'stress_ab'"),
+                                 (("--variable", "foo", "auto.map.dat"), "no variable 'foo'; there are regions"),
+                                 (("--variable", "regions", "auto.summary.dat"), "no variables to choose from"),
                                  (("--depths", "4", "stress.stress_planes.dat"), "none of the depths 4"),
                                  (("--body", "2", "stress.stress_line.dat"), "no stresses of body 2"),
                                  (("--body", "2", "stress.stress_largest.dat"), "no stresses of body 2")):
@@ -368,6 +370,41 @@ class Plot(ProgramTest):
         self.assertEqual(6, len(re.findall(r"M([\d.]+),[\d.]+ L\1,", paths)))
         self.run_deck("hertz", DECKS["free"].replace("spots = t", "theory = t") + "\n")
         self.assertIn("no loads over p*", self.plot("hertz.theory.dat", status=3)[1])
+
+    def test_fields_with_adhesion(self):
+        """They stand beside the summary and edges with adhesion; contact is where the gap is closed, under tension too;
+        a load that is separated is left out, which is said; a load of 0 is 0."""
+        self.run_deck("sticky", "&scene pressure_unit = 'MPa', length_unit = 'um' /\n"
+                      "&surface kind = 'wave_2d', amplitude = 0.01, wavelength = 1 /\n&material e_star = 1000 /\n"
+                      "&load mean_pressure = -1, 0, 10, 30 /\n&interface work_of_adhesion = 0.02 /\n"
+                      "&stress nu = 0.3, line = t, planes = t, depths = 0.05 /\n"
+                      "&output map = t, contours = t, lines = t, map_format = 'npy', map_points = 16 /\n",
+                      statuses=(2,))
+        for adhesive, family in enumerate(("", "adhesion_")):
+            table = Table(self.folder/f"sticky.{family}lines.dat")
+            self.assertEqual((adhesive, family), (table.adhesive, table.family))
+            self.assertEqual([True, bool(adhesive)], [table.is_contact(pressure, 0.0) for pressure in (1.0, -1.0)])
+        for kind in "map.npy", "lines.dat", "stress_line.dat", "stress_planes.npy":
+            name = f"sticky.adhesion_{kind}"
+            said, complaints = self.plot("--format", "svg", name)
+            self.assertEqual(f"picture: {name[:-4]}.svg\n", said)
+            self.assertEqual(f"plot: {name}: load 1 has no numbers and is not shown\n", complaints)
+            shown = self.drawn("--loads", "2,3,4", name)
+            self.assertIn("p̄ = 0 MPa", shown)
+            self.assertNotRegex(shown, "nan|NaN|−1 MPa")
+            if kind.endswith("npy"):
+                text = (self.folder/f"{name[:-4]}.svg").read_text(encoding="utf-8")
+                self.assertIn(f"stroke='{OUTLINE}'", text)
+        self.assertRegex(self.drawn("--loads", "4", "sticky.adhesion_map.npy"), r"−60 .*pressure p \[MPa\]")
+        self.assertIn(" 10 mean pressure", self.drawn("sticky.adhesion_contour.dat"))
+        with_numpy = subprocess.run([sys.executable, "-c", "import numpy"], capture_output=True, check=False)
+        if with_numpy.returncode == 0:
+            self.assertNotIn("gap", self.drawn("--loads", "4", "--variable", "regions", "sticky.adhesion_map.npy"))
+        (self.folder/"bad").mkdir(exist_ok=True)
+        shutil.copy(self.folder/"sticky.adhesion_map.npy", self.folder/"bad"/"alone.adhesion_map.npy")
+        self.assertIn("load 2", self.drawn("--loads", "2,3", "bad/alone.adhesion_map.npy"))
+        self.assertIn("need the summary",
+                      self.plot("--variable", "regions", "bad/alone.adhesion_map.npy", status=3)[1])
 
     def test_stresses_of_two_bodies(self):
         for name in ("bodies.stress_line.dat", "bodies.stress_section.dat", "bodies.stress_planes.npy"):

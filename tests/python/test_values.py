@@ -108,6 +108,16 @@ class Names(ValuesTest):
         self.refuse("positional", wc.wave_2d, 1, error=TypeError)
         results = self.solve_rough()
         self.refuse("'mean_gab'; did you mean 'mean_gap'", lambda: results["mean_gab"], error=KeyError)
+        for thing in results, results[0]:
+            self.refuse("'contact_area_fracton'; did you mean 'contact_area_fraction'",
+                        lambda thing=thing: thing.contact_area_fracton, error=AttributeError)
+            self.assertFalse(hasattr(thing, "_none"))
+        results.save("units.npz")
+        for one in results, results[:2], wc.load("units.npz"), pickle.loads(pickle.dumps(results)):
+            self.refuse("'mean_gapp'; did you mean 'mean_gap'", one.units.__getitem__, "mean_gapp", error=KeyError)
+        with self.assertRaises(FileNotFoundError) as caught:
+            results.save("nowhere/x.npz")
+        self.assertEqual("nowhere/x.npz", caught.exception.filename)
         self.refuse("'presure'; did you mean 'pressure'", results[0].plot_map, "presure")
         self.refuse("'mises'|did you mean", wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, stress={"nu": 0.3})[0]
                     .plot_stress_section, "von_mise")

@@ -156,7 +156,9 @@ class Verify(ProgramTest):
                 ("pbar_over_pstar,perimeter\n0.1,1\n0.2,long\n", "wave_2d",
                  "mine.csv:3: 'long' in the column 'perimeter' is not a number"),
                 ("pbar_over_pstar,perimeter\n,1\n", "wave_2d", "mine.csv:2: '' in the column 'pbar_over_pstar' is not a"),
-                ("pbar_over_pstar perimeter\n0.1\n", "wave_2d", "mine.csv:2: 1 words, but there are 2 columns"),
+                ("pbar_over_pstar perimeter\n0.1\n", "wave_2d", "mine.csv:2: 1 words, but there are 2 columns\n"),
+                ("pbar_over_pstar,perimeter\n0,1,1,5\n", "wave_2d", "mine.csv:2: 4 words, but there are 2 columns; "
+                 "beside numbers with decimal commas columns are separated by ';'\n"),
                 ("perimeter,pbar_over_pstar,perimeter\n", "wave_2d", "there are several columns 'perimeter'"),
                 ("P,area\n0.1,1\n", "wave_2d", "Columns are found by their names, and may be renamed, such as P to"),
                 ("\n", "wave_2d", "mine.csv: the file is empty"),
@@ -203,6 +205,10 @@ class Verify(ProgramTest):
         found = subprocess.run([self.script, "--list"], capture_output=True, text=True, check=True).stdout
         for resource in PACKAGE["resources"]:
             self.assertIn(f"{resource['name']}: {resource['title']}\n", found)
+        # A reader that ends early brings about no message.
+        with subprocess.Popen([self.script, "--list"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            process.stdout.close()
+            self.assertEqual(b"", process.stderr.read())
 
 
 if __name__ == "__main__":

@@ -119,7 +119,9 @@ def written(path: str, begin: bytes = b"", *inputs: str) -> Iterator[IO[bytes]]:
         with open(part, "xb") as file:
             yield file
         os.replace(part, os.path.join(folder, name))
-    except BaseException:
+    except BaseException as error:
+        if isinstance(error, OSError) and error.filename == part:
+            error.filename = path
         with contextlib.suppress(FileNotFoundError):
             os.unlink(part)
         raise

@@ -8,7 +8,7 @@ import json
 import os
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import IO, Any, NamedTuple, overload
+from typing import IO, TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +25,21 @@ MODEL = 0
 # The columns that notebooks show.
 SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "approach", "approach_error",
          "peak_pressure", "peak_pressure_error", "status")
+
+
+class Units(dict[str, str]):
+    """The units of columns by their names. An unknown name is an error that has the nearest one."""
+
+    def __missing__(self, name: str) -> str:
+        raise KeyError(unknown("column", name, self))
+
+
+class Named:
+    """An unknown attribute is an error that has the nearest name."""
+
+    if not TYPE_CHECKING:   # otherwise checkers of types take every name for known
+        def __getattr__(self, name: str) -> Any:
+            raise AttributeError(unknown("attribute", name, (one for one in dir(self) if not one.startswith("_"))))
 
 
 @dataclasses.dataclass(eq=False, repr=False)
@@ -44,8 +59,12 @@ class Facts:
     pressure_unit: str
     length_unit: str
     deck: str
-    units: dict[str, str] = dataclasses.field(default_factory=dict)
+    units: dict[str, str] = dataclasses.field(default_factory=Units)
     notes: list[str] = dataclasses.field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.units, Units):   # as a file has them; otherwise shared with the loads
+            self.units = Units(self.units)
 
     @classmethod
     def of_scene(cls, scene: Handle) -> Facts:
@@ -61,7 +80,7 @@ class Facts:
         return "" if (unit := self.units.get(column, "-")) in ("-", "word") else unit
 
 
-class Result(Columns[float, str]):
+class Result(Named, Columns[float, str]):
     """One solved load. The columns of the summary table are its attributes, such as mean_pressure, mean_gap,
     contact_area_fraction, contact_area_fraction_error, status; result["mean_gap"] is the same. A copy, also by pickle,
     has the tables and fields, but cannot make others."""
@@ -182,7 +201,7 @@ class Roughness(NamedTuple):
     spectrum: Rows
 
 
-class Results(Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
+class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
     """The solved loads, in the order in which they were given. Columns of the summary table are arrays over the loads,
     such as results.contact_area_fraction or results["contact_area_fraction"]; slices are Results. Facts of the scene:
     e_star, p_star [pressure], amplitude (Delta), length_x, length_y [length], points_x, points_y, dimension, method,
