@@ -175,7 +175,8 @@ contains
       if (solution%is_good()) solution%status = not_accurate
    end subroutine find_root
 
-   !> The first estimate: logit P = logit t; on a layer P of (C18c) for G = 0 or, if it is more, for h in proportion to P.
+   !> The first estimate: logit P = logit t; on a layer the load of full contact or, if it is more, the one in
+   !> proportion to the approach.
    pure real(dp) function first_estimate(search)
       type(root_search), intent(in) :: search
 
@@ -186,8 +187,8 @@ contains
       end associate
    end function first_estimate
 
-   !> logit t from a value of the quantity that is searched for; ln t if the quantity is not bounded, and the function of
-   !> (C18c) on a layer.
+   !> logit t from a value of the quantity that is searched for; ln t if the quantity is not bounded, and the function
+   !> of (C18c) on a layer.
    pure real(dp) function logit_t(search, x, load)
       type(root_search), intent(in) :: search
       real(dp), intent(in) :: x      !! contact area, mean gap or approach, as search%quantity says

@@ -49,7 +49,8 @@ contains
          "'smooth', on a rigid body on which it slides without friction.", choices='bonded smooth', &
          needs='layer_thickness'))
       call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
-         "Poisson's ratio of a bonded layer, if e_star is given.", above=-1, most=0.5_dp, way=100, needs='layer_thickness'))
+         "Poisson's ratio of a bonded layer, if e_star is given.", above=-1, most=0.5_dp, way=100, &
+         needs='layer_thickness'))
       call keys%add(values%base_e, key_type(real_value, 'base_e', '', 'pressure', &
          "Young's modulus of the half-space that the layer is bonded to. Its shear modulus must be within a factor "// &
          "of 1e6 of the layer's. Without it the base is rigid.", above=0, &

@@ -16,8 +16,8 @@ module wavycon_head_lines
 
 contains
 
-   !> The lines of version, deck, surface, statistics of a height map, material, layer and method, separated by newlines.
-   !> The last line has no newline.
+   !> The lines of version, deck, surface, statistics of a height map, material, layer and method, separated by
+   !> newlines. The last line has no newline.
    function head_lines(scene, surface, method, prefix, shown_digits) result(lines)
       type(scene_type), intent(in) :: scene
       type(surface_type), intent(in) :: surface   !! the surface that is solved, with its amplitude and sides
