@@ -21,10 +21,10 @@ module wavycon_auto_contact
    public :: auto_contact
 
    !> Reasons for the choice. The surface has a closed form; or collocation (`has_lattice`) is used, with grids where
-   !> collocation is not accurate enough; or grids alone are used, for one of four reasons: the surface has neither, it
-   !> has a hardness, the points of the grid are given, or these points are the height map's own ones.
+   !> collocation is not accurate enough; or grids alone are used, for one of five reasons: the surface has neither, it
+   !> has a hardness or a layer, the points of the grid are given, or these points are the height map's own ones.
    integer, parameter, public :: has_closed_form = 1, has_lattice = 2, has_neither = 3, has_a_hardness = 4, &
-      points_are_given = 5, points_are_of_the_map = 6, last_choice = 6
+      points_are_given = 5, points_are_of_the_map = 6, has_a_layer = 7, last_choice = 7
 
    !> The solver on grids, preceded by another solver where the surface allows one.
    type, extends(grid_contact) :: auto_contact
@@ -66,6 +66,8 @@ contains
          call move_alloc(closed_form, self%preferred)
       else if (surface%has_hardness()) then
          self%choice = has_a_hardness
+      else if (surface%kernel%has_layer()) then
+         self%choice = has_a_layer
       else if (allocated(frame%lattice)) then
          self%choice = has_lattice
          allocate (fitted)

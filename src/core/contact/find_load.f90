@@ -4,13 +4,14 @@
 !> logit P, where t is the area, 1 - G or the approach, and logit x = ln(x/(1 - x)). Plotted against each other the two
 !> logits are nearly a straight line. Gaps are compared as gaps, with logit t = -logit G, because 1 - G would lose the
 !> digits of a small G. With free edges or a hardness neither P nor the approach has a largest value; there ln takes the
-!> place of logit.
+!> place of logit. The approach on a layer grows beyond full contact by the layer's compression: (C18c).
 module wavycon_find_load
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, flattest, fraction_of_error, largest_fraction, least_fraction, &
       lightest_load, longest_step, most_solves, steepest, value_roundings
+   use wavycon_full_contact, only: mean_compliance
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: approach, contact_area, is_known, mean_gap
    implicit none (type, external)
@@ -23,6 +24,7 @@ module wavycon_find_load
       real(dp) :: target = 0.5_dp          !! the contact area fraction, G or the approach [Delta]
       integer :: quantity = contact_area   !! which of the three the target is: contact_area, mean_gap or approach
       logical :: is_bounded = .true.       !! whether the quantity is at most 1; only an approach may be larger
+      real(dp) :: compliance = 0.0_dp      !! c of (C18c) [Delta/p*]; 0 if (C18) is solved
       !> Whether the search is for the least load at which all of a map with free edges touches. The area is 1 at all
       !> heavier loads too, so that the target alone does not determine the load.
       logical :: closes = .false.
@@ -53,18 +55,24 @@ contains
 
       type(root_search) :: search
       type(solver_traits) :: traits
-      real(dp) :: known_load   ! P of a target that needs no search
+      real(dp) :: compression   ! of a layer at P = 1 [Delta]; 0 without one
+      real(dp) :: known_load    ! P of a target that needs no search
       integer :: level
 
+      compression = 0.0_dp
       associate (surface => solver%surface)
          search = root_search(target=target, quantity=quantity)
          search%closes = quantity == contact_area .and. target >= 1.0_dp
          search%most = surface%hardness
+         if (quantity == approach) then
+            compression = mean_compliance(surface)
+            search%is_bounded = .not. (surface%has_free_edges .or. surface%has_hardness() .or. compression > 0.0_dp)
+            if (.not. surface%has_hardness()) search%compliance = compression
+         end if
          ! The approach goes on beyond full contact where a layer is compressed.
-         if (.not. (surface%has_free_edges .or. (quantity == approach .and. surface%kernel%has_layer()))) &
+         if (.not. (surface%has_free_edges .or. (compression > 0.0_dp .and. &
+                                                 (target >= 1.0_dp .or. surface%has_hardness())))) &
             search%most = min(1.0_dp, surface%hardness)
-         if (quantity == approach) search%is_bounded = &
-            .not. (surface%has_free_edges .or. surface%has_hardness() .or. surface%kernel%has_layer())
          if (target <= 0.0_dp .or. (target >= 1.0_dp .and. search%is_bounded .and. .not. surface%has_free_edges)) then
             known_load = target
             if (quantity == mean_gap) known_load = 1.0_dp - target
@@ -75,9 +83,8 @@ contains
       traits = solver%traits()
       call solver%set_search(.true.)
       do level = traits%coarser_levels, 0, -1
-         ! The first estimate is logit P = logit t: at the first level, whose initial status is not_found, and after a
-         ! level that did not reach the target.
-         if (solution%status == not_found) search%logit_p = logit_t(search, search%target)
+         ! At the first level, whose initial status is not_found, and after a level that did not reach the target.
+         if (solution%status == not_found) search%logit_p = first_estimate(search)
          if (search%closes) search%logit_p = min(search%logit_p, 0.0_dp)
          solver%level = level
          ! On a coarser grid the quantity jumps with the load, and the secant of a jump may have any slope.
@@ -126,7 +133,8 @@ contains
          allowed = max(min(max(fraction_of_error*error, least_fraction*least_part), largest_fraction*least_part), &
                        value_roundings*spacing(search%target))
          if (solver%level > 0) allowed = max(allowed, min(error, coarse_fraction*least_part))
-         miss = logit_t(search, reached) - logit_t(search, search%target)
+         miss = logit_t(search, reached, solution%pbar_over_pstar) - &
+                logit_t(search, search%target, solution%pbar_over_pstar)
          found = abs(reached - search%target) <= allowed .and. &
             .not. (search%closes .and. search%logit_p - low > largest_fraction)
          ! The map is closed, but a lighter load may close it too: the next step goes down.
@@ -167,13 +175,33 @@ contains
       if (solution%is_good()) solution%status = not_accurate
    end subroutine find_root
 
-   !> logit t from a value of the quantity that is searched for; ln t if the quantity is not bounded.
-   pure real(dp) function logit_t(search, x)
+   !> The first estimate: logit P = logit t; on a layer the load of full contact or, if it is more, the one in
+   !> proportion to the approach.
+   pure real(dp) function first_estimate(search)
       type(root_search), intent(in) :: search
-      real(dp), intent(in) :: x   !! contact area, mean gap or approach, as search%quantity says
+
+      first_estimate = logit_t(search, search%target, 0.0_dp)
+      associate (c => search%compliance, t => search%target)
+         if (c > 0.0_dp) first_estimate = log(max((t - 1.0_dp)/c, t/(1.0_dp + c)))
+         if (c > 0.0_dp .and. t < 1.0_dp) first_estimate = logit(t/(1.0_dp + c))
+      end associate
+   end function first_estimate
+
+   !> logit t from a value of the quantity that is searched for; ln t if the quantity is not bounded, and the function
+   !> of (C18c) on a layer.
+   pure real(dp) function logit_t(search, x, load)
+      type(root_search), intent(in) :: search
+      real(dp), intent(in) :: x      !! contact area, mean gap or approach, as search%quantity says
+      real(dp), intent(in) :: load   !! P at which the value is compared; it counts in (C18c) alone
 
       logit_t = log(max(x, tiny(x)))
-      if (search%is_bounded) logit_t = logit(x)
+      if (search%is_bounded) then
+         logit_t = logit(x)
+      else if (search%compliance > 0.0_dp .and. search%target < 1.0_dp) then
+         logit_t = logit(x/(1.0_dp + search%compliance*load))
+      else if (search%compliance > 0.0_dp) then
+         logit_t = -log(max(search%target + search%compliance*load - x, tiny(x)))
+      end if
       if (search%quantity == mean_gap) logit_t = -logit_t
    end function logit_t
 

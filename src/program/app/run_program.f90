@@ -107,8 +107,9 @@ contains
       call finish(worst)
    end subroutine run_program
 
-   !> Reads all decks before any is run, and shows the problems of all. If there are problems the program ends, unless
-   !> --keep-going says that the good decks are to be run.
+   !> Reads all decks before any is run, and shows the problems of all. Problems that runs of a sweep share are shown
+   !> once, whatever value of the sweep they name. If there are problems the program ends,
+   !> unless --keep-going says that the good decks are to be run.
    subroutine read_decks(command_line, scenes, worst)
       type(command_line_type), intent(in) :: command_line
       type(scene_item), allocatable, intent(out) :: scenes(:)   !! one for each run of the command line
@@ -116,13 +117,17 @@ contains
 
       type(error_type), allocatable :: error
       type(deck_text_type) :: text
+      character(:), allocatable :: problems, shown   ! of one run, with its deck's path; all that were shown
       integer :: i, j
       logical :: is_read
 
       allocate (scenes(size(command_line%runs)))
       worst = exit_fine
       is_read = .false.
+      problems = ''
+      shown = ''
       do i = 1, size(scenes)
+         if (allocated(error)) deallocate (error)
          scenes(i)%path = command_line%runs(i)%path
          allocate (scenes(i)%scene)
          ! Runs of one deck follow one another. It is read once: standard input could not be read again.
@@ -131,7 +136,9 @@ contains
          is_read = .not. allocated(error)
          if (is_read) call parse_deck(text, scenes(i)%scene, error, command_line%runs(i)%settings)
          if (allocated(error)) then
-            if (is_first_rank()) write (error_unit, '(a)') error%message
+            problems = scenes(i)%path//error%message(max(index(error%message, ': error 1 of '), 1):)//new_line('a')
+            if (is_first_rank() .and. index(shown, problems) == 0) write (error_unit, '(a)') error%message
+            shown = shown//problems
             worst = max(worst, error%status)
             deallocate (scenes(i)%scene)
          else

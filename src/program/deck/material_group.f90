@@ -49,7 +49,8 @@ contains
          "'smooth', on a rigid body on which it slides without friction.", choices='bonded smooth', &
          needs='layer_thickness'))
       call keys%add(values%layer_nu, key_type(real_value, 'layer_nu', '', '-', &
-         "Poisson's ratio of the layer, if e_star is given.", above=-1, most=0.5_dp, way=100, needs='layer_thickness'))
+         "Poisson's ratio of a bonded layer, if e_star is given.", above=-1, most=0.5_dp, way=100, &
+         needs='layer_thickness'))
       call keys%add(values%base_e, key_type(real_value, 'base_e', '', 'pressure', &
          "Young's modulus of the half-space that the layer is bonded to. Its shear modulus must be within a factor "// &
          "of 1e6 of the layer's. Without it the base is rigid.", above=0, &
@@ -100,6 +101,8 @@ contains
          if (values%layer_base%text == 'smooth') then
             if (values%base_e%is_given) call values%complain(values%base_e, &
                "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
+            if (values%layer_nu%is_given) call values%complain(values%layer_nu, &
+               "the compliance of a layer that slides follows from e_star alone: leave layer_nu out")
          else if (.not. (values%nu1%is_given .or. values%e1%is_given .or. values%layer_nu%is_given)) then
             ! e1 without nu1 is reported elsewhere.
             call values%complain(values%layer_base, &

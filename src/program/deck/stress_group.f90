@@ -72,10 +72,15 @@ contains
       type(stress_setting), allocatable, intent(out) :: setting   !! not allocated if the deck has no group &stress
 
       integer :: bodies, i
-      logical :: has_range
+      logical :: has_layer, has_range
 
-      if (load%yield%is_given .and. .not. (values%yield_stress%is_given .or. values%has_unknown)) &
+      has_layer = .false.
+      if (present(surface)) has_layer = surface%kernel%has_layer()
+      if (load%yield%is_given .and. has_layer) then
+         call load%complain(load%yield, 'stresses are computed in half-spaces, not in a layer: leave yield out')
+      else if (load%yield%is_given .and. .not. (values%yield_stress%is_given .or. values%has_unknown)) then
          call load%complain(load%yield, 'yield needs yield_stress in the group &stress')
+      end if
       if (values%position == 0) return
       has_range = values%depth_from%is_given .or. values%depth_to%is_given .or. values%depth_steps%is_given
       if (.not. has_range .and. (values%depths%is_given .or. values%depths_over_cell_x%is_given)) then
@@ -85,9 +90,9 @@ contains
       else if (values%planes%is_true .and. .not. (has_range .or. values%has_unknown)) then
          call values%complain(values%planes, 'planes needs depths, depths_over_cell_x or a range of depths')
       end if
-      call take_ratios(values, 'stress', values%nu, material)
+      if (.not. has_layer) call take_ratios(values, 'stress', values%nu, material)
       if (present(surface)) then
-         if (surface%kernel%has_layer()) call values%problems%add(values%position, &
+         if (has_layer) call values%problems%add(values%position, &
             'stresses are computed in half-spaces, not in a layer: leave &stress or layer_thickness out')
          if (surface%has_free_edges) then
             if (surface%dimension == 1) call values%problems%add(values%position, &

@@ -16,8 +16,8 @@ module wavycon_head_lines
 
 contains
 
-   !> The lines of version, deck, surface, statistics of a height map, material and method, separated by newlines. The
-   !> last line has no newline.
+   !> The lines of version, deck, surface, statistics of a height map, material, layer and method, separated by
+   !> newlines. The last line has no newline.
    function head_lines(scene, surface, method, prefix, shown_digits) result(lines)
       type(scene_type), intent(in) :: scene
       type(surface_type), intent(in) :: surface   !! the surface that is solved, with its amplitude and sides
@@ -83,8 +83,16 @@ contains
          end if
          words = 'e_star['//pressure//'] = '//text_of(scene%e_star)
          if (.not. surface%has_free_edges) words = words//number('p*', pressure, scene%p_star)
-         if (surface%has_hardness()) words = words//number('hardness', pressure, surface%hardness*scene%p_star)
+         if (surface%has_hardness()) words = words//number('hardness', pressure, scene%material%hardness%number)
          call add('material: '//words)
+         associate (material => scene%material, layer => surface%kernel%layer)
+            words = 'slides on a rigid base'
+            if (.not. layer%slides) words = 'bonded to a rigid base'//number('nu', '-', layer%nu)
+            if (material%base_e%is_given) words = 'bonded to a half-space'//number('nu', '-', layer%nu)// &
+               number('base_e', pressure, material%base_e%number)//number('base_nu', '-', layer%base_nu)
+            if (surface%kernel%has_layer()) &
+               call add('layer: '//words//number('thickness', length, material%layer_thickness%number))
+         end associate
       end associate
       call add('method: '//method)
 

@@ -147,6 +147,7 @@ contains
       words = "solver = '"//trim(solver_names(traits%solver))//"' "//lack
       if (alternatives == '') then
          words = words//', nor does any other for this surface'
+         if (surface%kernel%has_layer()) words = words//' on a layer'
       else
          words = words//'; '//alternatives//' '//lack(:index(lack, ' ') - 1)
       end if

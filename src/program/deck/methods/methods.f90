@@ -1,8 +1,8 @@
 !> The solvers as a deck names them: their names, their keys in &method, which surfaces they cannot solve, and how a
 !> solver is started from the values of its keys.
 module wavycon_methods
-   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_closed_form, has_lattice, has_neither, &
-      last_choice, points_are_given, points_are_of_the_map
+   use wavycon_auto_contact, only: auto_contact, has_a_hardness, has_a_layer, has_closed_form, has_lattice, &
+      has_neither, last_choice, points_are_given, points_are_of_the_map
    use wavycon_series_contact, only: series_contact, paper_constraint_points, paper_harmonics, qp_options
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_constraint_points, only: choose_points
@@ -269,8 +269,9 @@ contains
       reasons(has_closed_form) = 'the surface is the 1-D wave or a ball, which has a closed form'
       reasons(has_lattice) = 'the surface has a lattice of equal spots; grids solve the loads for which '// &
                                 "'fitted' is not accurate enough"
-      reasons(has_neither) = 'there is neither a closed form nor a lattice of equal spots on half-spaces'
+      reasons(has_neither) = 'there is neither a closed form nor a lattice of equal spots'
       reasons(has_a_hardness) = "neither the closed form nor 'fitted' has a hardness"
+      reasons(has_a_layer) = "the closed forms and 'fitted' are for half-spaces, not for a layer"
       reasons(points_are_given) = 'the points of the grid are given'
       reasons(points_are_of_the_map) = 'a height map is solved on its own points unless an accuracy is given'
       words = trim(reasons(traits%choice))
