@@ -22,9 +22,9 @@ for w in $all; do
    for curve in $curves; do
       [ "$w" != "$curve" ] || areas=
    done
-   "$wavycon" --quiet inputs/adhesion.nml --set scene.case="adhesion_$w" \
-      ${areas:+--set load.contact_area_fraction=$areas} \
-      --set interface.work_of_adhesion="$(LC_ALL=C awk "BEGIN { printf \"%.17g\", $w*sqrt(2)*atan2(0, -1) }")" || [ $? -eq 2 ]
+   work=$(LC_ALL=C awk "BEGIN { printf \"%.17g\", $w*sqrt(2)*atan2(0, -1) }")
+   "$wavycon" --quiet inputs/adhesion.nml --set scene.case="adhesion_$w" --set interface.work_of_adhesion="$work" \
+      ${areas:+--set load.contact_area_fraction=$areas} || [ $? -eq 2 ]
    LC_ALL=C awk -v w="$w" '
       /^#/ { next }
       $1 == "load" { for (i = 1; i <= NF; i++) place[$i] = i; block++; next }
