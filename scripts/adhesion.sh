@@ -23,8 +23,11 @@ for w in $all; do
       [ "$w" != "$curve" ] || areas=
    done
    work=$(LC_ALL=C awk "BEGIN { printf \"%.17g\", $w*sqrt(2)*atan2(0, -1) }")
-   "$wavycon" --quiet inputs/adhesion.nml --set scene.case="adhesion_$w" --set interface.work_of_adhesion="$work" \
-      ${areas:+--set load.contact_area_fraction=$areas} || [ $? -eq 2 ]
+   said=$("$wavycon" --quiet inputs/adhesion.nml --set scene.case="adhesion_$w" \
+      --set interface.work_of_adhesion="$work" ${areas:+--set load.contact_area_fraction=$areas} 2>&1) || {
+      status=$?
+      [ "$status" -eq 2 ] || { echo "$said" >&2; exit "$status"; }
+   }
    LC_ALL=C awk -v w="$w" '
       /^#/ { next }
       $1 == "load" { for (i = 1; i <= NF; i++) place[$i] = i; block++; next }
