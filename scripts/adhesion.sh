@@ -17,14 +17,17 @@ approximate=outputs/adhesion/superposition.dat
 echo 'w branch point pbar_over_pstar contact_area_fraction' >"$points"
 echo 'w pbar_over_pstar contact_area_fraction' >"$approximate"
 for w in $all; do
-   # Critical points do not depend on the deck's areas; p* = sqrt(2) pi.
+   # Critical points do not depend on the deck's areas; p* = sqrt(2) pi. Status 2: the smallest areas are not solved.
    areas=0.5
    for curve in $curves; do
       [ "$w" != "$curve" ] || areas=
    done
-   "$wavycon" --quiet inputs/adhesion.nml --set scene.case="adhesion_$w" \
-      ${areas:+--set load.contact_area_fraction=$areas} \
-      --set interface.work_of_adhesion="$(LC_ALL=C awk "BEGIN { printf \"%.17g\", $w*sqrt(2)*atan2(0, -1) }")"
+   work=$(LC_ALL=C awk "BEGIN { printf \"%.17g\", $w*sqrt(2)*atan2(0, -1) }")
+   said=$("$wavycon" --quiet inputs/adhesion.nml --set scene.case="adhesion_$w" \
+      --set interface.work_of_adhesion="$work" ${areas:+--set load.contact_area_fraction=$areas} 2>&1) || {
+      status=$?
+      [ "$status" -eq 2 ] || { echo "$said" >&2; exit "$status"; }
+   }
    LC_ALL=C awk -v w="$w" '
       /^#/ { next }
       $1 == "load" { for (i = 1; i <= NF; i++) place[$i] = i; block++; next }

@@ -14,7 +14,7 @@ module wavycon_contact_solution
    use wavycon_full_contact, only: full_contact_series
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, peak_pressure, quantities, unknown
+   use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, quantities, unknown
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
    use wavycon_solution_record, only: by_grid, record_words, solution_record
@@ -120,6 +120,7 @@ contains
       type(surface_type), intent(in) :: surface             !! the surface that was solved
       class(stress_fields), allocatable, intent(out) :: answer
 
+      real(dp) :: largest, mean   ! largest and mean pressure [p*]: none of a tension that nothing holds
       type(fourier_series) :: pressure
       type(series_stress_fields), allocatable :: own
 
@@ -128,10 +129,16 @@ contains
       else if (self%status /= full_contact .and. self%status /= no_load) then
          allocate (answer, source=stress_fields(exist=.false.))
       else
+         mean = 0.0_dp
+         largest = 0.0_dp
+         if (self%status == full_contact) then
+            mean = self%pbar_over_pstar
+            largest = abs(mean) + surface%full_contact_peak
+         end if
          call self%coefficients(surface, pressure)
          allocate (own)
-         call start_series_stress_fields(own, surface, pressure, self%pbar_over_pstar, &
-                                         pressure_error=rounding*self%value(peak_pressure), is_sampled=.false.)
+         call start_series_stress_fields(own, surface, pressure, mean, pressure_error=rounding*largest, &
+                                         is_sampled=.false.)
          call move_alloc(own, answer)
       end if
    end subroutine stresses

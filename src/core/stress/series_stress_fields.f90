@@ -283,14 +283,16 @@ contains
       end do
    end subroutine on_line
 
-   !> The error estimate (S5) of a stress component. The vertical stress below a contact is never a tension, so the
-   !> error is at least the computed vertical tension.
+   !> The error estimate (S5) of a stress component. The vertical stress below a contact without adhesion is never a
+   !> tension, so the error of a grid's series is at least the computed vertical tension. The series of full contact,
+   !> which may have adhesion, is exact.
    pure real(dp) function error_of(stress, vertical, octave)
       class(series_stress_fields), intent(in) :: stress
       real(dp), intent(in) :: vertical    !! zz, with that of the mean pressure [p*]
       real(dp), intent(in) :: octave(:)   !! S, S_x, S_y [p*]; size 0 if no wave of the last octave reaches the depth
 
       error_of = stress%pressure_error + octave_factor*norm2(octave)
+      if (.not. stress%waves%sampled_from < huge(1.0_dp)) return
       if (.not. ieee_is_nan(error_of)) error_of = max(error_of, vertical)
    end function error_of
 

@@ -187,8 +187,8 @@ contains
       if (.not. ieee_is_nan(largest%error)) is_doubtful = largest%error > largest_stress_error*largest%value
    end function is_doubtful
 
-   !> Whether a load was solved as requested, and so were its largest stresses and its partial slip if the deck asks for
-   !> these. Full slip counts as solved.
+   !> Whether a load was solved as requested, and so were its largest stresses, its partial slip and its contacts with
+   !> adhesion if the deck asks for these. Full slip and separated bodies count as solved.
    pure logical function is_solved(self, load)
       class(results_type), intent(in) :: self
       integer, intent(in) :: load    !! number of the load in the deck's order
@@ -200,6 +200,8 @@ contains
          all([(is_good_status(self%stress_status(load, body)), body=1, size(self%largest_stresses, 2))])
       if (allocated(self%slip)) is_solved = is_solved .and. &
          all(self%slip(:, load)%slides .or. is_good_status(self%slip(:, load)%status))
+      if (allocated(self%adhesion)) is_solved = is_solved .and. &
+         all(self%adhesion%at_loads%number /= load .or. is_good_status(self%adhesion%at_loads%status))
    end function is_solved
 
    !> Begins the block of a load with a comment (number, mean pressure, status) and the names of the columns.
