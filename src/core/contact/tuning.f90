@@ -73,7 +73,7 @@ module wavycon_contact_tuning
    real(dp), parameter, public :: least_foreseen = 0.5_dp
 
    !> A layer bends like a plate, (C8d), if about some wave the compliance goes with a lower power of the wave number
-   !> than this. Layers that are 3, 5, 10 and 1000 times stiffer than their base have -1.6, -1.9, -2.3 and -3.7. At 3 and
+   !> than this. Layers 3, 5, 10 and 1000 times stiffer than their base have -1.6, -1.9, -2.3 and -3.7. At 3 and
    !> 5 times (C7a), which takes fewer transforms, takes as many iterations as (C7) with (C8d).
    real(dp), parameter, public :: plate_order = -2.0_dp
    !> A point enters the contact of a plate when its overlap exceeds this times the root mean square gap in contact

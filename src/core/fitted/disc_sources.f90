@@ -72,7 +72,8 @@ contains
       f = matmul(values, solution%c)
       if (gradient) then
          call solution%basis%slopes(n, w, values, slope_x, slope_y)
-         f_slope = inside*cmplx(matmul(slope_x, solution%c), matmul(slope_y, solution%c), dp) - 2*solution%basis%power*f*w
+         f_slope = inside*cmplx(matmul(slope_x, solution%c), matmul(slope_y, solution%c), dp) &
+                   - 2*solution%basis%power*f*w
          density = slope*f_slope - conjugate_slope*conjg(f_slope)
       else
          density = f*(slope%re**2 + slope%im**2 - (conjugate_slope%re**2 + conjugate_slope%im**2))

@@ -101,7 +101,8 @@ contains
          end do
       end do
       if (on_surface .and. .not. solution%pool) &
-         fields(h_field, 1) = fields(h_field, 1) + density_at_origin(1)%re*sqrt(edge)**nint(2*source_power(solution, .false.)) &
+         fields(h_field, 1) = fields(h_field, 1) &
+         + density_at_origin(1)%re*sqrt(edge)**nint(2*source_power(solution, .false.)) &
          /(slope(1)%re**2 + slope(1)%im**2 - (conjugate_slope(1)%re**2 + conjugate_slope(1)%im**2))
 
    contains

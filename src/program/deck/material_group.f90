@@ -102,7 +102,7 @@ contains
             if (values%base_e%is_given) call values%complain(values%base_e, &
                "a layer slides on rigid bases only: leave base_e out, or layer_base = 'smooth'")
             if (values%layer_nu%is_given) call values%complain(values%layer_nu, &
-               "the compliance of a layer that slides follows from e_star alone: leave layer_nu out")
+               'the compliance of a layer that slides follows from e_star alone: leave layer_nu out')
          else if (.not. (values%nu1%is_given .or. values%e1%is_given .or. values%layer_nu%is_given)) then
             ! e1 without nu1 is reported elsewhere.
             call values%complain(values%layer_base, &
