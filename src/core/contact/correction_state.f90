@@ -188,9 +188,11 @@ contains
                call self%region%take_chunk(c, displacement, added)
                self%gap(a:b) = self%gap(a:b) + added(:n)
             end if
+            chunk_sums(:2, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, self%gap(a:b), 1)]
+            chunk_sums(3, c) = 0.0_dp
+            if (self%part_of_free_gap <= 0.0_sp) cycle   ! (C8d) is for plates alone
             added(:n) = contact(a:b)*self%gap(a:b)
-            chunk_sums(:, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, added, 1), &
-                                sdot(n, added, 1, added, 1)]
+            chunk_sums(3, c) = sdot(n, added, 1, added, 1)
          end associate
       end do
       sums = self%totals(chunk_sums)

@@ -108,8 +108,8 @@ contains
    end subroutine run_program
 
    !> Reads all decks before any is run, and shows the problems of all. Problems that runs of a sweep share are shown
-   !> once, whatever value of the sweep they name. If there are problems the program ends,
-   !> unless --keep-going says that the good decks are to be run.
+   !> once, whatever value of the sweep they name. If there are problems the program ends, unless --keep-going says that
+   !> the good decks are to be run.
    subroutine read_decks(command_line, scenes, worst)
       type(command_line_type), intent(in) :: command_line
       type(scene_item), allocatable, intent(out) :: scenes(:)   !! one for each run of the command line

@@ -85,14 +85,15 @@ contains
          if (.not. surface%has_free_edges) words = words//number('p*', pressure, scene%p_star)
          if (surface%has_hardness()) words = words//number('hardness', pressure, scene%material%hardness%number)
          call add('material: '//words)
-         associate (material => scene%material, layer => surface%kernel%layer)
-            words = 'slides on a rigid base'
-            if (.not. layer%slides) words = 'bonded to a rigid base'//number('nu', '-', layer%nu)
-            if (material%base_e%is_given) words = 'bonded to a half-space'//number('nu', '-', layer%nu)// &
-               number('base_e', pressure, material%base_e%number)//number('base_nu', '-', layer%base_nu)
-            if (surface%kernel%has_layer()) &
+         if (surface%kernel%has_layer()) then
+            associate (material => scene%material, layer => surface%kernel%layer)
+               words = 'slides on a rigid base'
+               if (.not. layer%slides) words = 'bonded to a rigid base'//number('nu', '-', layer%nu)
+               if (material%base_e%is_given) words = 'bonded to a half-space'//number('nu', '-', layer%nu)// &
+                  number('base_e', pressure, material%base_e%number)//number('base_nu', '-', layer%base_nu)
                call add('layer: '//words//number('thickness', length, material%layer_thickness%number))
-         end associate
+            end associate
+         end if
       end associate
       call add('method: '//method)
 
