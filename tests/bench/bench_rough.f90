@@ -42,9 +42,14 @@ program bench_rough
    call prepare_process()
    call cpu_time(start)
    surface = surface_of_points([1.0_dp, 1.0_dp], height)
+   deallocate (height)
    full = surface%full_contact_pressure(1.0_dp/pi)
    call solve_by_sequence(surface, load/full, 0.0_dp, surface%points, answer, residual=residual)
    call cpu_time(finish)
+   if (answer%out_of_memory) then
+      write (error_unit, '(a)') 'bench_rough: the grid does not fit into memory'
+      stop 1
+   end if
 
    open (newunit=unit, file=trim(argument(5)), access='stream', form='unformatted', action='write', status='replace')
    write (unit) full*answer%state%pressure

@@ -21,6 +21,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+import numpy  # noqa: E402
 import peer_install  # noqa: E402
 import rough_runs  # noqa: E402
 import rough_surface  # noqa: E402
@@ -147,6 +148,8 @@ class Measurement:
         full = rough_surface.full_contact_pressure(heights)
         case = rough_runs.Case(heights, 0.0, directory, self.given.limit)
         heights.tofile(case.input)
+        # From the file from now on: the programs get the memory.
+        case.heights = heights = numpy.memmap(case.input, float, 'r', shape=heights.shape)
         loads = [(f'A={value:g}', value) for value in self.given.contact]
         loads += [(f'P={value:g}', value) for value in self.given.pressure]
         for name, value in loads:
