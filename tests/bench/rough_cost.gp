@@ -29,7 +29,7 @@ do for [j = 1:3] {
 }
 
 set multiplot layout 1, 2 margins 0.085, 0.98, 0.17, 0.94 spacing 0.185
-set key left top Left reverse samplen 2 font small
+set key right bottom Left reverse samplen 2 font small
 set xlabel 'fraction {/:Italic A} of the points in contact' offset 0, 0.3
 set ylabel 'processor time [s]' offset 1.2, 0
 set yrange [*:3<*]
@@ -44,6 +44,7 @@ plot runs index contacts using 7:(reached(8)) with points ls 31 title sprintf('t
    [7e-5:light] line(x, contact_intercept, contact_slope) with lines ls 31 \
    title sprintf('{/:Italic A}^{%.2f}, to 10 %%', contact_slope), \
    runs index contacts using 7:(reached(10)) axes x1y2 with points ls 32 title 'transforms (right axis)'
+set key left top
 set ytics mirror
 unset y2label
 unset y2tics
