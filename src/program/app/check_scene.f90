@@ -1,6 +1,7 @@
 !> What --check writes about a deck, without a run.
 module wavycon_check_scene
    use, intrinsic :: iso_fortran_env, only: int64
+   use wavycon_auto_contact, only: has_lattice
    use wavycon_grid_plan, only: bytes_of_grid
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_slab, only: grid_slab
@@ -19,6 +20,10 @@ module wavycon_check_scene
    private
 
    public :: check_scene
+
+   !> A load that is not given by pressure is searched for. On maps of 512 x 512 and 1024 x 1024 points searches for
+   !> yield and for percolation took the time of so many solutions or more.
+   integer, parameter :: solutions_for_yield = 4, solutions_for_percolation = 8
 
 contains
 
@@ -48,13 +53,13 @@ contains
          'accuracy')
       if (all(results%traits%finest_grid > 0)) then
          call logger%say('memory: '//memory(results))
-         ! A load that is not given by pressure is searched for. On maps of 512 x 512 and 1024 x 1024 points searches
-         ! for yield and percolation took the time of so many solutions or more.
          words = 'at least '
-         if (results%scene%loads_by == by_pressure) words = 'some '
          solutions = 1
-         if (results%scene%loads_by == by_yield) solutions = 4
-         if (results%scene%loads_by == by_percolation) solutions = 8
+         if (results%scene%loads_by == by_yield) solutions = solutions_for_yield
+         if (results%scene%loads_by == by_percolation) solutions = solutions_for_percolation
+         ! With a lattice a search solves few loads on grids or none.
+         if (results%traits%choice == has_lattice) solutions = 1
+         if (results%scene%loads_by == by_pressure .or. results%traits%choice == has_lattice) words = 'some '
          call logger%say('time: '//words// &
             duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*solutions*size(results%scene%target)))// &
             ' if all loads need that grid, by its transforms as measured now')
