@@ -10,7 +10,7 @@ module wavycon_deck_session
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: choice_value, key_index
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, list_load_keys, take_loads
+   use wavycon_load_group, only: check_load_group, list_load_keys
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen, without_errors
    use wavycon_nearest_name, only: did_you_mean
@@ -185,10 +185,8 @@ contains
          call keys(1)%take_value(k, number=value)
       end if
       call keys(1)%check_relations()
-      call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)
-      if (values%problems%number == 0) call take_loads(values, self%results%solver%surface, self%scale%p_star, &
-                                                       self%results%scene%interface%work_of_adhesion%is_given, &
-                                                       loads_by, target, mean_pressure)
+      call check_load_group(values, self%results%solver%surface, self%scale%e_star, &
+                            self%results%scene%interface%work_of_adhesion%is_given, loads_by, target, mean_pressure)
       if (values%problems%number > 0) then
          call fatal_error(error, exit_bad_input, '&load: '//values%problems%items(1)%words)
       else

@@ -61,21 +61,19 @@ contains
       class(collected_deck), intent(in) :: decks(:)   !! decks that are run have a stem
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: full, trouble
+      character(:), allocatable :: full, mark, trouble
       character(24), allocatable :: kinds(:)
       integer :: d, k, number
       type(table_type), allocatable :: tables(:)
 
-      call make_directories(directory_of(path), trouble)
+      call make_directories(path(:index(path, '/', back=.true.))//'.', trouble)
       if (allocated(trouble)) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(trouble))
          return
       end if
-      if (has_commas(path)) then
-         number = refusal_to_write(path//c_null_char, comma_mark//c_null_char)
-      else
-         number = refusal_to_write(path//c_null_char, table_mark//c_null_char)
-      end if
+      mark = table_mark
+      if (has_commas(path)) mark = comma_mark
+      number = refusal_to_write(path//c_null_char, mark//c_null_char)
       if (number /= 0) trouble = error_text(number)
       if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
          trouble = 'this is a directory'
@@ -279,15 +277,5 @@ contains
          end do
       end do
    end subroutine choose_columns
-
-   !> The directory of a path; '.' if it has none.
-   pure function directory_of(path) result(directory)
-      character(*), intent(in) :: path
-      character(:), allocatable :: directory
-
-      directory = path(:max(index(path, '/', back=.true.) - 1, 0))
-      if (directory == '' .and. index(path, '/') == 1) directory = '/'
-      if (directory == '') directory = '.'
-   end function directory_of
 
 end module wavycon_collected_table
