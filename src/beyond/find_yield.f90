@@ -44,26 +44,20 @@ contains
       type(largest_stress), intent(inout), optional :: stresses(:, :)
 
       real(dp) :: first_log_p, log_p, slope
-      type(solver_traits) :: traits
-      integer :: level
 
       ! The first load must be below the hardness, which may be a small part of p*.
       first_log_p = log(min(first_load, 0.5_dp*solver%surface%hardness))
       log_p = first_log_p
       slope = light_slope(solver)
-      traits = solver%traits()
-      call solver%set_search(.true.)
-      do level = traits%coarser_levels, 0, -1
-         solver%level = level
+      call solver%begin_search()
+      do
          call find_root(solver, setting, log(target), log_p, slope, solution, stresses)
-         if (solution%status == interrupted) exit
+         if (.not. solver%refines(is_over=solution%status == interrupted)) exit
          if (solution%status == not_found) then
             log_p = first_log_p
             slope = light_slope(solver)
          end if
       end do
-      call solver%set_search(.false.)
-      solver%level = 0
       if (present(stresses) .and. any(solution%status == [interrupted, not_found])) stresses = largest_stress()
    end subroutine solve_for_yield
 

@@ -10,7 +10,7 @@ module wavycon_deck_session
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: choice_value, key_index
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, list_load_keys, take_loads
+   use wavycon_load_group, only: check_load_group, list_load_keys
    use wavycon_memory_table, only: memory_table, of_words
    use wavycon_methods, only: why_chosen, without_errors
    use wavycon_nearest_name, only: did_you_mean
@@ -50,10 +50,13 @@ module wavycon_deck_session
 
    !> A deck with its solver started.
    type :: deck_session
-      !> Scene and solver. `loads` has one element, for the solution of which a table is made.
+      !> Scene and solver. `loads` has one element, for the solution of which a table is made, and so have the loads of
+      !> the scene.
       type(results_type) :: results
       type(unit_scale) :: scale                           !! the program's units in the deck's units
-      real(dp), allocatable, private :: mean_pressure(:)  !! the deck's loads [pressure], if it gives them by pressure
+      integer, private :: loads_by = by_pressure          !! how the deck gives its loads, as in scene_type
+      real(dp), allocatable, private :: target(:)         !! these loads, as in scene_type
+      real(dp), allocatable, private :: mean_pressure(:)  !! the same [pressure], if the deck gives them by pressure
       type(solution_record), allocatable, private :: records(:)   !! records of the deck's loads; status < 0: not solved
       type(run_log), private :: log                       !! writes nothing, but keeps notes on surface and tables
       integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load; else 0
@@ -105,14 +108,16 @@ contains
       call start_results(scene, self%results, tables, keep_fields)
       associate (scene => self%results%scene)
          call scene%output%map_format%set(text='text')
+         call order_loads(self%results)
+         self%loads_by = scene%loads_by
+         call move_alloc(scene%target, self%target)
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
-         allocate (scene%mean_pressure(1), self%results%loads(1), self%records(size(scene%target)))
+         allocate (scene%target(1), scene%mean_pressure(1), self%results%loads(1), self%records(size(self%target)))
          self%records%status = -1
          call self%log%start(quiet=.true.)
          call note_scene(scene, self%log)
          self%scale = scale_of(self%results%solver%surface, scene%e_star)
       end associate
-      call order_loads(self%results)
    end subroutine open_session
 
    !> Reads a deck from its file, with keys set in place of its own. Errors: those of the program.
@@ -180,10 +185,8 @@ contains
          call keys(1)%take_value(k, number=value)
       end if
       call keys(1)%check_relations()
-      call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)
-      if (values%problems%number == 0) call take_loads(values, self%results%solver%surface, self%scale%p_star, &
-                                                       self%results%scene%interface%work_of_adhesion%is_given, &
-                                                       loads_by, target, mean_pressure)
+      call check_load_group(values, self%results%solver%surface, self%scale%e_star, &
+                            self%results%scene%interface%work_of_adhesion%is_given, loads_by, target, mean_pressure)
       if (values%problems%number > 0) then
          call fatal_error(error, exit_bad_input, '&load: '//values%problems%items(1)%words)
       else
@@ -200,14 +203,12 @@ contains
 
       call check_ready(self, error)
       if (allocated(error)) return
-      associate (scene => self%results%scene)
-         if (load < 1 .or. load > size(scene%target)) then
-            call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
-                             integer_text(size(scene%target)))
-         else
-            call self%solve_one(scene%loads_by, load, scene%target, self%mean_pressure, answer, error)
-         end if
-      end associate
+      if (load < 1 .or. load > size(self%target)) then
+         call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
+                          integer_text(size(self%target)))
+      else
+         call self%solve_one(self%loads_by, load, self%target, self%mean_pressure, answer, error)
+      end if
       if (.not. allocated(error)) self%records(load) = answer%solution%solution_record
    end subroutine solve_load
 
@@ -258,8 +259,6 @@ contains
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: loads_by
-      real(dp), allocatable :: targets(:)   ! the loads of the deck
       type(table_type), allocatable :: writer
 
       call find_writer(self, name, solved, writer, error)
@@ -268,21 +267,17 @@ contains
          call solved%solution%move_to(results%loads(1))
          call move_alloc(solved%spots, results%spots)
          call move_alloc(solved%slopes, results%slopes)
+         results%scene%loads_by = solved%loads_by
+         results%scene%target = solved%target
          results%scene%mean_pressure = solved%mean_pressure
          if (name == 'stress_largest') then
             if (allocated(results%largest_stresses)) deallocate (results%largest_stresses)
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
-            targets = results%scene%target
-            loads_by = results%scene%loads_by
-            results%scene%target = [solved%target]
-            results%scene%loads_by = solved%loads_by
             call begin_solve(self%is_solving)
             call find_interface(results, self%log, name)
             call end_solve(self%is_solving)
-            results%scene%target = targets
-            results%scene%loads_by = loads_by
          end if
          results%memory => table
          call writer%write(results, error)
@@ -398,7 +393,7 @@ contains
                call logger%start(quiet=.true.)
                call note_loads(self%results, solved%loads_by, [solved%solution%solution_record], logger)
             else
-               call note_loads(self%results, scene%loads_by, pack(self%records, self%records%status >= 0), logger)
+               call note_loads(self%results, self%loads_by, pack(self%records, self%records%status >= 0), logger)
             end if
             words = logger%notes
          else if (present(solved)) then

@@ -19,6 +19,7 @@ module wavycon_session_fields
    use wavycon_scene_groups, only: stress_group
    use wavycon_stress_group, only: lateral_of, list_stress_keys
    use wavycon_system, only: has_memory_for
+   use wavycon_table, only: table_type
    implicit none (type, external)
    private
 
@@ -150,19 +151,19 @@ contains
       real(dp) :: first(2), pbar_over_pstar, unit
       type(bounding_grid) :: grid
       type(energy_bounds) :: answer
+      type(table_type) :: table   ! that of bounds, which refuses the same surfaces
 
       call check_ready(session, error)
       if (.not. allocated(error)) call check_points(session, points, depth=0.0_dp, numbers=numbers_of_bounds, &
                                                     first=first, error=error)
       if (allocated(error)) return
+      table = table_type('bounds')
       trouble = ''
-      associate (units => session%scale, surface => session%results%solver%surface)
-         if (surface%has_free_edges) then
-            trouble = 'a surface with free edges has no bounds: they are those of a surface that repeats itself'
-         else if (.not. units%p_star > 0.0_dp) then
+      associate (units => session%scale, surface => session%results%solver%surface, traits => session%results%traits)
+         if (.not. units%p_star > 0.0_dp) then
             trouble = 'a flat surface has no bounds'
-         else if (surface%kernel%layer%shear_ratio > 0.0_dp) then
-            trouble = 'a layer whose base is not rigid has no bounds'
+         else if (table%refusal(traits, surface) /= '') then
+            trouble = table%refusal(traits, surface)
          else if (.not. (mean_pressure > 0.0_dp .and. mean_pressure/units%p_star < surface%hardness)) then
             trouble = 'the mean pressure must be above 0 and below the hardness'
          else if (.not. (all(ieee_is_finite(pressure)) .and. all(ieee_is_finite(gap)))) then

@@ -54,6 +54,8 @@ module wavycon_contact_solver
       procedure(solve_load), deferred :: solve_partial_contact
       procedure(traits_of_solver), deferred :: traits
       procedure :: forget_last_load
+      procedure :: begin_search
+      procedure :: refines
       procedure :: set_search
       procedure :: skip_load
    end type contact_solver
@@ -145,8 +147,31 @@ contains
       associate (unused => self); end associate
    end subroutine forget_last_load
 
-   !> Begins or ends a search for a load. Loads within a search differ little, and each may start from the last
-   !> one. The end of a search deletes these starts. By default nothing is done.
+   !> Begins a search for a load, at the coarsest level. At each level the caller searches and then asks `refines`.
+   subroutine begin_search(self)
+      class(contact_solver), intent(inout) :: self
+
+      type(solver_traits) :: traits
+
+      traits = self%traits()
+      self%level = traits%coarser_levels
+      call self%set_search(.true.)
+   end subroutine begin_search
+
+   !> Whether a search goes on at the next finer level, which then is `level`. If not the search ends, and `level` is 0.
+   logical function refines(self, is_over)
+      class(contact_solver), intent(inout) :: self   !! after begin_search
+      logical, intent(in) :: is_over                 !! whether finer levels are left out
+
+      refines = self%level > 0 .and. .not. is_over
+      self%level = self%level - 1
+      if (refines) return
+      self%level = 0
+      call self%set_search(.false.)
+   end function refines
+
+   !> Notes that a search for a load begins or ends. Loads within a search differ little, and each may start from the
+   !> last one. The end of a search deletes these starts. By default nothing is done.
    subroutine set_search(self, begins)
       class(contact_solver), intent(inout) :: self
       logical, intent(in) :: begins                  !! whether a search begins; otherwise it ends

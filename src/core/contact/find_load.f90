@@ -7,7 +7,7 @@
 !> place of logit. The approach on a layer grows beyond full contact by the layer's compression: (C18c).
 module wavycon_find_load
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, flattest, fraction_of_error, largest_fraction, least_fraction, &
       lightest_load, longest_step, most_solves, steepest, value_roundings
@@ -54,10 +54,8 @@ contains
       type(contact_solution), intent(out) :: solution   !! solution at the load found
 
       type(root_search) :: search
-      type(solver_traits) :: traits
       real(dp) :: compression   ! of a layer at P = 1 [Delta]; 0 without one
       real(dp) :: known_load    ! P of a target that needs no search
-      integer :: level
 
       compression = 0.0_dp
       associate (surface => solver%surface)
@@ -80,20 +78,16 @@ contains
             return
          end if
       end associate
-      traits = solver%traits()
-      call solver%set_search(.true.)
-      do level = traits%coarser_levels, 0, -1
+      call solver%begin_search()
+      do
          ! At the first level, whose initial status is not_found, and after a level that did not reach the target.
          if (solution%status == not_found) search%logit_p = first_estimate(search)
          if (search%closes) search%logit_p = min(search%logit_p, 0.0_dp)
-         solver%level = level
          ! On a coarser grid the quantity jumps with the load, and the secant of a jump may have any slope.
          search%slope = min(max(search%slope, least_slope), largest_slope)
          call find_root(solver, search, solution)
-         if (solution%status == interrupted) exit
+         if (.not. solver%refines(is_over=solution%status == interrupted)) exit
       end do
-      call solver%set_search(.false.)
-      solver%level = 0
    end subroutine solve_for
 
    !> Searches at one level by the secant method. A step that would leave the bracket of the root is replaced by

@@ -4,7 +4,7 @@
 !> README.md in this directory.
 module wavycon_find_percolation
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_solver, only: contact_solver, solver_traits
+   use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_spots, only: contact_spots
    use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, lightest_load, most_solves, part_of_area_error, &
@@ -39,24 +39,18 @@ contains
       integer, intent(in) :: what                       !! place in `percolations`
       type(contact_solution), intent(out) :: solution
 
-      type(solver_traits) :: traits
-      integer :: level
       real(dp) :: before, change, last, logit_p
 
-      traits = solver%traits()
-      call solver%set_search(.true.)
+      call solver%begin_search()
       logit_p = 0.0_dp
       before = -1.0_dp
       change = 0.0_dp
-      do level = traits%coarser_levels, 0, -1
-         last = solution%pbar_over_pstar
-         solver%level = level
+      do
+         last = solution%pbar_over_pstar   ! 0 before the first level
          call halve_bracket(solver, what, logit_p, before, solution)
-         if (before < 0.0_dp) exit
-         if (level < traits%coarser_levels) change = abs(solution%pbar_over_pstar - last)
+         if (last > 0.0_dp) change = abs(solution%pbar_over_pstar - last)
+         if (.not. solver%refines(is_over=before < 0.0_dp)) exit
       end do
-      call solver%set_search(.false.)
-      solver%level = 0
       if (before < 0.0_dp) return
       solution%value(last_before) = before
       solution%value(percolation) = solution%pbar_over_pstar

@@ -8,7 +8,7 @@ module wavycon_collected_table
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
    use wavycon_memory_table, only: column_list
-   use wavycon_output_file, only: blank_mark, comma_line, output_file, table_mark
+   use wavycon_output_file, only: blank_mark, output_file, table_mark
    use wavycon_plain_text, only: escaped, lower_case, newline, replaced
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
@@ -33,7 +33,7 @@ module wavycon_collected_table
    !> A key of a deck and its value.
    type :: deck_key
       character(longest_key_name) :: name = ''   !! 'group_key'
-      !> The value in effect, without blanks; '-' for an empty text. If the key has no effect: 'NaN' in place of a
+      !> The value in effect; '-' for an empty text. If the key has no effect: 'NaN' in place of a
       !> number, '-' in place of a word.
       character(:), allocatable :: word
       logical :: in_effect = .false.
@@ -61,21 +61,19 @@ contains
       class(collected_deck), intent(in) :: decks(:)   !! decks that are run have a stem
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: full, trouble
+      character(:), allocatable :: full, mark, trouble
       character(24), allocatable :: kinds(:)
       integer :: d, k, number
       type(table_type), allocatable :: tables(:)
 
-      call make_directories(directory_of(path), trouble)
+      call make_directories(path(:index(path, '/', back=.true.))//'.', trouble)
       if (allocated(trouble)) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(trouble))
          return
       end if
-      if (has_commas(path)) then
-         number = refusal_to_write(path//c_null_char, comma_mark//c_null_char)
-      else
-         number = refusal_to_write(path//c_null_char, table_mark//c_null_char)
-      end if
+      mark = table_mark
+      if (has_commas(path)) mark = comma_mark
+      number = refusal_to_write(path//c_null_char, mark//c_null_char)
       if (number /= 0) trouble = error_text(number)
       if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
          trouble = 'this is a directory'
@@ -132,7 +130,7 @@ contains
             if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
          end associate
       end if
-      word = replaced(escaped(word), ' ', blank_mark)
+      word = escaped(word)
       if (word == '') word = '-'
    end function word_of
 
@@ -149,6 +147,7 @@ contains
       type(setting_type), intent(in) :: settings(:)   !! settings of the command line
       type(error_type), allocatable, intent(out) :: error
 
+      character :: blank   ! stands for the blanks within words
       character(:), allocatable :: line, names, units
       integer, allocatable :: columns(:), width(:)
       type(collected_deck), allocatable :: solved(:)   ! the decks that have a summary
@@ -181,33 +180,37 @@ contains
          names = solved(1)%names
          if (all([(solved(d)%units == solved(1)%units, d=1, size(solved))])) units = solved(1)%units
       end if
-      call file%open(directory_of(path), path(index(path, '/', back=.true.) + 1:))
-      if (.not. has_commas(path)) then
-         call file%put(table_mark//version//' ('//revision//')')
-         do d = 1, size(decks)
-            if (.not. decks(d)%is_written) call file%put('# failed: '//escaped(decks(d)%path))
-         end do
+      if (has_commas(path)) then
+         blank = blank_mark
+         call file%open(comma_path=path)
+      else
+         blank = '_'
+         call file%open(path)
       end if
+      call file%put(table_mark//version//' ('//revision//')')
+      do d = 1, size(decks)
+         if (.not. decks(d)%is_written) call file%put('# failed: '//escaped(decks(d)%path))
+      end do
       line = ''
       do k = 1, size(width)
          line = line//cell(k, '[-]')
       end do
       units = line(2:)//' '//units
-      if (.not. has_commas(path)) call file%put('#'//units)
+      call file%put('#'//units)
       line = cell(1, 'deck')//cell(2, 'case')
       do k = 1, size(columns)
          line = line//cell(2 + k, trim(solved(1)%keys(columns(k))%name))
       end do
-      call put(line//names, units)
+      call file%put_words(line//names, units)
       do d = 1, size(solved)
-         line = cell(1, replaced(escaped(solved(d)%path), ' ', blank_mark))//cell(2, solved(d)%case)
+         line = cell(1, escaped(solved(d)%path))//cell(2, solved(d)%case)
          do k = 1, size(columns)
             line = line//cell(2 + k, solved(d)%keys(columns(k))%word)
          end do
          ! All rows of a summary are as long as its line of names.
          associate (rows => solved(d)%rows, length => len(solved(d)%names))
             do k = 1, len(rows), length + 1
-               call put(line//rows(k:k + length - 1))
+               call file%put_words(line//rows(k:k + length - 1))
             end do
          end associate
       end do
@@ -215,27 +218,14 @@ contains
 
    contains
 
-      !> A word at the right of a column.
+      !> A word at the right of a column, without blanks.
       pure function cell(column, word) result(text)
          integer, intent(in) :: column
          character(*), intent(in) :: word
          character(:), allocatable :: text
 
-         text = repeat(' ', width(column) - len(word))//word
+         text = repeat(' ', width(column) - len(word))//replaced(word, ' ', blank)
       end function cell
-
-      !> Writes a line of words, with commas between them if the name of the file asks for these.
-      subroutine put(line, units)
-         character(*), intent(in) :: line
-         !> The line of the words' units: those that are not '[-]' are added.
-         character(*), intent(in), optional :: units
-
-         if (has_commas(path)) then
-            call file%put(comma_line(line, units))
-         else
-            call file%put(replaced(line, blank_mark, '_'))
-         end if
-      end subroutine put
 
    end subroutine write_collected_table
 
@@ -287,15 +277,5 @@ contains
          end do
       end do
    end subroutine choose_columns
-
-   !> The directory of a path; '.' if it has none.
-   pure function directory_of(path) result(directory)
-      character(*), intent(in) :: path
-      character(:), allocatable :: directory
-
-      directory = path(:max(index(path, '/', back=.true.) - 1, 0))
-      if (directory == '' .and. index(path, '/') == 1) directory = '/'
-      if (directory == '') directory = '.'
-   end function directory_of
 
 end module wavycon_collected_table

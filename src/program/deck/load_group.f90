@@ -15,7 +15,7 @@ module wavycon_load_group
    implicit none (type, external)
    private
 
-   public :: check_load_group, given_loads, list_load_keys, take_loads
+   public :: check_load_group, given_loads, list_load_keys
 
    !> Largest mean pressure over p* that is accepted. Contact is full from 1 on, and a load far above 1 is most likely a
    !> mistake of units.
@@ -83,49 +83,41 @@ contains
          needs='sweep_from'))
    end subroutine list_load_keys
 
-   !> Checks the keys. Tensions and separations without adhesion, and contradictions, are reported.
-   subroutine check_load_group(values, with_adhesion)
+   !> Checks the keys and, if the group has no problems, converts its loads to the program's normalisation. Tensions and
+   !> separations without adhesion, and contradictions, are reported. So are loads that the surface cannot have: a mean
+   !> gap above that before load, an area above the nominal area, a pressure above largest_pbar_over_pstar p*, a gap or
+   !> an area on a flat surface, and on a surface with free edges loads that refer to p*. A gap, approach or area may
+   !> exceed its limit by rounding. On a flat surface, whose p* is 0, loads over p* are reported too.
+   subroutine check_load_group(values, surface, e_star, with_adhesion, loads_by, target, mean_pressure)
       type(load_group), intent(inout) :: values
-      logical, intent(in) :: with_adhesion   !! whether loads may be tensions, and approaches separations
+      type(surface_type), intent(in), optional :: surface        !! absent if it could not be made
+      real(dp), intent(in) :: e_star                             !! E* [pressure]; 0 if &material is bad
+      logical, intent(in) :: with_adhesion                       !! whether tensions and separations are allowed
+      integer, intent(out) :: loads_by                           !! by_pressure or another name of wavycon_scene
+      real(dp), allocatable, intent(out) :: target(:)            !! the component of scene_type
+      real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
 
-      character(:), allocatable :: key, word
-      integer :: loads_by, position
-      real(dp), allocatable :: loads(:)
+      character(:), allocatable :: key, limit, word   ! limit: the limit in words; empty: there is none to check
+      integer :: position
+      real(dp) :: area, p_star
+      real(dp) :: compression   ! of a layer under p* [Delta]
+      real(dp) :: most   ! largest value allowed, and unit of the target, in the unit of the key
 
+      loads_by = by_pressure
       if (values%problems%number > 0 .or. values%position == 0 .or. values%any_bad) return
-      call given_loads(values, key, position, loads_by, loads)
+      call given_loads(values, key, position, loads_by, target)
       word = 'tension'
       if (loads_by == by_approach) word = 'separation'
-      if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
-         key//' = '//short_number(minval(loads))//' is a '//word// &
+      if (minval(target) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
+         key//' = '//short_number(minval(target))//' is a '//word// &
          ': without work_of_adhesion of &interface it is >= 0')
       if (with_adhesion .and. any(loads_by == [by_yield, by_percolation])) call values%problems%add(position, &
          'the load of '//key//' is found without adhesion: leave '//key//' or work_of_adhesion of &interface out')
       if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &
          call values%complain(values%sweep_steps, &
             'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
-   end subroutine check_load_group
-
-   !> Converts loads to the program's normalisation. Loads that the surface cannot have are reported: a mean gap above
-   !> that before load, an area above the nominal area, a pressure above largest_pbar_over_pstar p*, a gap or an area on
-   !> a flat surface, and on a surface with free edges loads that refer to p*. A gap, approach or area may exceed its
-   !> limit by rounding. On a flat surface, whose p* is 0, loads over p* are reported too.
-   subroutine take_loads(values, surface, p_star, with_adhesion, loads_by, target, mean_pressure)
-      type(load_group), intent(inout) :: values                  !! without problems before
-      type(surface_type), intent(in) :: surface
-      real(dp), intent(in) :: p_star                             !! p* [pressure]; 0: the surface is flat
-      logical, intent(in) :: with_adhesion                       !! as in check_load_group
-      integer, intent(out) :: loads_by                           !! by_pressure or another name of wavycon_scene
-      real(dp), allocatable, intent(out) :: target(:)            !! the component of scene_type
-      real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
-
-      character(:), allocatable :: key, limit   ! limit: the limit in words; empty: there is none to check
-      integer :: position
-      real(dp) :: area
-      real(dp) :: compression   ! of a layer under p* [Delta]
-      real(dp) :: most   ! largest value allowed, and unit of the target, in the unit of the key
-
-      call given_loads(values, key, position, loads_by, target)
+      if (.not. present(surface) .or. e_star <= 0.0_dp .or. values%problems%number > 0) return
+      p_star = surface%full_contact_pressure(e_star)
       limit = ''
       most = 1.0_dp
       compression = 0.0_dp
@@ -191,7 +183,7 @@ contains
       else if (limit /= '') then
          target = mean_pressure/p_star
       end if
-   end subroutine take_loads
+   end subroutine check_load_group
 
    !> The loads in the deck's order; none if the group does not give loads.
    subroutine given_loads(values, key, position, loads_by, loads)

@@ -13,7 +13,7 @@ module wavycon_read_deck
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: allowed_values, choice_value, text_value
    use wavycon_kinds, only: dp
-   use wavycon_load_group, only: check_load_group, given_loads, take_loads
+   use wavycon_load_group, only: check_load_group, given_loads
    use wavycon_material_group, only: check_material_group, plane_strain_modulus
    use wavycon_methods, only: check_method_group
    use wavycon_output_group, only: check_output_group
@@ -93,12 +93,8 @@ contains
       if (present(settings)) call name_case(scene%scene_values, settings)
       call read_surface(scene, error, heights)
       call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star)
-      call check_load_group(scene%load, scene%interface%work_of_adhesion%is_given)
-      if (scene%material%problems%number + scene%load%problems%number == 0 .and. &
-          .not. (scene%material%any_bad .or. scene%load%any_bad) .and. scene%load%position > 0 .and. &
-          allocated(scene%surface)) call take_loads(scene%load, scene%surface, scene%p_star, &
-                                                    scene%interface%work_of_adhesion%is_given, scene%loads_by, &
-                                                    scene%target, scene%mean_pressure)
+      call check_load_group(scene%load, scene%surface, scene%e_star, scene%interface%work_of_adhesion%is_given, &
+                            scene%loads_by, scene%target, scene%mean_pressure)
       call check_stress_group(scene%stress, scene%material, scene%load, scene%surface, scene%p_star, &
                               scene%stress_setting)
       call check_method_group(scene%method, scene%load, scene%surface)

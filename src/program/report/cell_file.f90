@@ -52,7 +52,6 @@ contains
       character(*), intent(in) :: subject       !! words before the number of points in the message on memory
 
       integer :: counted
-      character(:), allocatable :: name
       type(column_type), allocatable :: columns(:)
 
       self%points = map_points(results)
@@ -64,17 +63,16 @@ contains
       self%offset = map_offset(results, self%points)
       self%is_here = results%sharing%is_first
       if (.not. self%is_here) return
-      name = results%scene%case//'.'//trim(table%file)
       if (self%as_text) then
          call results%open_table(trim(table%file), table%columns, self%file)
-         call self%file%replace(results%scene%directory, name//'.npy', npy_mark)
+         call self%file%replace('.npy', npy_mark)
       else
          columns = column_list(table%columns)
          columns = pack(columns, columns%kind /= of_integers)
-         call self%file%open(results%scene%directory, name//'.npy', &
+         call self%file%open(results%scene%directory//'/'//results%scene%case//'.'//trim(table%file)//'.npy', &
                              npy_header([planes, self%points([2, 1])], columns%name))
-         call self%file%replace(results%scene%directory, name//'.dat', table_mark)
-         call self%file%replace(results%scene%directory, name//'.csv', table%columns(:index(table%columns, '[') - 1))
+         call self%file%replace('.dat', table_mark)
+         call self%file%replace('.csv', table%columns(:index(table%columns, '[') - 1))
       end if
       call check_memory(self%file, self%points, numbers_a_point, subject)
    end subroutine open_cell_file

@@ -18,12 +18,13 @@ contains
 
    !> The lines of version, deck, surface, statistics of a height map, material, layer and method, separated by
    !> newlines. The last line has no newline.
-   function head_lines(scene, surface, method, prefix, shown_digits) result(lines)
+   function head_lines(scene, surface, method, prefix) result(lines)
       type(scene_type), intent(in) :: scene
       type(surface_type), intent(in) :: surface   !! the surface that is solved, with its amplitude and sides
       character(*), intent(in) :: method          !! the solver and its discretisation in words
-      character(*), intent(in) :: prefix          !! text at the start of each line, such as '# '
-      character(*), intent(in) :: shown_digits    !! digits of numbers: 'all', so that they read back exactly, or 'some'
+      !> Text at the start of each line: '# ' for tables, whose numbers have all digits, so that they read back exactly;
+      !> '' for the log, whose numbers have some.
+      character(*), intent(in) :: prefix
       character(:), allocatable :: lines
 
       character(:), allocatable :: words
@@ -119,7 +120,7 @@ contains
          character(:), allocatable :: text
 
          text = short_number(value)
-         if (shown_digits == 'all') text = exact_number(value)
+         if (prefix /= '') text = exact_number(value)
       end function text_of
 
    end function head_lines

@@ -41,7 +41,7 @@ contains
       real(dp) :: loads(size(results%scene%target))
 
       associate (scene => results%scene, surface => results%solver%surface)
-         call logger%say(head_lines(scene, surface, results%method, '', 'some'))
+         call logger%say(head_lines(scene, surface, results%method, ''))
          words = scene%deck_path(index(scene%deck_path, '/', back=.true.) + 1:)
          if (index(words//'.nml', '.nml') > 1) words = words(:index(words//'.nml', '.nml') - 1)
          if (.not. scene%scene_values%case%is_given .and. index(scene%case, words) /= 1) call logger%note( &

@@ -1,6 +1,6 @@
 !> Result files. A file gets its name when it is complete (src/base/system/written_file.c). A table may be written to
 !> memory in place of a file: the table in memory gets columns and rows, while lines written by `put` are left out. A
-!> second file may get the same table with commas between words, for spreadsheets.
+!> second file, or that file alone, may get the same table with commas between words, for spreadsheets.
 !>
 !> A table has header lines that start with '#', the last of them with the units of the columns, then one line with
 !> their names, then rows. gnuplot, numpy and pandas find columns by these names.
@@ -15,9 +15,9 @@ module wavycon_output_file
    implicit none (type, external)
    private
 
-   public :: comma_line, output_file
+   public :: output_file
 
-   !> Stands for a blank inside a word of a line.
+   !> Stands for a blank inside a word of a line of `put_words`: between commas it becomes a blank.
    character, parameter, public :: blank_mark = achar(31)
 
    !> How tables and files of numpy begin: a file of this name that begins otherwise is not replaced.
@@ -47,11 +47,11 @@ module wavycon_output_file
       private
       !> The table in memory that replaces the file; it must exist until `finish` is called.
       type(memory_table), pointer, public :: memory => null()
-      type(c_ptr) :: file = c_null_ptr            !! the open file, from open_written
+      type(c_ptr) :: file = c_null_ptr            !! the open file, from open_written, if `name` is allocated
       type(c_ptr) :: commas = c_null_ptr          !! the open file of the same table with commas, without a head
       character(:), allocatable :: comma_name     !! path of this file; not allocated if it is not written
       type(replaced_file) :: replaced(2)          !! files that `finish` removes
-      character(:), allocatable :: name           !! path of the file
+      character(:), allocatable :: name           !! path of the file; not allocated if it is not written
       character(:), allocatable :: trouble        !! message of the first error; not allocated if there was none
       type(column_type), allocatable :: columns(:)   !! columns of a table; not allocated for other files
       logical :: has_names = .false.              !! whether the line with the names of the columns was written
@@ -64,6 +64,7 @@ module wavycon_output_file
       procedure :: replace
       procedure :: is_open
       procedure :: put
+      procedure :: put_words
       procedure :: put_numbers
       procedure :: put_columns
       procedure :: begin_block
@@ -75,32 +76,33 @@ module wavycon_output_file
 contains
 
    !> Opens a file for writing. `finish` reports the errors of this and of all other procedures.
-   subroutine open_file(self, directory, name, head, comma_name)
+   subroutine open_file(self, path, head, comma_path)
       class(output_file), intent(out) :: self
-      character(*), intent(in) :: directory      !! an existing directory
-      character(*), intent(in) :: name           !! name of the file in the directory
-      character(*), intent(in), optional :: head !! the first bytes of a binary file; if absent it is a text
-      character(*), intent(in), optional :: comma_name   !! name of the file of the same table with commas
+      character(*), intent(in), optional :: path   !! in an existing directory; absent: only the file with commas
+      character(*), intent(in), optional :: head   !! the first bytes of a binary file; if absent it is a text
+      character(*), intent(in), optional :: comma_path   !! path of the file of the same table with commas
 
-      self%name = directory//'/'//name
-      self%file = open_written(self%name//c_null_char)
-      if (present(comma_name)) then
-         self%comma_name = directory//'/'//comma_name
-         self%commas = open_written(self%comma_name//c_null_char)
+      if (present(path)) then
+         self%name = path
+         self%file = open_written(path//c_null_char)
+      end if
+      if (present(comma_path)) then
+         self%comma_name = comma_path
+         self%commas = open_written(comma_path//c_null_char)
       end if
       if (present(head)) call check(self, put_text(self%file, head, len(head, c_size_t)))
    end subroutine open_file
 
    !> Makes `finish` remove a file of an earlier run that has the same table in another format, at most two such files.
-   subroutine replace(self, directory, name, mark)
-      class(output_file), intent(inout) :: self
-      character(*), intent(in) :: directory, name   !! as of `open`
-      character(*), intent(in) :: mark              !! the first bytes of such a file; another file of this name stays
+   subroutine replace(self, ending, mark)
+      class(output_file), intent(inout) :: self   !! with a path that has an ending
+      character(*), intent(in) :: ending          !! ending of its name, in place of that of this file
+      character(*), intent(in) :: mark            !! the first bytes of such a file; another file of this name stays
 
       integer :: i
 
       i = merge(2, 1, allocated(self%replaced(1)%name))
-      self%replaced(i)%name = directory//'/'//name
+      self%replaced(i)%name = self%name(:index(self%name, '.', back=.true.) - 1)//ending
       self%replaced(i)%mark = mark
    end subroutine replace
 
@@ -111,12 +113,12 @@ contains
       is_open = .not. allocated(self%trouble)
    end function is_open
 
-   !> Writes a line. A table in memory does not get it.
+   !> Writes a line. A table in memory and one with commas do not get it.
    subroutine put(self, line)
       class(output_file), intent(inout) :: self
       character(*), intent(in) :: line
 
-      if (allocated(self%trouble) .or. associated(self%memory)) return
+      if (allocated(self%trouble) .or. .not. allocated(self%name)) return
       call check(self, put_text(self%file, line//newline, len(line, c_size_t) + 1))
    end subroutine put
 
@@ -171,20 +173,27 @@ contains
    subroutine put_names(self)
       type(output_file), intent(inout) :: self
 
-      if (allocated(self%comma_name) .and. .not. self%has_names) &
-         call put_commas(self, comma_line(aligned(self, self%columns%name), self%units))
+      if (self%has_names) then
+         call self%put(aligned(self, self%columns%name))
+      else
+         call self%put_words(aligned(self, self%columns%name), self%units)
+      end if
       self%has_names = .true.
-      call self%put(aligned(self, self%columns%name))
    end subroutine put_names
 
-   !> Writes a line to the table with commas.
-   subroutine put_commas(self, line)
-      type(output_file), intent(inout) :: self
-      character(*), intent(in) :: line
+   !> Writes a line of words, to the file and with commas.
+   subroutine put_words(self, line, units)
+      class(output_file), intent(inout) :: self
+      character(*), intent(in) :: line                !! words, separated by blanks
+      character(*), intent(in), optional :: units     !! as in comma_line
 
-      if (self%is_open()) &
-         call check(self, put_text(self%commas, line//newline, len(line, c_size_t) + 1), self%comma_name)
-   end subroutine put_commas
+      character(:), allocatable :: text
+
+      call self%put(line)
+      if (allocated(self%trouble) .or. .not. allocated(self%comma_name)) return
+      text = comma_line(line, units)//newline
+      call check(self, put_text(self%commas, text, len(text, c_size_t)), self%comma_name)
+   end subroutine put_words
 
    !> The words of a line with commas between them. A word that has commas or quotes stands in quotes, and its quotes
    !> are doubled (RFC 4180). `blank_mark` becomes a blank.
@@ -246,8 +255,7 @@ contains
             line(self%column_end(k) - len_trim(words(i)) + 1:self%column_end(k)) = trim(words(i))
          end do
       end if
-      call self%put(line)
-      if (allocated(self%comma_name)) call put_commas(self, comma_line(line))
+      call self%put_words(line)
    end subroutine put_row
 
    !> Records an error of the operating system, if there is one.
@@ -282,7 +290,8 @@ contains
          return
       end if
       if (allocated(self%columns) .and. .not. self%has_names) call put_names(self)
-      call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
+      if (allocated(self%name)) &
+         call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
       if (allocated(self%comma_name)) &
          call check(self, end_written(self%commas, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int), self%comma_name)
       do i = 1, size(self%replaced)
@@ -296,13 +305,9 @@ contains
    subroutine remove_replaced(file)
       type(replaced_file), intent(in) :: file
 
-      integer :: kind
-      integer(c_int) :: refusal
-
       if (.not. allocated(file%name)) return
-      refusal = refusal_to_write(file%name//c_null_char, file%mark//c_null_char)
-      kind = path_kind(file%name)
-      if (refusal == 0 .and. kind == path_file) call remove_file(file%name)
+      if (path_kind(file%name) /= path_file) return
+      if (refusal_to_write(file%name//c_null_char, file%mark//c_null_char) == 0) call remove_file(file%name)
    end subroutine remove_replaced
 
 end module wavycon_output_file

@@ -114,20 +114,20 @@ contains
       character(*), intent(in) :: columns      !! name[unit] of each column; `unit_in_words` makes labels of the units
       type(output_file), intent(out) :: file
 
-      character(:), allocatable :: comma_name
+      character(:), allocatable :: path
       type(column_type), allocatable :: list(:)
 
       if (associated(self%memory)) then
          file%memory => self%memory
       else
-         comma_name = self%scene%case//'.'//table_file//'.csv'
+         path = self%scene%directory//'/'//self%scene%case//'.'//table_file
          if (self%scene%output%csv%is_true) then
-            call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat', comma_name=comma_name)
+            call file%open(path//'.dat', comma_path=path//'.csv')
          else
-            call file%open(self%scene%directory, self%scene%case//'.'//table_file//'.dat')
-            call file%replace(self%scene%directory, comma_name, columns(:index(columns, '[') - 1))
+            call file%open(path//'.dat')
+            call file%replace('.csv', columns(:index(columns, '[') - 1))
          end if
-         call file%put(head_lines(self%scene, self%solver%surface, self%method, '# ', 'all'))
+         call file%put(head_lines(self%scene, self%solver%surface, self%method, '# '))
          if (self%with_adhesion) then
             call file%put('# adhesion: the contacts are those with it; of each load the stable one of the largest area')
          else if (allocated(self%adhesion) .and. table_file /= 'adhesion') then

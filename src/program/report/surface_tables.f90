@@ -100,7 +100,7 @@ contains
          if (associated(results%memory)) then
             call results%open_table(trim(table%file), table%columns, file)
          else if (is_here) then
-            call file%open(results%scene%directory, results%scene%case//'.height.npy', npy_header(points([2, 1])))
+            call file%open(results%scene%directory//'/'//results%scene%case//'.height.npy', npy_header(points([2, 1])))
          end if
          if (surface%is_distributed()) then
             call slab%start(points)

@@ -74,15 +74,14 @@ contains
       integer, intent(out) :: status          !! the program's exit status: exit_fine, exit_not_converged or the error's
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: number   ! of settings
       type(results_type) :: results
       type(scene_type), allocatable :: scene
-      type(setting_type), allocatable :: settings(:)
+      type(setting_type), allocatable :: settings(:)   ! if not allocated, the optional argument is absent
 
-      number = 0
-      if (directory /= '') number = 1
-      allocate (settings(number))
-      if (number == 1) settings(1) = setting_type('output', 'directory', directory)
+      if (directory /= '') then
+         allocate (settings(1))
+         settings(1) = setting_type('output', 'directory', directory)
+      end if
       status = exit_fine
       allocate (scene)
       call read_deck(path, scene, error, settings)
@@ -250,7 +249,7 @@ contains
       type(scene_type), intent(in) :: scene
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: failure, name, text
+      character(:), allocatable :: failure, path, text
       type(output_file) :: file
 
       call make_directories(scene%directory, failure)
@@ -259,15 +258,15 @@ contains
                           ': the output directory cannot be made: '//escaped(failure))
          return
       end if
-      name = scene%case//'.resolved.nml'
+      path = scene%directory//'/'//scene%case//'.resolved.nml'
       ! If the deck is itself the resolved deck that would be written, with the same values, it stays. The first lines
       ! are not compared: they name different decks.
-      if (full_path(scene%directory//'/'//name) == full_path(scene%deck_path)) then
+      if (full_path(path) == full_path(scene%deck_path)) then
          call read_file(scene%deck_path, huge(0), text, error)
          if (allocated(error)) return
          if (text(index(text, newline):) == scene%resolved_deck(index(scene%resolved_deck, newline):)//newline) return
       end if
-      call file%open(scene%directory, name)
+      call file%open(path)
       call file%put(scene%resolved_deck)
       call file%finish(error)
    end subroutine prepare_directory
