@@ -132,6 +132,14 @@ contains
          part = pi*radius**2/cell_area
          if (pools) part = 1.0_dp - part
          call curve%problem%find_point(pools, part, point, start)
+         if (ratio <= 0.0_dp .and. point%exists .and. &
+             point%value(2 + merge(at_load, at_approach, pools)) > 0.0_dp) then
+            ! Neighbours have moved the first extreme to before this point: start from a smaller spot or pool.
+            step = 0.7_dp*radius
+            radius = step
+            full_step = step
+            cycle
+         end if
          ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
          if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
              abs(point%value(2 + at_approach)) <= 0.5_dp*point%slope_error(at_approach)) then
@@ -266,22 +274,11 @@ contains
       type(adhesive_point) :: point
 
       known = size(curve%at_loads)
-      if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
-         ! The closed forms hold at any area, also beyond the ends of the computed curve.
-         call curve%problem%find_point(.false., target, point)
-         curve%at_loads = [curve%at_loads, point]
-         curve%at_loads(known + 1)%number = number
-         return
-      end if
-      do i = 1, size(curve%knots) - 1
+      if (which == 0) call add_contacts_of_area(curve, target)
+      do i = 1, merge(size(curve%knots) - 1, 0, which > 0)
          associate (here => curve%knots(i), after => curve%knots(i + 1))
-            if (which > 0) then
-               if (.not. is_between(here, after, which, target)) cycle
-               call find_zero(curve, which, target, here, after, point)
-            else
-               if ((here%pools .neqv. after%pools) .or. ((here%area < target) .eqv. (after%area < target))) cycle
-               call curve%problem%find_point(here%pools, target, point, here%answer)
-            end if
+            if (.not. is_between(here, after, which, target)) cycle
+            call find_zero(curve, which, target, here, after, point)
          end associate
          if (point%exists) curve%at_loads = [curve%at_loads, point]
       end do
@@ -290,6 +287,27 @@ contains
       if (.not. is_found) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
+
+   !> Adds to `at_loads` the contacts of a given area, of each branch that has it. Before the first point of a branch
+   !> they start from the asymptote of small spots or pools. Closed forms hold at any area.
+   subroutine add_contacts_of_area(curve, area)
+      type(adhesive_curve), intent(inout) :: curve
+      real(dp), intent(in) :: area     !! area fraction
+
+      integer :: before, branch, first   ! numbers of knots: how many come before the area, the branch's first one
+      type(adhesive_point) :: point
+
+      if (.not. (area > 0.0_dp .and. area < 1.0_dp)) return
+      do branch = 1, merge(1, 2, curve%problem%has_closed_form)
+         associate (are_meant => curve%knots%pools .eqv. branch == 2)
+            before = count(are_meant .and. (curve%knots%area < area .neqv. branch == 2))
+            if (before == count(are_meant) .and. .not. curve%problem%has_closed_form) cycle
+            first = findloc(are_meant, .true., dim=1)
+            call curve%problem%find_point(branch == 2, area, point, curve%knots(first + max(before - 1, 0))%answer)
+         end associate
+         if (point%exists) curve%at_loads = [curve%at_loads, point]
+      end do
+   end subroutine add_contacts_of_area
 
    !> The contact at a load of the deck as a solution with fields. Of several stable contacts the one with the largest
    !> area is taken, which the bodies reach by unloading. If an approach is given, contacts that are stable at the
@@ -393,6 +411,8 @@ contains
             next = area(n) - miss(n)/curvature
          else if (n > 2 .and. .not. is_extreme) then
             next = area(n) - miss(n)/point%value(2 + which)
+         else if (n == 2) then
+            next = foretold(first, last, which, target)
          else
             next = interpolated(area(max(1, n - 2 + fine/2):n), miss(max(1, n - 2 + fine/2):n))
          end if
@@ -468,6 +488,33 @@ contains
       end subroutine step_to_extreme
 
    end subroutine find_zero
+
+   !> The area between two points at which load, approach or one of their derivatives has a given value, by the cubic that
+   !> has the loads or approaches of the points and their derivatives. Bisection, as the cubic costs nothing.
+   pure real(dp) function foretold(first, last, which, target) result(area)
+      type(adhesive_point), intent(in) :: first, last
+      integer, intent(in) :: which                       !! as of find_zero
+      real(dp), intent(in) :: target                     !! as of find_zero
+
+      real(dp) :: c(0:3), step, t   ! t: from 0 at `first` to 1 at `last`
+      integer :: i
+
+      associate (whole => last%area - first%area, rise => last%value - first%value, of => modulo(which - 1, 2) + 1)
+         associate (slope => whole*[first%value(2 + of), last%value(2 + of)])
+            c = [first%value(of) - target, slope(1), 3*rise(of) - 2*slope(1) - slope(2), sum(slope) - 2*rise(of)]
+         end associate
+         if (which > 2) c = [c(1:)*[1, 2, 3], 0.0_dp]
+         t = 0.0_dp
+         step = 1.0_dp
+         do i = 1, digits(t)
+            step = 0.5_dp*step
+            associate (x => t + step)
+               if (c(0) > 0.0_dp .eqv. c(0) + x*(c(1) + x*(c(2) + x*c(3))) > 0.0_dp) t = x
+            end associate
+         end do
+         area = first%area + t*whole
+      end associate
+   end function foretold
 
    !> The argument at which a function is 0, by inverse interpolation of its values (Neville's algorithm).
    pure real(dp) function interpolated(arguments, values) result(zero)
