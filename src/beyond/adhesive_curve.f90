@@ -86,8 +86,11 @@ contains
                p1 = p1/(1.0_dp + p1)
                area = 2/pi*asin(sqrt(p1))
             else
-               contact = hertz_of_ball(curve%problem%surface, load=p1)
-               area = contact%contact_area()/curve%problem%surface%nominal_area()
+               associate (surface => curve%problem%surface)
+                  contact = hertz_contact(ball_radii(surface), 1.0_dp, &
+                                          force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+                  area = contact%contact_area()/surface%nominal_area()
+               end associate
             end if
          end associate
          call curve%problem%find_point(.false., area, point)
@@ -106,6 +109,7 @@ contains
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
+      logical :: is_past   ! whether the point is the first one and past the first extreme
       type(adhesive_point) :: point
       type(adhesive_problem) :: finer
       type(fitted_answer) :: start
@@ -132,14 +136,6 @@ contains
          part = pi*radius**2/cell_area
          if (pools) part = 1.0_dp - part
          call curve%problem%find_point(pools, part, point, start)
-         if (ratio <= 0.0_dp .and. point%exists .and. &
-             point%value(2 + merge(at_load, at_approach, pools)) > 0.0_dp) then
-            ! Neighbours have moved the first extreme to before this point: start from a smaller spot or pool.
-            step = 0.7_dp*radius
-            radius = step
-            full_step = step
-            cycle
-         end if
          ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
          if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
              abs(point%value(2 + at_approach)) <= 0.5_dp*point%slope_error(at_approach)) then
@@ -148,7 +144,9 @@ contains
          end if
          ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
-         if (point%exists .and. &
+         ! Neighbours may have moved the first extreme to before the first point: this is then tried at half the radius.
+         is_past = point%exists .and. ratio <= 0.0_dp .and. point%value(2 + merge(at_load, at_approach, pools)) > 0.0_dp
+         if (point%exists .and. .not. is_past .and. &
              maxval(point%error) <= min(worst_error*curve%problem%accuracy, largest_error)) then
             call add_point(curve, point)
             start = point%answer
@@ -171,7 +169,7 @@ contains
          else
             radius = radius - step
             step = 0.5_dp*step
-            if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
+            if ((ratio <= 0.0_dp .and. .not. is_past) .or. step < least_step*full_step) exit
          end if
          radius = radius + step
       end do
@@ -390,9 +388,10 @@ contains
       !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
       !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
       !> of the last point. `curvature`, `distance`: the derivative of the slope, from two areas so far apart.
-      !> `curvature_error`: relative. `solved`: larger error of the last solution, before the step by the derivatives.
+      !> `curvature_error`: relative. `middle`: the miss between `first` and `last`. `solved`: larger error of the last
+      !> solution, before the step by the derivatives.
       real(dp) :: area(most_steps), bracket(2), changes(2), curvature, curvature_error, distance, errors(2), &
-         miss(most_steps), next, solved
+         middle, miss(most_steps), next, solved
       type(adhesive_problem) :: problem
 
       problem = curve%problem
@@ -404,6 +403,14 @@ contains
          area(:2) = area([2, 1])
          miss(:2) = miss([2, 1])
       end if
+      ! By the cubic that has the values and slopes of `first` and `last`.
+      associate (rise => last%value - first%value, whole => last%area - first%area)
+         if (is_extreme) then
+            middle = 1.5_dp*rise(which - 2)/whole - 0.25_dp*sum(miss(:2))
+         else
+            middle = 0.5_dp*sum(miss(:2)) - 0.125_dp*whole*rise(2 + which)
+         end if
+      end associate
       bracket = area(:2)
       fine = 0
       do n = 2, most_steps - 1
@@ -412,7 +419,7 @@ contains
          else if (n > 2 .and. .not. is_extreme) then
             next = area(n) - miss(n)/point%value(2 + which)
          else if (n == 2) then
-            next = foretold(first, last, which, target)
+            next = interpolated([area(1), 0.5_dp*sum(area(:2)), area(2)], [miss(1), middle, miss(2)])
          else
             next = interpolated(area(max(1, n - 2 + fine/2):n), miss(max(1, n - 2 + fine/2):n))
          end if
@@ -489,33 +496,6 @@ contains
 
    end subroutine find_zero
 
-   !> The area between two points at which load, approach or one of their derivatives has a given value, by the cubic that
-   !> has the loads or approaches of the points and their derivatives. Bisection, as the cubic costs nothing.
-   pure real(dp) function foretold(first, last, which, target) result(area)
-      type(adhesive_point), intent(in) :: first, last
-      integer, intent(in) :: which                       !! as of find_zero
-      real(dp), intent(in) :: target                     !! as of find_zero
-
-      real(dp) :: c(0:3), step, t   ! t: from 0 at `first` to 1 at `last`
-      integer :: i
-
-      associate (whole => last%area - first%area, rise => last%value - first%value, of => modulo(which - 1, 2) + 1)
-         associate (slope => whole*[first%value(2 + of), last%value(2 + of)])
-            c = [first%value(of) - target, slope(1), 3*rise(of) - 2*slope(1) - slope(2), sum(slope) - 2*rise(of)]
-         end associate
-         if (which > 2) c = [c(1:)*[1, 2, 3], 0.0_dp]
-         t = 0.0_dp
-         step = 1.0_dp
-         do i = 1, digits(t)
-            step = 0.5_dp*step
-            associate (x => t + step)
-               if (c(0) > 0.0_dp .eqv. c(0) + x*(c(1) + x*(c(2) + x*c(3))) > 0.0_dp) t = x
-            end associate
-         end do
-         area = first%area + t*whole
-      end associate
-   end function foretold
-
    !> The argument at which a function is 0, by inverse interpolation of its values (Neville's algorithm).
    pure real(dp) function interpolated(arguments, values) result(zero)
       real(dp), intent(in) :: arguments(:), values(:)   !! arguments of the function and its values there
@@ -531,14 +511,5 @@ contains
       end do
       zero = p(1)
    end function interpolated
-
-   !> Hertz's contact of a ball under a load. The modulus is set to 1, as it does not matter in units of p* and Delta.
-   pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)
-      type(surface_type), intent(in) :: surface   !! a ball
-      real(dp), intent(in) :: load                !! P [p*]
-
-      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
-                              force=load*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
-   end function hertz_of_ball
 
 end module wavycon_adhesive_curve
