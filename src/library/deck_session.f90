@@ -180,7 +180,8 @@ contains
          call keys(1)%take_value(k, number=value)
       end if
       call keys(1)%check_relations()
-      call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given)
+      call check_load_group(values, self%results%scene%interface%work_of_adhesion%is_given, &
+                            self%results%scene%interface%friction%is_given)
       if (values%problems%number == 0) call take_loads(values, self%results%solver%surface, self%scale%p_star, &
                                                        self%results%scene%interface%work_of_adhesion%is_given, &
                                                        loads_by, target, mean_pressure)

@@ -83,10 +83,11 @@ contains
          needs='sweep_from'))
    end subroutine list_load_keys
 
-   !> Checks the keys. Tensions and separations without adhesion, and contradictions, are reported.
-   subroutine check_load_group(values, with_adhesion)
+   !> Checks the keys. Tensions and separations without adhesion or with friction, and contradictions, are reported.
+   subroutine check_load_group(values, with_adhesion, with_friction)
       type(load_group), intent(inout) :: values
       logical, intent(in) :: with_adhesion   !! whether loads may be tensions, and approaches separations
+      logical, intent(in) :: with_friction   !! whether partial slip is asked for, which is that without adhesion
 
       character(:), allocatable :: key, word
       integer :: loads_by, position
@@ -99,6 +100,9 @@ contains
       if (minval(loads) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
          key//' = '//short_number(minval(loads))//' is a '//word// &
          ': without work_of_adhesion of &interface it is >= 0')
+      if (minval(loads) < 0.0_dp .and. with_adhesion .and. with_friction) call values%problems%add(position, &
+         key//' = '//short_number(minval(loads))//' is a '//word// &
+         ', and partial slip is computed without adhesion: leave friction of &interface out')
       if (with_adhesion .and. any(loads_by == [by_yield, by_percolation])) call values%problems%add(position, &
          'the load of '//key//' is found without adhesion: leave '//key//' or work_of_adhesion of &interface out')
       if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &

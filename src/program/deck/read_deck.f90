@@ -93,7 +93,8 @@ contains
       if (present(settings)) call name_case(scene%scene_values, settings)
       call read_surface(scene, error, heights)
       call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star)
-      call check_load_group(scene%load, scene%interface%work_of_adhesion%is_given)
+      call check_load_group(scene%load, scene%interface%work_of_adhesion%is_given, &
+                            scene%interface%friction%is_given)
       if (scene%material%problems%number + scene%load%problems%number == 0 .and. &
           .not. (scene%material%any_bad .or. scene%load%any_bad) .and. scene%load%position > 0 .and. &
           allocated(scene%surface)) call take_loads(scene%load, scene%surface, scene%p_star, &
