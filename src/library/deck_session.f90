@@ -186,7 +186,8 @@ contains
       end if
       call keys(1)%check_relations()
       call check_load_group(values, self%results%solver%surface, self%scale%e_star, &
-                            self%results%scene%interface%work_of_adhesion%is_given, loads_by, target, mean_pressure)
+                            self%results%scene%interface%work_of_adhesion%is_given, &
+                            self%results%scene%interface%friction%is_given, loads_by, target, mean_pressure)
       if (values%problems%number > 0) then
          call fatal_error(error, exit_bad_input, '&load: '//values%problems%items(1)%words)
       else

@@ -1,6 +1,6 @@
 !> Hertz's contact of a ball with free edges (src/core/contact/hertz_ball.f90). The measures, the fields at the surface
-!> and the edge of contact are closed forms. The stresses are computed on grids, on a rectangle in proportion to the
-!> contact; those of a round ball with adhesion are closed forms too.
+!> and the edge of contact are closed forms, and so are the stresses below a round ball. Those of unequal radii are
+!> computed on grids, on a rectangle in proportion to the contact.
 !>
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_ball_source
@@ -34,7 +34,7 @@ module wavycon_ball_source
       !> The contact, lengths in [length] and pressures in E*. With adhesion its approach includes the effect of the
       !> tension.
       type(hertz_ball) :: contact
-      real(dp) :: accuracy = 0.0_dp     !! accuracy of the grids for the stresses, as in grid_options
+      real(dp) :: accuracy = 0.0_dp     !! of unequal radii: accuracy of the grids for the stresses, as in grid_options
    contains
       procedure :: fields
       procedure :: contact_contours
@@ -49,8 +49,8 @@ module wavycon_ball_source
       procedure :: at
    end type ball_fields
 
-   !> Stresses below a ball, computed on a smaller rectangle with the crest at the same angles. Angles X, Y, Z [rad] are
-   !> 2 pi times a length over a side of the cell.
+   !> Stresses below a ball of unequal radii, computed on a smaller rectangle with the crest at the same angles. Angles
+   !> X, Y, Z [rad] are 2 pi times a length over a side of the cell.
    type, extends(stress_fields) :: ball_stress_fields
       class(stress_fields), allocatable :: own   !! the stresses on the smaller rectangle, in its units
       real(dp) :: angle_ratio(3) = 1.0_dp        !! angles X, Y, Z on the smaller rectangle over those on the surface
@@ -60,13 +60,14 @@ module wavycon_ball_source
       procedure :: start_points
    end type ball_stress_fields
 
-   !> Stresses below a round ball with adhesion. Their mean pressure is 0, as nothing acts far away.
-   type, extends(stress_fields) :: adhesive_ball_stress_fields
+   !> Stresses below a round ball, with adhesion or without. Their mean pressure is 0, as nothing acts far away.
+   type, extends(stress_fields) :: round_ball_stress_fields
       real(dp) :: to_radius(2) = 0.0_dp             !! x and y of X = Y = 1 over the radius of contact
-      real(dp) :: hertz = 0.0_dp, punch = 0.0_dp    !! as of round_spot_stress [p*]
+      real(dp) :: hertz = 0.0_dp, punch = 0.0_dp    !! as of round_spot_stress [p*]; punch is 0 without adhesion
    contains
-      procedure :: at => stress_with_adhesion
-   end type adhesive_ball_stress_fields
+      procedure :: at => stress_of_round_ball
+      procedure :: start_points => start_below_round_ball
+   end type round_ball_stress_fields
 
 contains
 
@@ -201,8 +202,9 @@ contains
       loads = [1.0_dp]
    end subroutine contact_contours
 
-   !> The stresses below the ball, computed on grids on a rectangle whose sides are four half axes. So the step of the
-   !> grid is the same part of the contact at every load. With adhesion the ball is round, and they are closed forms.
+   !> The stresses below the ball: closed forms (I23) of src/beyond if it is round, as it is with adhesion. Those of
+   !> unequal radii are computed on grids on a rectangle whose sides are four half axes. So the step of the grid is the
+   !> same part of the contact at every load.
    subroutine stresses(self, surface, answer)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
@@ -213,9 +215,9 @@ contains
       type(grid_contact) :: solver
       type(surface_type) :: own
 
-      if (self%contact%tension > 0.0_dp) then
+      if (maxval(self%contact%half_axis) <= minval(self%contact%half_axis)) then
          associate (contact => self%contact, p_star => surface%full_contact_pressure(1.0_dp))
-            allocate (answer, source=adhesive_ball_stress_fields( &
+            allocate (answer, source=round_ball_stress_fields( &
                maps_in_cell=surface%maps_in_cell(), side_ratio=surface%length(2)/surface%length(1), &
                to_radius=surface%length/(2*pi*contact%half_axis), hertz=contact%peak_pressure/p_star, &
                punch=contact%tension/(2*contact%contact_area()*p_star)))
@@ -270,23 +272,44 @@ contains
       places%width = places%width/maxval(self%angle_ratio)
    end subroutine start_points
 
-   !> The stresses at a point below a round ball with adhesion.
-   subroutine stress_with_adhesion(self, x, y, depth, nu_terms, error)
-      class(adhesive_ball_stress_fields), intent(inout) :: self
+   !> The stresses at a point below a round ball.
+   subroutine stress_of_round_ball(self, x, y, depth, nu_terms, error)
+      class(round_ball_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: x, y
       real(dp), intent(in) :: depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
-      !> Error relative to the pressures and, next to the edge, to the stress over the distance from the edge.
+      !> Error of a place over the side of the cell, and of the stress over the pressures.
       real(dp), parameter :: rounding = 1e-14_dp
       real(dp) :: place(3)   ! from the middle of the contact, over its radius
 
       place = self%to_radius([1, 2, 1])*([x, y, depth] - [0.5_dp*pi, 0.5_dp*pi, 0.0_dp])
       call round_spot_stress(cmplx(place(1), place(2), dp), place(3), self%hertz, self%punch, nu_terms)
-      if (present(error)) error = rounding*(self%hertz + self%punch + maxval(abs(nu_terms)) &
-                                            /max(hypot(norm2(place(:2)) - 1.0_dp, place(3)), epsilon(error)))
-   end subroutine stress_with_adhesion
+      if (.not. present(error)) return
+      associate (from_edge => max(hypot(norm2(place(:2)) - 1.0_dp, place(3)), epsilon(error)))
+         error = rounding*(self%hertz + self%punch + maxval(self%to_radius)*self%hertz/sqrt(from_edge))
+         if (self%punch > 0.0_dp) error = error + rounding*maxval(self%to_radius)*maxval(abs(nu_terms))/from_edge
+      end associate
+   end subroutine stress_of_round_ball
+
+   !> Places at which searches for the largest stress start: below the middle of the contact, and at the edge, where the
+   !> largest stress is if Poisson's ratio is far below 0.
+   subroutine start_below_round_ball(self, body, places)
+      class(round_ball_stress_fields), intent(inout) :: self
+      type(elastic_body), intent(in) :: body
+      type(start_point), allocatable, intent(out) :: places(:)
+
+      !> Distances from the middle, and depths, over the radius of contact.
+      real(dp), parameter :: across(*) = [0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], below(*) = [0.25_dp, 0.5_dp, 0.75_dp, 0.0_dp]
+      integer :: i
+
+      associate (radius => 1.0_dp/self%to_radius(1))
+         places = [(start_point([0.5_dp*pi + across(i)*radius, 0.5_dp*pi, below(i)*radius], 0.25_dp*radius), &
+                    i=1, size(across))]
+      end associate
+      call self%set_stresses(body, places)
+   end subroutine start_below_round_ball
 
    !> Derivatives with respect to the load. Approach and area are both proportional to the force to the power 2/3.
    subroutine derivatives(self, surface, answer)

@@ -28,7 +28,7 @@ module wavycon_closed_form_contact
    public :: closed_form_contact, closed_form_exists, closed_form_source, closed_form_stress_fields
 
    type, extends(contact_solver) :: closed_form_contact
-      real(dp) :: accuracy = default_accuracy   !! accuracy of the grids that give the stresses below a ball
+      real(dp) :: accuracy = default_accuracy   !! of the grids for the stresses below a ball of unequal radii
    contains
       procedure :: start
       procedure :: solve_partial_contact

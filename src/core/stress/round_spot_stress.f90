@@ -1,4 +1,4 @@
-!> Stresses below a round spot in closed form: those of Hertz's pressure and of a flat punch, for a ball with adhesion.
+!> Stresses below a round spot in closed form: those of Hertz's pressure and, for a ball with adhesion, of a flat punch.
 !>
 !> Lengths are over the radius of the spot, and c = z + i. A point at the complex depth c has the potential of the flat
 !> punch: with R = (r^2 + c^2)^(1/2), Re R >= 0, the function -Im(1/R) is (1 - r^2)^(-1/2) on the spot, 0 outside of it,
@@ -14,8 +14,8 @@ module wavycon_round_spot_stress
 
 contains
 
-   !> The stresses of the pressure hertz (1 - r^2)^(1/2) - punch (1 - r^2)^(-1/2) on the spot r < 1. They are infinite
-   !> at its edge, and huge numbers there.
+   !> The stresses of the pressure hertz (1 - r^2)^(1/2) - punch (1 - r^2)^(-1/2) on the spot r < 1. Those of the punch
+   !> are infinite at its edge, and huge numbers there.
    pure subroutine round_spot_stress(place, z, hertz, punch, nu_terms)
       complex(dp), intent(in) :: place         !! x + i y from the middle of the spot, over its radius
       real(dp), intent(in) :: z                !! depth over the radius, >= 0

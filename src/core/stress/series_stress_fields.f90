@@ -276,6 +276,8 @@ contains
       do i = 1, size(t)
          sums = 0.0_dp
          do m = lbound(along, 2), ubound(along, 2)
+            ! Beyond the cell about a map with free edges the waves are those of its images.
+            if (allocated(self%load) .and. any(abs(start + direction*t(i) - 0.5_dp*pi) > pi)) exit
             sums = sums + real(along(:, m)*turn(m*t(i)))
          end do
          nu_terms(:, :, i) = nu_terms_of(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))

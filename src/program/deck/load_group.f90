@@ -84,15 +84,17 @@ contains
    end subroutine list_load_keys
 
    !> Checks the keys and, if the group has no problems, converts its loads to the program's normalisation. Tensions and
-   !> separations without adhesion, and contradictions, are reported. So are loads that the surface cannot have: a mean
-   !> gap above that before load, an area above the nominal area, a pressure above largest_pbar_over_pstar p*, a gap or
-   !> an area on a flat surface, and on a surface with free edges loads that refer to p*. A gap, approach or area may
-   !> exceed its limit by rounding. On a flat surface, whose p* is 0, loads over p* are reported too.
-   subroutine check_load_group(values, surface, e_star, with_adhesion, loads_by, target, mean_pressure)
+   !> separations without adhesion or with friction, and contradictions, are reported. So are loads that the surface
+   !> cannot have: a mean gap above that before load, an area above the nominal area, a pressure above
+   !> largest_pbar_over_pstar p*, a gap or an area on a flat surface, and on a surface with free edges loads that refer to
+   !> p*. A gap, approach or area may exceed its limit by rounding. On a flat surface, whose p* is 0, loads over p* are
+   !> reported too.
+   subroutine check_load_group(values, surface, e_star, with_adhesion, with_friction, loads_by, target, mean_pressure)
       type(load_group), intent(inout) :: values
       type(surface_type), intent(in), optional :: surface        !! absent if it could not be made
       real(dp), intent(in) :: e_star                             !! E* [pressure]; 0 if &material is bad
       logical, intent(in) :: with_adhesion                       !! whether tensions and separations are allowed
+      logical, intent(in) :: with_friction                       !! whether partial slip, without adhesion, is asked for
       integer, intent(out) :: loads_by                           !! by_pressure or another name of wavycon_scene
       real(dp), allocatable, intent(out) :: target(:)            !! the component of scene_type
       real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
@@ -111,6 +113,9 @@ contains
       if (minval(target) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
          key//' = '//short_number(minval(target))//' is a '//word// &
          ': without work_of_adhesion of &interface it is >= 0')
+      if (minval(target) < 0.0_dp .and. with_adhesion .and. with_friction) call values%problems%add(position, &
+         key//' = '//short_number(minval(target))//' is a '//word// &
+         ', and partial slip is computed without adhesion: leave friction of &interface out')
       if (with_adhesion .and. any(loads_by == [by_yield, by_percolation])) call values%problems%add(position, &
          'the load of '//key//' is found without adhesion: leave '//key//' or work_of_adhesion of &interface out')
       if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &

@@ -94,7 +94,7 @@ contains
       call read_surface(scene, error, heights)
       call check_material_group(scene%material, scene%surface, scene%e_star, scene%p_star)
       call check_load_group(scene%load, scene%surface, scene%e_star, scene%interface%work_of_adhesion%is_given, &
-                            scene%loads_by, scene%target, scene%mean_pressure)
+                            scene%interface%friction%is_given, scene%loads_by, scene%target, scene%mean_pressure)
       call check_stress_group(scene%stress, scene%material, scene%load, scene%surface, scene%p_star, &
                               scene%stress_setting)
       call check_method_group(scene%method, scene%load, scene%surface)

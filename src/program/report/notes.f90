@@ -13,7 +13,7 @@ module wavycon_notes
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
    use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, last_before, &
       main_quantities, mean_gap, peak_pressure, percolation
-   use wavycon_results, only: results_type
+   use wavycon_results, only: results_type, status_tables
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_yield, scene_type, target_words
    use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
@@ -328,20 +328,22 @@ contains
       end associate
       call logger%say(outcome(results))
       status = exit_fine
-      if (.not. all([(results%is_solved(load), load=1, size(results%loads))])) status = exit_not_converged
+      if (.not. all([(results%is_solved_in(load), load=1, size(results%loads))])) status = exit_not_converged
    end subroutine sum_up
 
-   !> A line that says how many loads of a run were solved as requested.
+   !> A line that says how many loads of a run were solved as requested, and which tables have the bad statuses.
    function outcome(results) result(words)
       type(results_type), intent(in) :: results   !! with a solution for each load
       character(:), allocatable :: words
 
-      integer :: bad, load
+      integer :: load
+      logical :: solved(size(status_tables), size(results%loads))
 
-      bad = count([(.not. results%is_solved(load), load=1, size(results%loads))])
+      solved = reshape([(results%is_solved_in(load), load=1, size(results%loads))], shape(solved))
       words = results%scene%case//': all '//integer_text(size(results%loads))//' loads solved'
-      if (bad > 0) words = results%scene%case//': '//integer_text(bad)//' of '//integer_text(size(results%loads))// &
-                           ' loads NOT solved as requested, see the status column'
+      if (.not. all(solved)) words = results%scene%case//': '//integer_text(count(.not. all(solved, 1)))//' of '// &
+         integer_text(size(results%loads))//' loads NOT solved as requested, see the status in '// &
+         listed(pack(status_tables, .not. all(solved, 2)), ' and ')
    end function outcome
 
    !> Notes what a user should know of solutions: what is not resolved, not reached, not defined or doubtful.

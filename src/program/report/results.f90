@@ -24,6 +24,10 @@ module wavycon_results
 
    public :: results_type, not_a_number
 
+   !> The tables of a run whose status says whether a load was solved as requested.
+   character(*), parameter, public :: status_tables(4) = [character(14) :: 'summary', 'stress_largest', &
+      'partial_slip', 'adhesion']
+
    !> Most bytes of the label of a unit, with '1/' before it or '^2' after it.
    integer, parameter :: longest_unit = 24
 
@@ -61,7 +65,7 @@ module wavycon_results
       procedure :: number
       procedure :: mean_pressure
       procedure :: stress_status
-      procedure :: is_solved
+      procedure :: is_solved_in
    end type results_type
 
 contains
@@ -187,22 +191,24 @@ contains
       if (.not. ieee_is_nan(largest%error)) is_doubtful = largest%error > largest_stress_error*largest%value
    end function is_doubtful
 
-   !> Whether a load was solved as requested, and so were its largest stresses, its partial slip and its contacts with
-   !> adhesion if the deck asks for these. Full slip and separated bodies count as solved.
-   pure logical function is_solved(self, load)
+   !> Whether a load was solved as requested, by its status in each of `status_tables`. Full slip and separated bodies
+   !> count as solved, and so does a table that the deck does not ask for.
+   pure function is_solved_in(self, load) result(answer)
       class(results_type), intent(in) :: self
       integer, intent(in) :: load    !! number of the load in the deck's order
+      logical :: answer(size(status_tables))
 
       integer :: body
 
-      is_solved = is_good_status(self%loads(load)%status)
-      if (allocated(self%largest_stresses)) is_solved = is_solved .and. &
-         all([(is_good_status(self%stress_status(load, body)), body=1, size(self%largest_stresses, 2))])
-      if (allocated(self%slip)) is_solved = is_solved .and. &
-         all(self%slip(:, load)%slides .or. is_good_status(self%slip(:, load)%status))
-      if (allocated(self%adhesion)) is_solved = is_solved .and. &
-         all(self%adhesion%at_loads%number /= load .or. is_good_status(self%adhesion%at_loads%status))
-   end function is_solved
+      answer = .true.
+      answer(1) = is_good_status(self%loads(load)%status)
+      if (allocated(self%largest_stresses)) &
+         answer(2) = all([(is_good_status(self%stress_status(load, body)), body=1, size(self%largest_stresses, 2))])
+      if (allocated(self%slip)) &
+         answer(3) = all(self%slip(:, load)%slides .or. is_good_status(self%slip(:, load)%status))
+      if (allocated(self%adhesion)) &
+         answer(4) = all(self%adhesion%at_loads%number /= load .or. is_good_status(self%adhesion%at_loads%status))
+   end function is_solved_in
 
    !> Begins the block of a load with a comment (number, mean pressure, status) and the names of the columns.
    subroutine begin_block(self, file, load)

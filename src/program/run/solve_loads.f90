@@ -233,7 +233,7 @@ contains
          end do
          bad = count(.not. (results%slip%slides .or. is_good_status(results%slip%status)))
          if (bad > 0) call logger%note('partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
-            integer_text(size(results%slip))//' tangential loads, see the status column')
+            integer_text(size(results%slip))//' tangential loads, see the status in partial_slip')
       end associate
    end subroutine find_slip
 
@@ -279,7 +279,7 @@ contains
          call logger%say('adhesion: the contacts of the loads are in the table of adhesion, those above are without it')
          bad = count(.not. is_good_status(curve%at_loads%status))
          if (bad > 0) call logger%note('adhesion is NOT solved as requested at '//integer_text(bad)//' of '// &
-            integer_text(size(curve%at_loads))//' contacts of the loads, see the status column')
+            integer_text(size(curve%at_loads))//' contacts of the loads, see the status in adhesion')
          do i = 1, size(curve%critical)
             associate (point => curve%critical(i))
                mean_pressure = results%scene%p_star*point%value(at_load)
