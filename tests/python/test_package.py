@@ -634,7 +634,10 @@ except ImportError as error: print(error)"""
         self.refuse("there is no key 'sed'", wc.run, "rough.nml", {"surface.sed": 1})
         self.refuse("group.key=value", wc.run, "rough.nml", {"seed": 1})
         self.refuse("number", wc.set_threads, 0)
-        self.refuse("", wc.load, "rough.nml")
+        numpy.save("h.npy", numpy.eye(8))
+        numpy.savez("h.npz", h=numpy.eye(8))
+        for name in "rough.nml", "h.npy", "h.npz":
+            self.refuse(f"{name}: this is no file that Results.save", wc.load, name)
         self.refuse("", wc.load, "none.npz", error=OSError)
 
     def test_memory(self):
