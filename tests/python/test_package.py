@@ -278,6 +278,17 @@ class Digits(PackageTest):
         self.refuse("no channel 'Height'", wc.read, "map.gsf", "Height")
         self.refuse("leave out length_x", wc.solve, wc.read("map.gsf", length_x=1), pbar_over_pstar=0)
 
+    def test_grids_of_esri(self):
+        """The program reads them: they have steps, and their first row is that of the largest y."""
+        h = numpy.random.default_rng(1).normal(size=(12, 16))
+        numpy.savetxt("map.asc", h, header="NCOLS 16\nNROWS 12\nXLLCORNER 0\nYLLCORNER 0\nCELLSIZE 0.5", comments="")
+        results = wc.solve(wc.read("map.asc"), pbar_over_pstar=0)
+        self.assertEqual((8, 6), (results.length_x, results.length_y))
+        expected = wc.solve(wc.heights(h[::-1], length_x=8), pbar_over_pstar=0)[0].gap
+        numpy.testing.assert_allclose(results[0].gap, expected, atol=1e-12)
+        with self.assertRaisesRegex(SystemExit, "decks read this grid of ESRI as it is"):
+            convert(["map.asc", "map.npy"])
+
     def test_gsf_keeps_heights_beside_a_large_mean(self):
         h = numpy.random.default_rng(1).uniform(size=(12, 16))
         h[2, 3] = numpy.nan

@@ -114,7 +114,7 @@ class Names(ValuesTest):
             self.assertFalse(hasattr(thing, "_none"))
         self.refuse("'pressure' here: one load has it", lambda: results.pressure, error=AttributeError)
         for name in "save", "p_star":
-            self.refuse(f"'{name}' here: results of all loads have it", getattr, results[0], name, error=AttributeError)
+            self.refuse(f"'{name}' here: all loads together have it", getattr, results[0], name, error=AttributeError)
         self.refuse("load is a group: it must be a dictionary of its keys, got 3", wc.solve, self.rough, load=3)
         results.save("units.npz")
         for one in results, results[:2], wc.load("units.npz"), pickle.loads(pickle.dumps(results)):

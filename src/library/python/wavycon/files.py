@@ -19,6 +19,8 @@ from .surfaces import Surface
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
+# Of ESRI's grids, whose steps and order of rows the program knows, and SurfaceTopography does not.
+ESRI = b"ncols"
 
 
 def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
@@ -28,12 +30,12 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
     and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
-    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf, which the program reads, and .npy
-    need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as those of wavycon.heights.
+    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf and grids of ESRI, which the program
+    reads, and .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as in wavycon.heights.
     """
-    if os.path.isfile(file) and first_bytes(file).startswith(b"Gwyddion Simple Field 1."):
+    if os.path.isfile(file) and first_bytes(file).lower().startswith((b"gwyddion simple field 1.", ESRI)):
         if channel not in (None, 0):
-            raise ValueError(f"there is no channel {channel!r}: a file .gsf has one, which has no name")
+            raise ValueError(f"there is no channel {channel!r}: a file of this kind has one, which has no name")
         return Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
     x, z, sides, unit = open_file(file, channel, length_unit)
     for key, side in sides.items():
@@ -86,7 +88,7 @@ def reason(error: Exception) -> str:
         return f"{type(error).__name__}: {''.join(str(error).strip().splitlines()[:1])}"
     readers = need("SurfaceTopography.IO", "files").readers
     return (f"the formats that can be read are gsf, {', '.join(sorted(one.format() for one in readers))}; "
-            "wavycon.file(file=...) reads numbers with commas or semicolons too")
+            "wavycon.file(file=...) reads numbers with commas or semicolons, also below a head in words")
 
 
 def choose(channels: list[Any], channel: str | int | None) -> Any:
@@ -151,6 +153,8 @@ def convert(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
+        if os.path.isfile(given.file) and first_bytes(given.file).lower().startswith(ESRI):
+            raise ValueError(f"{given.file}: decks read this grid of ESRI as it is")
         x, z, sides, unit = open_file(given.file, channel, given.unit)
         kind, rows = Path(given.map).suffix, np.atleast_2d(z)
         if x is not None and kind != ".txt":

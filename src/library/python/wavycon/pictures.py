@@ -41,9 +41,8 @@ def scaled(facts: Facts, column: str) -> tuple[float, str]:
 def title(result: Result) -> str:
     """The load, and what is wrong with it."""
     factor, words = scaled(result._facts, "mean_pressure")
-    name, _, unit = words.partition(" [")
     status = "" if result.status_code < UNRESOLVED else f", {result.status.replace('_', ' ')}"
-    return f"{name} {factor*result.mean_pressure:.4g} {unit.rstrip(']')}{status}"
+    return words.replace("[", f"{factor*result.mean_pressure:.4g} ").rstrip("]") + status
 
 
 def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pressure", ax: Any = None,

@@ -39,9 +39,8 @@ class Named:
 
     if not TYPE_CHECKING:   # otherwise checkers of types take every name for known
         def __getattr__(self, name: str) -> Any:
-            for owner, names in {"one load has it, such as results[0]": dir(Result),
-                                 "results of all loads have it": [*dir(Results), *Facts.__annotations__]}.items():
-                if name[0] != "_" and name in names:
+            for kind, owner in (Result, "one load has it, such as results[0]"), (Results, "all loads together have it"):
+                if name[0] != "_" and name in [*dir(kind), *getattr(kind, "__dataclass_fields__", ())]:
                     raise AttributeError(f"there is no attribute {name!r} here: {owner}")
             raise AttributeError(unknown("attribute", name, (one for one in dir(self) if not one.startswith("_"))))
 
