@@ -728,6 +728,13 @@ class Files(PackageTest):
             self.assertAlmostEqual(wc.solve(wc.heights(h), pbar_over_pstar=0.2)[0].contact_area_fraction, found,
                                    delta=0 if name == "scan.npy" else 1e-6)
 
+    def test_micrometres_have_one_name(self):
+        (self.folder/"um.txt").write_text("# Width: 4 \u00b5m\n# Height: 3 \u00b5m\n# Value units: \u00b5m\n"
+                                          "1 2 3 2\n2 3 4 1\n3 1 2 2\n", encoding="utf-8")
+        surface = wc.read("um.txt")
+        self.assertEqual(("um", 4), (surface.length_unit, surface.keys["length_x"]))
+        self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0, length_unit="um").length_unit)
+
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))
         numpy.savetxt("profile.txt", numpy.c_[x, numpy.cos(9*x)])

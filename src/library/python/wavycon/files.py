@@ -74,7 +74,8 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
-    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
+    # Of one name, so that length_unit="um" is that of the surface.
+    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or (topography.unit or "").replace("µ", "u") or None
 
 
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
