@@ -645,6 +645,8 @@ except ImportError as error: print(error)"""
         self.refuse("there is no key 'sed'", wc.run, "rough.nml", {"surface.sed": 1})
         self.refuse("group.key=value", wc.run, "rough.nml", {"seed": 1})
         self.refuse("number", wc.set_threads, 0)
+        for bad in 2.5, "2", None:
+            self.refuse("", wc.set_threads, bad, error=TypeError)
         numpy.save("h.npy", numpy.eye(8))
         numpy.savez("h.npz", h=numpy.eye(8))
         for name in "rough.nml", "h.npy", "h.npz":

@@ -1,7 +1,6 @@
 """Solving: loads of surfaces, of decks, one after the other; bounds."""
 from __future__ import annotations
 
-import contextlib
 import os
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
@@ -69,7 +68,7 @@ def certify(surface: Surface, pressure: npt.ArrayLike, gap: npt.ArrayLike, *, me
     return Bounds(*((float(lower), float(upper)) for lower, upper in bounds))
 
 
-class Problem(contextlib.AbstractContextManager["Problem"]):
+class Problem:
     """A surface that is solved for many loads, one after the other: heights, grids and plans stay.
 
         with wc.problem(wc.wave_2d(), e_star=2e11) as p:
@@ -85,6 +84,9 @@ class Problem(contextlib.AbstractContextManager["Problem"]):
             raise ValueError("loads belong to the solve of a problem")
         self._scene: Handle | None = scene_of(surface, settings, keep_fields)
         self._facts = Facts.of_scene(self._scene)
+
+    def __enter__(self) -> Problem:
+        return self
 
     def __exit__(self, *_: object) -> None:
         self._scene = None
