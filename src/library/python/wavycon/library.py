@@ -8,7 +8,7 @@ import json
 import sys
 import threading
 import warnings
-from ctypes import CDLL, CFUNCTYPE, byref, c_double, c_int, c_size_t, c_void_p, create_string_buffer
+from ctypes import CDLL, CFUNCTYPE, byref, c_double, c_int as c_int, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
 from typing import Any, TypeAlias
 
