@@ -278,6 +278,17 @@ class Digits(PackageTest):
         self.refuse("no channel 'Height'", wc.read, "map.gsf", "Height")
         self.refuse("leave out length_x", wc.solve, wc.read("map.gsf", length_x=1), pbar_over_pstar=0)
 
+    def test_grids_of_esri(self):
+        """The program reads them: they have steps, and their first row is that of the largest y."""
+        h = numpy.random.default_rng(1).normal(size=(12, 16))
+        numpy.savetxt("map.asc", h, header="NCOLS 16\nNROWS 12\nXLLCORNER 0\nYLLCORNER 0\nCELLSIZE 0.5", comments="")
+        results = wc.solve(wc.read("map.asc"), pbar_over_pstar=0)
+        self.assertEqual((8, 6), (results.length_x, results.length_y))
+        expected = wc.solve(wc.heights(h[::-1], length_x=8), pbar_over_pstar=0)[0].gap
+        numpy.testing.assert_allclose(results[0].gap, expected, atol=1e-12)
+        with self.assertRaisesRegex(SystemExit, "decks read this grid of ESRI as it is"):
+            convert(["map.asc", "map.npy"])
+
     def test_gsf_keeps_heights_beside_a_large_mean(self):
         h = numpy.random.default_rng(1).uniform(size=(12, 16))
         h[2, 3] = numpy.nan
@@ -634,7 +645,12 @@ except ImportError as error: print(error)"""
         self.refuse("there is no key 'sed'", wc.run, "rough.nml", {"surface.sed": 1})
         self.refuse("group.key=value", wc.run, "rough.nml", {"seed": 1})
         self.refuse("number", wc.set_threads, 0)
-        self.refuse("", wc.load, "rough.nml")
+        for bad in 2.5, "2", None:
+            self.refuse("", wc.set_threads, bad, error=TypeError)
+        numpy.save("h.npy", numpy.eye(8))
+        numpy.savez("h.npz", h=numpy.eye(8))
+        for name in "rough.nml", "h.npy", "h.npz":
+            self.refuse(f"{name}: this is no file that Results.save", wc.load, name)
         self.refuse("", wc.load, "none.npz", error=OSError)
 
     def test_memory(self):
@@ -713,6 +729,13 @@ class Files(PackageTest):
             # gsf has single precision.
             self.assertAlmostEqual(wc.solve(wc.heights(h), pbar_over_pstar=0.2)[0].contact_area_fraction, found,
                                    delta=0 if name == "scan.npy" else 1e-6)
+
+    def test_micrometres_have_one_name(self):
+        (self.folder/"um.txt").write_text("# Width: 4 \u00b5m\n# Height: 3 \u00b5m\n# Value units: \u00b5m\n"
+                                          "1 2 3 2\n2 3 4 1\n3 1 2 2\n", encoding="utf-8")
+        surface = wc.read("um.txt")
+        self.assertEqual(("um", 4), (surface.length_unit, surface.keys["length_x"]))
+        self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0, length_unit="um").length_unit)
 
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))

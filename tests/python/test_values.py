@@ -112,6 +112,10 @@ class Names(ValuesTest):
             self.refuse("'contact_area_fracton'; did you mean 'contact_area_fraction'",
                         lambda thing=thing: thing.contact_area_fracton, error=AttributeError)
             self.assertFalse(hasattr(thing, "_none"))
+        self.refuse("'pressure' here: one load has it", lambda: results.pressure, error=AttributeError)
+        for name in "save", "p_star":
+            self.refuse(f"'{name}' here: all loads together have it", getattr, results[0], name, error=AttributeError)
+        self.refuse("load is a group: it must be a dictionary of its keys, got 3", wc.solve, self.rough, load=3)
         results.save("units.npz")
         for one in results, results[:2], wc.load("units.npz"), pickle.loads(pickle.dumps(results)):
             self.refuse("'mean_gapp'; did you mean 'mean_gap'", one.units.__getitem__, "mean_gapp", error=KeyError)
@@ -303,6 +307,24 @@ class Pictures(ValuesTest):
         shown = ax.collections[0].get_array()
         self.assertAlmostEqual(plain[0].gap.max()/plain.amplitude, shown.max(), delta=1e-12)
         numpy.testing.assert_array_equal(plain[0].gap == 0, shown.mask.reshape(plain[0].gap.shape))
+
+    def test_pascals_and_metres_have_a_prefix(self):
+        """That which suits p*, here 0.89 GPa, Delta and the side of the cell; other units are drawn as they are."""
+        results = wc.solve(wc.wave_2d(amplitude=1e-6, wavelength=1e-3), e_star=2e11, mean_pressure=[1e7, 1e8],
+                           pressure_unit="Pa", length_unit="m", stress={"nu": 0.3, "section": "x"})
+        ax = results.plot("mean_gap")
+        self.assertEqual(("mean pressure [MPa]", "mean gap [nm]"), (ax.get_xlabel(), ax.get_ylabel()))
+        numpy.testing.assert_allclose(ax.lines[0].get_xydata(), numpy.c_[[10, 100], 1e9*results.mean_gap])
+        ax = results[0].plot_map()
+        self.assertEqual("mean pressure 10 MPa", ax.get_title())
+        self.assertEqual(("x [µm]", "y [µm]"), (ax.get_xlabel(), ax.get_ylabel()))
+        self.assertAlmostEqual(1e-6*results[0].pressure.max(), ax.collections[0].get_array().max(), delta=1e-9)
+        ax = results[0].plot_stress_section()
+        self.assertEqual(("distance [µm]", "depth [µm]"), (ax.get_xlabel(), ax.get_ylabel()))
+        self.assertEqual("von Mises [MPa]", ax.figure.axes[1].get_ylabel())
+        for other in results[0].plot_map("gap"), results[0].plot_map("regions"), ax:
+            self.assertGreater(other.get_xlim()[1], 490)
+        self.assertEqual("contact area [m²]", results.plot("contact_area").get_ylabel())
 
     def test_tables_of_the_surface(self):
         """All loads have the same surface."""

@@ -28,4 +28,4 @@ __version__ = _library.text(None, "version")
 
 def set_threads(number: int) -> None:
     """Sets the number of threads that work on large grids, 1 unless set."""
-    _library.call("set_threads", number)
+    _library.call("set_threads", _library.c_int(number))

@@ -31,7 +31,9 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     groups: dict[str, dict[str, Any]] = {}
     others = {group: known for group, known in keys().items() if group != "surface"}
     for name, value in given.items():
-        if isinstance(value, Mapping) and name in others:
+        if name in others:
+            if not isinstance(value, Mapping):
+                raise ValueError(f"{name} is a group: it must be a dictionary of its keys, got {value!r}")
             groups.setdefault(name, {}).update(value)
             continue
         owners = [group for group, known in others.items() if name in known]

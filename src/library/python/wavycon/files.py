@@ -19,6 +19,8 @@ from .surfaces import Surface
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
+# Of ESRI's grids, whose steps and order of rows the program knows, and SurfaceTopography does not.
+ESRI = b"ncols"
 
 
 def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
@@ -28,20 +30,19 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
     and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
-    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf, which the program reads, and .npy
-    need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as those of wavycon.heights.
+    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf and grids of ESRI, which the program
+    reads, and .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as in wavycon.heights.
     """
-    if os.path.isfile(file) and first_bytes(file).startswith(b"Gwyddion Simple Field 1."):
+    if os.path.isfile(file) and first_bytes(file).lower().startswith((b"gwyddion simple field 1.", ESRI)):
         if channel not in (None, 0):
-            raise ValueError(f"there is no channel {channel!r}: a file .gsf has one, which has no name")
+            raise ValueError(f"there is no channel {channel!r}: a file of this kind has one, which has no name")
         return Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
     x, z, sides, unit = open_file(file, channel, length_unit)
     for key, side in sides.items():
-        if side is not None and keys_of_maps.get(key) is not None:
+        if keys_of_maps.get(key) is not None:
             raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
     if x is None:
-        given = {**keys_of_maps, **{key: side for key, side in sides.items() if side is not None}}
-        return heights(z, length_unit=unit, **cast(names.Map, given))
+        return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
     folder = tempfile.TemporaryDirectory(prefix="wavycon-")
     profile = Path(folder.name, "profile.txt")
@@ -50,13 +51,13 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
 
 
 def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,
-              ) -> tuple[Array | None, Array, dict[str, float | None], str | None]:
+              ) -> tuple[Array | None, Array, dict[str, float], str | None]:
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
-    heights (y, x) or (x,), NaN where they are missing, the sides as keys, None where the file lacks them, and the unit
+    heights (y, x) or (x,), NaN where they are missing, the sides as keys, none where the file lacks them, and the unit
     (None: unknown). Errors: ValueError for what SurfaceTopography cannot read."""
     if os.path.isfile(file) and first_bytes(file).startswith(b"\x93NUMPY"):
         # SurfaceTopography takes the first index of an array for x, the program for y.
-        return None, reals(np.load(file)), dict.fromkeys(("length_x", "length_y")), unit
+        return None, reals(np.load(file)), {}, unit
     opened = need("SurfaceTopography", "files").open_topography
     if not os.path.isfile(file):
         raise FileNotFoundError(f"{file}: there is no such file")
@@ -69,11 +70,12 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
                 topography = topography.to_unit(unit)
             z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             x = None if topography.is_uniform else np.asarray(topography.positions())
-            sides = list(map(float, topography.physical_sizes)) if known else [None]*info.dim
+            sides = map(float, topography.physical_sizes if known else ())
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
-    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or topography.unit
+    # Of one name, so that length_unit="um" is that of the surface.
+    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or (topography.unit or "").replace("µ", "u") or None
 
 
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
@@ -87,19 +89,17 @@ def reason(error: Exception) -> str:
         return f"{type(error).__name__}: {''.join(str(error).strip().splitlines()[:1])}"
     readers = need("SurfaceTopography.IO", "files").readers
     return (f"the formats that can be read are gsf, {', '.join(sorted(one.format() for one in readers))}; "
-            "wavycon.file(file=...) reads numbers with commas or semicolons too")
+            "wavycon.file(file=...) reads numbers with commas or semicolons, also below a head in words")
 
 
 def choose(channels: list[Any], channel: str | int | None) -> Any:
-    titles = [one.name for one in channels]
-    if channel is None:
-        channel = 0
-    if isinstance(channel, str) and channel in titles:
-        return channels[titles.index(channel)]
-    if isinstance(channel, int) and 0 <= channel < len(channels):
-        return channels[channel]
-    there_are = ", ".join(f"{place} {name!r}" for place, name in enumerate(titles))
-    raise ValueError(f"there is no channel {channel!r}; there are {there_are or 'none of heights'}")
+    """One of the channels, by its name or number; the first one of a name, and of all if none is given."""
+    found = {one.name: one for one in reversed(channels)} | dict(enumerate(channels))
+    wanted = 0 if channel is None else channel
+    if wanted in found:
+        return found[wanted]
+    there_are = ", ".join(f"{place} {one.name!r}" for place, one in enumerate(channels))
+    raise ValueError(f"there is no channel {wanted!r}; there are {there_are or 'none of heights'}")
 
 
 @contextlib.contextmanager
@@ -131,7 +131,7 @@ def write_profile(path: str | Path | IO[bytes], x: Any, z: Array) -> None:
     np.savetxt(path, np.column_stack([x, z]), fmt="%.17g")
 
 
-def write_gsf(file: IO[bytes], z: Array, sides: dict[str, float | None], unit: str | None) -> None:
+def write_gsf(file: IO[bytes], z: Array, sides: dict[str, float], unit: str | None) -> None:
     """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32. The
     heights are written over their mean, which may be so large that float32 does not tell them apart."""
     head = "Gwyddion Simple Field 1.0\n"
@@ -154,17 +154,19 @@ def convert(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
+        if os.path.isfile(given.file) and first_bytes(given.file).lower().startswith(ESRI):
+            raise ValueError(f"{given.file}: decks read this grid of ESRI as it is")
         x, z, sides, unit = open_file(given.file, channel, given.unit)
         kind, rows = Path(given.map).suffix, np.atleast_2d(z)
         if x is not None and kind != ".txt":
             raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")
         if kind not in BEGINNINGS or (kind == ".txt" and len(rows) > 1):
             raise ValueError(f"{given.map}: the name must end in .gsf or .npy, of a profile also in .txt")
-        if kind == ".gsf" and sides["length_x"] is None:
+        if kind == ".gsf" and not sides:
             raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
         with written(given.map, BEGINNINGS[kind], given.file) as file:
             if kind == ".txt":
-                write_profile(file, np.arange(z.size)*((sides["length_x"] or 1.0)/z.size) if x is None else x, z)
+                write_profile(file, np.arange(z.size)*(sides.get("length_x", 1.0)/z.size) if x is None else x, z)
             elif kind == ".npy":
                 np.save(file, z)
             else:

@@ -24,22 +24,25 @@ def axes(ax: Any) -> Any:
 
 
 def scaled(facts: Facts, column: str) -> tuple[float, str]:
-    """The factor by which a column is drawn, and its label."""
-    unit, factor, words = facts.unit(column), 1.0, column.replace("_", " ")
+    """The factor by which a column is drawn, and its label. Pa and m get a prefix, by p*, Delta or the side."""
+    unit, words = facts.unit(column), column.replace("_", " ").replace("mises", "Mises")
     if unit == "pressure" and facts.p_star > 0:
-        unit, factor = "p*", 1/facts.p_star
-    elif unit == "length" and column not in PLACES and facts.amplitude > 0:
-        unit, factor = "\u0394", 1/facts.amplitude
-    unit = re.sub(r"\bum\b", "\u00b5m", unit).replace("^2", "\u00b2").replace("*", "" if unit == "p*" else " ")
-    return factor, f"{words} [{'p*' if unit == 'p' else unit}]" if unit else words
+        return 1/facts.p_star, f"{words} [p*]"
+    if unit == "length" and column not in PLACES and facts.amplitude > 0:
+        return 1/facts.amplitude, f"{words} [\u0394]"
+    size = facts.length_x if column in PLACES else facts.p_star if unit == facts.pressure_unit else facts.amplitude
+    if unit in ("Pa", "m") and size > 0:
+        power = 3*int(np.clip(np.floor(np.log10(size/3)/3), -8, 8))
+        return 10.0**-power, f"{words} [{need('matplotlib.ticker', 'plot').EngFormatter.ENG_PREFIXES[power]}{unit}]"
+    unit = re.sub(r"\bum\b", "\u00b5m", unit).replace("^2", "\u00b2").replace("*", " ")
+    return 1.0, f"{words} [{unit}]" if unit else words
 
 
 def title(result: Result) -> str:
     """The load, and what is wrong with it."""
     factor, words = scaled(result._facts, "mean_pressure")
-    name, _, unit = words.partition(" [")
     status = "" if result.status_code < UNRESOLVED else f", {result.status.replace('_', ' ')}"
-    return f"{name} {factor*result.mean_pressure:.4g} {unit.rstrip(']')}{status}"
+    return words.replace("[", f"{factor*result.mean_pressure:.4g} ").rstrip("]") + status
 
 
 def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pressure", ax: Any = None,
@@ -53,14 +56,12 @@ def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pres
     for column in x, y:
         if column not in names:
             raise ValueError(unknown("column", column, names))
-    ax = axes(ax)
+    ax, rows = axes(ax), results.table()[np.argsort(results[x])]
     (factor_x, label_x), (factor_y, label_y) = scaled(results._facts, x), scaled(results._facts, y)
-    values = factor_y*results[y]
-    error = factor_y*results[f"{y}_error"] if f"{y}_error" in names else np.zeros(len(values))
-    order = np.argsort(results[x])
-    across, values, error = factor_x*results[x][order], values[order], error[order]
+    across, values = factor_x*rows[x], factor_y*rows[y]
+    error = factor_y*rows[f"{y}_error"] if f"{y}_error" in names else np.zeros(len(rows))
     line = ax.errorbar(across, values, np.nan_to_num(error), **{"marker": "o", "capsize": 2, **style})[0]
-    is_open = (results.status_code[order] >= UNRESOLVED) | np.isnan(error)
+    is_open = (rows["status_code"] >= UNRESOLVED) | np.isnan(error)
     if is_open.any():
         ax.plot(across[is_open], values[is_open], "o", color=line.get_color(), markerfacecolor="white", zorder=3,
                 label="not resolved")
@@ -76,23 +77,23 @@ def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: A
     fields = [name for name in result._fields if name not in PLACES]
     if field == "regions":
         # Without p*, with free edges, nothing is repeated.
-        if len(result.y) == 1 or np.isnan(result.pbar_over_pstar):
-            raise ValueError("regions are those of a surface that is repeated along x and y: this one "
-                             + ("is a profile" if len(result.y) == 1 else "has free edges"))
+        fault = "is a profile" if len(result.y) == 1 else "has free edges" if np.isnan(result.pbar_over_pstar) else ""
+        if fault:
+            raise ValueError(f"regions are those of a surface that is repeated along x and y: this one {fault}")
         return plot_regions(result, axes(ax), style)
     if field not in fields:
         raise ValueError(unknown("field", field, [*fields, "regions"]))
     ax, facts = axes(ax), result._facts
     factor, words = scaled(facts, field)
-    values, (x, y) = factor*result._fields[field], (scaled(facts, axis)[1] for axis in "xy")
+    values, (by, x), y = factor*result._fields[field], scaled(facts, "x"), scaled(facts, "y")[1]
     ax.set_title(title(result))
     if len(values) == 1:
-        ax.plot(result.x, values[0], **style)
+        ax.plot(by*result.x, values[0], **style)
         ax.set(xlabel=x, ylabel=words)
         return ax
     if field != "displacement":
         values = np.ma.masked_equal(values, 0)   # where the bodies are apart, or touch, there is no colour
-    return mesh(ax, result.x, result.y, values, words, xlabel=x, ylabel=y, aspect="equal", style=style)
+    return mesh(ax, by*result.x, by*result.y, values, words, xlabel=x, ylabel=y, aspect="equal", style=style)
 
 
 def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
@@ -101,7 +102,8 @@ def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
     facts, isobar = result._facts, re.search(r"(?m)^ *edge_level = (\S+)", result._facts.deck)
     edge = facts.p_star*float(isobar[1]) if isobar else 0.0
     colours = regions.regions(result.pressure > edge, "edges = 'mirror'" in facts.deck)
-    ax.pcolormesh(result.x, result.y, colours, **{"shading": "nearest", "rasterized": True, "vmin": 0, "cmap":
+    by = scaled(facts, "x")[0]
+    ax.pcolormesh(by*result.x, by*result.y, colours, **{"shading": "nearest", "rasterized": True, "vmin": 0, "cmap":
                   need("matplotlib.colors", "plot").ListedColormap(regions.COLOURS),
                   "vmax": len(regions.COLOURS) - 1, **style})
     said: dict[str, float] = {}
@@ -123,10 +125,10 @@ def plot_stress_section(result: Result, column: str = "von_mises", ax: Any = Non
         raise ValueError(unknown("column", column, rows.dtype.names or ()))
     rows = rows[rows["body"] == 1]
     depth, distance = np.unique(rows["depth"]), np.unique(rows["distance"])
-    factor, words = scaled(facts, column)
+    (factor, words), (by, across) = scaled(facts, column), scaled(facts, "distance")
     values = factor*rows[column].reshape(len(depth), len(distance))
-    ax = mesh(axes(ax), distance, depth, values, words, xlabel=scaled(facts, "distance")[1],
-              ylabel=scaled(facts, "depth")[1], style={"shading": "gouraud", **style})
+    ax = mesh(axes(ax), by*distance, by*depth, values, words, xlabel=across, ylabel=scaled(facts, "depth")[1],
+              style={"shading": "gouraud", **style})
     ax.set_title(title(result))
     ax.yaxis.set_inverted(True)
     return ax

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import contextlib
-import csv
 import importlib.metadata
 import itertools
 import os
@@ -68,8 +67,6 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     units: dict[str, str] = {}
     started: list[subprocess.Popen[str]] = []
     with tempfile.TemporaryDirectory() as own:
-        # From version 3 on pandas reads numbers exactly by itself, and warns of the argument.
-        exact = {"float_precision": "round_trip"} if int(pandas.__version__.split(".")[0]) < 3 else {}
         decks = list(decks_of(what, own, options))
         combinations = [(deck, title, point) for deck, title in decks for point in points]
 
@@ -86,16 +83,17 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             if table.exists():
                 # The head of a deck that did not fail: version, units.
-                rows = pandas.read_csv(table, sep=r"\s+", skiprows=2, quoting=csv.QUOTE_NONE, **exact)
+                # Unlike that of some versions of pandas this reader takes all digits.
+                rows = pandas.DataFrame(np.atleast_1d(np.genfromtxt(table, dtype=None, comments="\0", skip_header=2,
+                                                                    names=True, encoding="utf-8")))
                 labels = table.read_text(encoding="utf-8").splitlines()[1].strip("# ").split()
                 units.update({column: label.strip("[]") for column, label in zip(rows, labels)})
                 rows = rows.loc[:, "load":]
             else:
                 rows = pandas.DataFrame({"status": ["failed"]})
                 message = message or f"the program ended with the status {process.returncode}"
-            for place, (key, value) in enumerate({**title, **settings}.items()):
-                rows.insert(place, key, [value]*len(rows))
-            return rows.assign(message=message)
+            front = {key: [value]*len(rows) for key, value in {**title, **settings}.items()}
+            return pandas.DataFrame(front, rows.index).join(rows).assign(message=message)
 
         with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
             try:

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from . import library, pictures
 from .files import written
-from .library import Array, Handle, Rows, address, call, keys, locked, need, reals
+from .library import Array, Handle, Rows, address, call, locked, need, reals
 from .names import Columns
 from .surfaces import unknown
 
@@ -35,10 +35,13 @@ class Units(dict[str, str]):
 
 
 class Named:
-    """An unknown attribute is an error that has the nearest name."""
+    """An unknown attribute is an error that has the nearest name, or says that one load has it, or all loads have."""
 
     if not TYPE_CHECKING:   # otherwise checkers of types take every name for known
         def __getattr__(self, name: str) -> Any:
+            for kind, owner in (Result, "one load has it, such as results[0]"), (Results, "all loads together have it"):
+                if name[0] != "_" and name in [*dir(kind), *getattr(kind, "__dataclass_fields__", ())]:
+                    raise AttributeError(f"there is no attribute {name!r} here: {owner}")
             raise AttributeError(unknown("attribute", name, (one for one in dir(self) if not one.startswith("_"))))
 
 
@@ -61,10 +64,6 @@ class Facts:
     deck: str
     units: dict[str, str] = dataclasses.field(default_factory=Units)
     notes: list[str] = dataclasses.field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.units, Units):   # as a file has them; otherwise shared with the loads
-            self.units = Units(self.units)
 
     @classmethod
     def of_scene(cls, scene: Handle) -> Facts:
@@ -172,19 +171,19 @@ class Result(Named, Columns[float, str]):
         return fields
 
     def stresses_at(self, x: npt.ArrayLike, y: npt.ArrayLike, depth: npt.ArrayLike, nu: float,
-                    lateral: str | None = None) -> dict[str, Array]:
+                    lateral: str = "constrained") -> dict[str, Array]:
         """Stresses [pressure] at points x, y, depth [length], arrays of one shape, in a body with Poisson's ratio nu.
 
         Depths are 0 or more and point into the body, tension is positive. lateral: as the key of &stress. The answer
         has stress, with six components xx, yy, zz, xy, xz, yz along a last axis, stress_error, the estimate of its
         largest error, von_mises, largest_shear, and principal, three along a last axis, the largest first."""
         solution, places = self._live("stresses"), same_shape(x, y, depth)
-        lateral = keys()["stress"]["lateral"]["default"].strip("'") if lateral is None else lateral
         components: dict[str, tuple[int, ...]] = {"stress": (6,), "stress_error": (), "von_mises": (),
                                                   "largest_shear": (), "principal": (3,)}
         parts = {name: np.empty(places[0].shape + axis) for name, axis in components.items()}
         stress, error, *invariants = map(address, parts.values())
-        call("get_stresses", solution, places[0].size, *map(address, places), nu, lateral.encode(), stress, error)
+        call("get_stresses", solution, places[0].size, *map(address, places), float(nu), lateral.encode(),
+             stress, error)
         call("get_invariants", places[0].size, stress, *invariants)
         return parts
 
@@ -209,7 +208,7 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     those of the columns, and notes, a list of what the program's log notes of the surface, the loads and the tables;
     each was also a warning, wavycon.Note. A copy, also by pickle, has the tables that were asked for and the fields."""
 
-    def __init__(self, loads: Sequence[Result], facts: Facts, model: Result | None = None) -> None:
+    def __init__(self, loads: Sequence[Result], facts: Facts, model: Result) -> None:
         """model: a load that has the columns of the tables, where there is none here."""
         super().__init__(**vars(facts))
         self._loads, self._facts, self._model = loads, facts, loads[0] if loads else model
@@ -252,8 +251,6 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
     def table(self, name: str = "summary") -> Rows:
         """The rows of a table of all loads, see Result.table; 'height' and 'spectrum', those of the surface, once."""
-        if self._model is None:
-            raise ValueError("there are no loads")
         if "load" not in (self._model.table(name).dtype.names or ()):
             return self._model.table(name)
         return locked(np.concatenate([load.table(name) for load in self] or [self._model.table(name)[:0]]))
@@ -261,7 +258,7 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     @cached_property
     def surface(self) -> Roughness:
         """Root mean square height, slope and curvature of the surface that was solved, and its spectrum."""
-        rows = (self._model or self[0]).table("spectrum")
+        rows = self._model.table("spectrum")
         last = rows[rows["direction"] == rows["direction"][0]][-1]
         height, slope, curvature = (float(last[f"rms_{name}_up_to"]) for name in ("height", "slope", "curvature"))
         return Roughness(height, slope, curvature, rows)
@@ -278,7 +275,7 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         data: dict[str, Any] = {name: ("load", rows[name], {"units": self.unit(name)})
                                 for name in rows.dtype.names or ()}
         with contextlib.suppress(ValueError):   # without fields
-            fields: dict[str, Array] = self._model._fields if self._model else {}
+            fields = self._model._fields
             shape = len(self), *fields["pressure"].shape
             data |= {name: (("load", "y", "x"), np.reshape([load._fields[name] for load in self], shape),
                             {"units": self.unit(name)}) for name in FIELDS}
@@ -293,7 +290,7 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         to_dataframe().to_csv."""
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
-        for number, one in [(one._load, one) for one in self] or [(MODEL, one) for one in [self._model] if one]:
+        for number, one in [(one._load, one) for one in self] or [(MODEL, self._model)]:
             content |= {f"{number}/{name}": rows for name, rows in one._tables.items()}
             content |= {f"{number}/fields/{name}": values for name, values in one._fields.items()} if fields else {}
         if hasattr(file, "write"):
@@ -316,25 +313,25 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
 def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
     """The results in a file of Results.save. What was not saved cannot be asked for."""
+    content: dict[str, Any] = {}
     if not hasattr(file, "read") and os.fspath(file).endswith(".h5"):
-        content: dict[str, Any] = {}
         with need("h5py", "h5").File(file, "r") as saved:
             saved.visititems(lambda name, one: content.update({name: one[()]} if hasattr(one, "dtype") else {}))
-        arrays = {name: retyped(values, "|S", "<U") for name, values in content.items()}
     else:
-        with np.load(file, allow_pickle=False) as saved:
-            arrays = dict(saved)
-    told = arrays.pop("facts")
-    facts, loads = Facts(**json.loads(told if isinstance(told, bytes) else str(told))), dict[int, Result]()
-    for name, values in arrays.items():
+        with contextlib.suppress(AttributeError, TypeError, ValueError), np.load(file, allow_pickle=False) as saved:
+            content = dict(saved)
+    if "facts" not in content:
+        raise ValueError(f"{file}: this is no file that Results.save has written")
+    told = json.loads(np.asarray(content.pop("facts")).item())   # a text, of HDF5 bytes
+    facts, loads = Facts(**{**told, "units": Units(told["units"])}), dict[int, Result]()
+    for name, values in content.items():
         number, table, *field = name.split("/")
         one = loads.setdefault(int(number), Result(int(number), facts, {}))
         if field:
             one.__dict__.setdefault("_fields", {})[field[0]] = locked(values)
         else:
-            one._tables[table] = locked(values)
-    model = loads.pop(MODEL, None)
-    return Results([loads[number] for number in sorted(loads)], facts, model)
+            one._tables[table] = locked(retyped(values, "|S", "<U"))
+    return Results([loads[number] for number in sorted(loads) if number != MODEL], facts, one)
 
 
 def retyped(rows: Any, old: str, new: str) -> Any:
@@ -358,5 +355,4 @@ def column(rows: Rows, name: str) -> Rows:
 
 def same_shape(*arrays: npt.ArrayLike) -> list[Array]:
     """Arrays of numbers of one shape, contiguous."""
-    shape = np.broadcast_shapes(*map(np.shape, arrays))
-    return [reals(array, shape=shape) for array in arrays]
+    return [array.copy() for array in np.broadcast_arrays(*map(reals, arrays))]

@@ -31,7 +31,7 @@ def solve(surface: Surface, *, keep_fields: bool = True, progress: bool = True, 
     should know of the surface and the results is a warning, Note, and in the results' notes. Ctrl-C ends a solve in the
     main thread.
     """
-    return solve_deck(scene_of(surface, options, keep_fields, needs_load=True), progress)
+    return solve_deck(scene_of(surface, options, keep_fields), progress)
 
 
 class Bounds(NamedTuple):
@@ -124,11 +124,9 @@ class Problem:
 problem = Problem
 
 
-def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool, needs_load: bool = False) -> Handle:
+def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) -> Handle:
     """The scene of a surface and of options as of solve."""
     groups = groups_of(surface, options)
-    if needs_load and not groups.get("load"):
-        raise ValueError(f"there is no load: give one of {', '.join(keys()['load'])}")
     rows, columns = (0, 0) if surface.heights is None else surface.heights.shape
     heights = None if surface.heights is None else address(surface.heights)
     deck = deck_text(groups).encode()
@@ -147,8 +145,10 @@ def run(deck: str | os.PathLike[str], set: Mapping[str, object] = MappingProxyTy
 
 
 def solve_deck(scene: Handle, progress: bool) -> Results:
-    """Solves the loads of a deck in the order of the program, whose digits they have."""
+    """Solves the loads of a deck in the order of the program, whose digits they have. Errors: ValueError for none."""
     order = [int(number) for number in library.text(scene, "order").split()]
+    if not order:
+        raise ValueError(f"there is no load: give one of {', '.join(keys()['load'])}")
     return solve_all(scene, Facts.of_scene(scene), order, progress,
                      lambda scene, load: call("solve_load", scene, load - 1))
 
@@ -165,4 +165,4 @@ def solve_all(scene: Handle, facts: Facts, order: Sequence[int], progress: bool,
     for one in loads.values():
         one.table("summary")   # which tells the units
     note_news(scene, facts)
-    return Results([loads[number] for number in sorted(loads)], facts)
+    return Results([loads[number] for number in sorted(loads)], facts, one)
