@@ -28,7 +28,7 @@ module wavycon_deck_session
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
-   use wavycon_tables, only: all_tables
+   use wavycon_tables, only: all_tables, summary_table
    use wavycon_unit_scale, only: scale_of, unit_scale
    implicit none (type, external)
    private
@@ -97,12 +97,11 @@ contains
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
       type(scene_type), allocatable :: scene
-      type(table_type), allocatable :: tables(:)
 
       allocate (scene)
       call parse_deck(deck_text_type(path, text), scene, error, settings, heights, in_memory=.true.)
       if (allocated(error)) return
-      call start_results(scene, self%results, tables, keep_fields)
+      call start_results(scene, self%results, with_fields=keep_fields)
       associate (scene => self%results%scene)
          call scene%output%map_format%set(text='text')
          if (allocated(scene%mean_pressure)) call move_alloc(scene%mean_pressure, self%mean_pressure)
@@ -225,10 +224,12 @@ contains
       character(:), allocatable :: words
       type(memory_table) :: summary
 
-      words = without_errors(self%results%scene%method%solver%text, self%results%solver%surface)
+      words = ''
+      if (loads_by == by_percolation) &
+         words = without_errors(self%results%scene%method%solver%text, self%results%solver%surface)
       if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
          call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
-      else if (loads_by == by_percolation .and. words /= '') then
+      else if (words /= '') then
          call fatal_error(error, exit_bad_input, words)
       else if (any(loads_by == [by_yield, by_percolation]) .and. .not. self%results%keeps_fields) then
          call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session '// &
@@ -243,7 +244,7 @@ contains
       call end_solve(self%is_solving)
       answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar
       if (allocated(mean_pressure)) answer%mean_pressure = mean_pressure(load)
-      call self%make_table('summary', answer, summary, error)
+      call write_solved(self, summary_table(), answer, summary, error)
       answer%summary = summary
    end subroutine solve_one
 
@@ -255,21 +256,32 @@ contains
       !> 'theory_lines', and the tables of &interface.
       character(*), intent(in) :: name
       type(solved_load), intent(inout) :: solved   !! a load that this session has solved; unchanged on return
+      type(memory_table), intent(out) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      type(table_type), allocatable :: writer
+
+      call find_writer(self, name, solved, writer, error)
+      if (.not. allocated(error)) call write_solved(self, writer, solved, table, error)
+   end subroutine make_table
+
+   !> Writes a table of a solved load to memory. Errors: exit_file_trouble if there is not enough memory.
+   subroutine write_solved(self, writer, solved, table, error)
+      class(deck_session), intent(inout) :: self
+      type(table_type), intent(in) :: writer       !! a table that this session can make
+      type(solved_load), intent(inout) :: solved   !! as in make_table
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
       integer :: loads_by
       real(dp), allocatable :: targets(:)   ! the loads of the deck
-      type(table_type), allocatable :: writer
 
-      call find_writer(self, name, solved, writer, error)
-      if (allocated(error)) return
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
          call move_alloc(solved%spots, results%spots)
          call move_alloc(solved%slopes, results%slopes)
          results%scene%mean_pressure = solved%mean_pressure
-         if (name == 'stress_largest') then
+         if (writer%file == 'stress_largest') then
             if (allocated(results%largest_stresses)) deallocate (results%largest_stresses)
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
@@ -279,7 +291,7 @@ contains
             results%scene%target = [solved%target]
             results%scene%loads_by = solved%loads_by
             call begin_solve(self%is_solving)
-            call find_interface(results, self%log, name)
+            call find_interface(results, self%log, trim(writer%name()))
             call end_solve(self%is_solving)
             results%scene%target = targets
             results%scene%loads_by = loads_by
@@ -291,7 +303,7 @@ contains
          call move_alloc(results%spots, solved%spots)
          call move_alloc(results%slopes, solved%slopes)
       end associate
-   end subroutine make_table
+   end subroutine write_solved
 
    !> Finds the table of a name. Errors: exit_bad_input, as in make_table.
    subroutine find_writer(self, name, solved, writer, error)

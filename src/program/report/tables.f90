@@ -26,7 +26,7 @@ module wavycon_tables
    implicit none (type, external)
    private
 
-   public :: all_tables, summary_columns
+   public :: all_tables, summary_columns, summary_table
 
 contains
 
@@ -61,7 +61,7 @@ contains
    function summary_tables() result(tables)
       type(table_type) :: tables(4)
 
-      tables(1) = table_type('summary', needs_surface=.false., columns=summary_columns())
+      tables(1) = summary_table()
       ! The energy is per nominal area. The perimeter is that of one contact spot or, once the spots have merged, of one
       ! open pool; the paper's cell has two of each.
       tables(2) = table_type('details', 'details', needs_fields=.true., &
@@ -76,6 +76,11 @@ contains
          'last_before[pressure] percolation[pressure] percolation_error[pressure] contact_area_fraction[-] '// &
          'contact_area_fraction_error[-] status_code[#] status[word]')
    end function summary_tables
+
+   !> The table <case>.summary.dat.
+   type(table_type) function summary_table() result(table)
+      table = table_type('summary', needs_surface=.false., columns=summary_columns())
+   end function summary_table
 
    !> The columns of the summary. `results%number` gives the number of each column.
    pure function summary_columns() result(columns)
