@@ -15,7 +15,7 @@
 !> the reciprocal lattice. The terms of both fall faster than any power:
 !>
 !>     Gp(x) = sum over n of erfc(e |x-n|)/|x-n|
-!>             + (1/A) [ sum over k /= 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = s sqrt(pi/A).
+!>             + (1/A) [ sum over k /= 0 of erfc(pi |k|/e)/|k| cos(2 pi k.x) - 2 sqrt(pi)/e ],   e = split sqrt(pi/A).
 !>
 !> Source: P. P. Ewald, Ann. Phys. 369 (1921) 253-287, for the potential 1/r in the plane.
 module wavycon_periodic_kernel
@@ -51,8 +51,8 @@ module wavycon_periodic_kernel
 
    !> Terms whose argument of erfc is larger are left out: erfc(6.4) is 1e-19.
    real(dp), parameter :: cut_off = 6.4_dp
-   !> s. With s > 1 there are more waves, and fewer terms of lattice points, whose erfc takes several times as long as a
-   !> cosine: the sums of the square lattice take 1.2e6 instructions, with s = 1 2.3e6.
+   !> Above 1 there are more waves, and fewer terms of lattice points, whose erfc takes several times as long as a
+   !> cosine: the sums of the square lattice take 1.2e6 instructions, with 1 they take 2.3e6.
    real(dp), parameter :: split = 1.7_dp
    !> Number of terms of the power series for x < 1. The first one left out is below rounding.
    integer, parameter :: series_terms = 20
@@ -184,7 +184,7 @@ contains
    !> all lattice points except the origin.
    !>
    !> The wave vectors of the reciprocal lattice are the lattice points n, turned by a right angle, over A. So with
-   !> e^2 = s^2 pi/A the factor erfc(pi |k|/e)/(A |k|) of a wave is erfc(e |n|/s^2)/|n|.
+   !> e = split sqrt(pi/A) the factor erfc(pi |k|/e)/(A |k|) of a wave is erfc(e |n|/split^2)/|n|.
    pure subroutine ewald_sum(rows, n, x, y, value, laplacian)
       type(row_lattice), intent(in) :: rows
       integer, intent(in) :: n
