@@ -244,7 +244,7 @@ contains
       call end_solve(self%is_solving)
       answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar
       if (allocated(mean_pressure)) answer%mean_pressure = mean_pressure(load)
-      call write_solved(self, summary_table(), answer, summary, error)
+      call self%make_table('summary', answer, summary, error)
       answer%summary = summary
    end subroutine solve_one
 
@@ -256,32 +256,21 @@ contains
       !> 'theory_lines', and the tables of &interface.
       character(*), intent(in) :: name
       type(solved_load), intent(inout) :: solved   !! a load that this session has solved; unchanged on return
-      type(memory_table), intent(out) :: table
-      type(error_type), allocatable, intent(out) :: error
-
-      type(table_type), allocatable :: writer
-
-      call find_writer(self, name, solved, writer, error)
-      if (.not. allocated(error)) call write_solved(self, writer, solved, table, error)
-   end subroutine make_table
-
-   !> Writes a table of a solved load to memory. Errors: exit_file_trouble if there is not enough memory.
-   subroutine write_solved(self, writer, solved, table, error)
-      class(deck_session), intent(inout) :: self
-      type(table_type), intent(in) :: writer       !! a table that this session can make
-      type(solved_load), intent(inout) :: solved   !! as in make_table
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
       integer :: loads_by
       real(dp), allocatable :: targets(:)   ! the loads of the deck
+      type(table_type), allocatable :: writer
 
+      call find_writer(self, name, solved, writer, error)
+      if (allocated(error)) return
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
          call move_alloc(solved%spots, results%spots)
          call move_alloc(solved%slopes, results%slopes)
          results%scene%mean_pressure = solved%mean_pressure
-         if (writer%file == 'stress_largest') then
+         if (name == 'stress_largest') then
             if (allocated(results%largest_stresses)) deallocate (results%largest_stresses)
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
@@ -291,7 +280,7 @@ contains
             results%scene%target = [solved%target]
             results%scene%loads_by = solved%loads_by
             call begin_solve(self%is_solving)
-            call find_interface(results, self%log, trim(writer%name()))
+            call find_interface(results, self%log, name)
             call end_solve(self%is_solving)
             results%scene%target = targets
             results%scene%loads_by = loads_by
@@ -303,7 +292,7 @@ contains
          call move_alloc(results%spots, solved%spots)
          call move_alloc(results%slopes, solved%slopes)
       end associate
-   end subroutine write_solved
+   end subroutine make_table
 
    !> Finds the table of a name. Errors: exit_bad_input, as in make_table.
    subroutine find_writer(self, name, solved, writer, error)
@@ -319,6 +308,11 @@ contains
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
+      if (name == 'summary') then
+         ! Every load has this table: to list all tables for it takes longer than to write it.
+         allocate (writer, source=summary_table())
+         return
+      end if
       call all_tables(tables)
       i = findloc(tables%name() == name, .true., dim=1)
       if (i == 0) then
