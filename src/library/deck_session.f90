@@ -28,7 +28,7 @@ module wavycon_deck_session
    use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
-   use wavycon_tables, only: all_tables
+   use wavycon_tables, only: all_tables, summary_table
    use wavycon_unit_scale, only: scale_of, unit_scale
    implicit none (type, external)
    private
@@ -100,12 +100,11 @@ contains
       type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
 
       type(scene_type), allocatable :: scene
-      type(table_type), allocatable :: tables(:)
 
       allocate (scene)
       call parse_deck(deck_text_type(path, text), scene, error, settings, heights, in_memory=.true.)
       if (allocated(error)) return
-      call start_results(scene, self%results, tables, keep_fields)
+      call start_results(scene, self%results, with_fields=keep_fields)
       associate (scene => self%results%scene)
          call scene%output%map_format%set(text='text')
          call order_loads(self%results)
@@ -227,10 +226,12 @@ contains
       character(:), allocatable :: words
       type(memory_table) :: summary
 
-      words = without_errors(self%results%scene%method%solver%text, self%results%solver%surface)
+      words = ''
+      if (loads_by == by_percolation) &
+         words = without_errors(self%results%scene%method%solver%text, self%results%solver%surface)
       if (loads_by == by_yield .and. .not. self%results%scene%stress%yield_stress%is_given) then
          call fatal_error(error, exit_bad_input, 'yield needs yield_stress in the group &stress of the deck')
-      else if (loads_by == by_percolation .and. words /= '') then
+      else if (words /= '') then
          call fatal_error(error, exit_bad_input, words)
       else if (any(loads_by == [by_yield, by_percolation]) .and. .not. self%results%keeps_fields) then
          call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session '// &
@@ -303,6 +304,11 @@ contains
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
+      if (name == 'summary') then
+         ! Every load has this table: to list all tables for it takes longer than to write it.
+         allocate (writer, source=summary_table())
+         return
+      end if
       call all_tables(tables)
       i = findloc(tables%name() == name, .true., dim=1)
       if (i == 0) then

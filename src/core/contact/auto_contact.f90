@@ -8,7 +8,7 @@ module wavycon_auto_contact
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_status, only: converged, interrupted
    use wavycon_fitted_contact, only: fitted_contact
-   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_fitted_frame, only: crests_form_lattice
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
@@ -51,10 +51,8 @@ contains
 
       type(closed_form_contact), allocatable :: closed_form
       type(fitted_contact), allocatable :: fitted
-      type(fitted_frame) :: frame
 
       call self%grid_contact%start(surface, options, keep_fields)
-      call find_frame(surface, frame)
       if (any(options%points > 0)) then
          self%choice = points_are_given
          if (all(options%points == surface%points)) self%choice = points_are_of_the_map
@@ -68,7 +66,7 @@ contains
          self%choice = has_a_hardness
       else if (surface%kernel%has_layer()) then
          self%choice = has_a_layer
-      else if (allocated(frame%lattice)) then
+      else if (crests_form_lattice(surface)) then
          self%choice = has_lattice
          allocate (fitted)
          call fitted%start(surface, options%accuracy, keep_fields)

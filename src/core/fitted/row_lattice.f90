@@ -79,20 +79,17 @@ contains
       complex(dp), intent(in) :: offset            !! x + i y [s]
       complex(dp), allocatable :: point(:)         !! x + i y, shape (n) [s]
 
-      complex(dp) :: z
+      complex(dp), allocatable :: z(:)
       integer :: columns, i, j, rows
+      real(dp) :: half(2)
 
       rows = ceiling((distance + abs(offset))/self%spacing + 0.5_dp)
       columns = ceiling(distance + abs(offset) + 0.5_dp + self%shift*rows)
-      allocate (point(0))
-      do j = -rows, rows
-         do i = -columns, columns
-            z = cmplx(i + self%shift*j, self%spacing*j, dp)
-            if (self%along_y) z = cmplx(z%im, z%re, dp)
-            z = z + offset
-            if (norm2(max(abs([z%re, z%im]) - self%half_sides(), 0.0_dp)) <= distance) point = [point, z]
-         end do
-      end do
+      half = self%half_sides()
+      z = [((cmplx(i + self%shift*j, self%spacing*j, dp), i=-columns, columns), j=-rows, rows)]
+      if (self%along_y) z = cmplx(z%im, z%re, dp)
+      z = z + offset
+      point = pack(z, hypot(max(abs(z%re) - half(1), 0.0_dp), max(abs(z%im) - half(2), 0.0_dp)) <= distance)
    end function points_about
 
 end module wavycon_row_lattice

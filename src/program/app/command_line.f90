@@ -78,6 +78,7 @@ contains
       call keys%add(options%version, key_type(logical_value, '--version', '.false.', '', 'show the version and stop'))
       call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', &
          'show this and stop; --help GROUP, such as --help surface: only the keys of this group'))
+      call keys%close()
    end subroutine list_options
 
    !> Reads the command line. Words that do not begin with '-', '-' alone, and all words behind '--', are decks. Errors:

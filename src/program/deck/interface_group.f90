@@ -1,7 +1,7 @@
 !> The &interface group: stiffness and resistance of the contact, partial slip and adhesion. They are computed only if
 !> the deck has this group.
 module wavycon_interface_group
-   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_fitted_frame, only: crests_form_lattice
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: choice_value, key_type, logical_value, real_value
@@ -58,6 +58,7 @@ contains
          'unit of e_star times length', &
          'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
          'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0))
+      call keys%close()
    end subroutine list_interface_keys
 
    !> Checks the keys and makes the setting that the group asks for. Keys that are missing, that contradict each other
@@ -138,14 +139,12 @@ contains
    logical function has_adhesion(surface)
       type(surface_type), intent(in) :: surface
 
-      type(fitted_frame) :: frame
       if (is_ball(surface)) then
          has_adhesion = maxval(ball_radii(surface)) <= minval(ball_radii(surface))
       else if (surface%dimension == 1) then
          has_adhesion = is_paper_wave(surface)
       else
-         call find_frame(surface, frame)
-         has_adhesion = allocated(frame%lattice)
+         has_adhesion = crests_form_lattice(surface)
       end if
    end function has_adhesion
 

@@ -81,6 +81,7 @@ contains
       call keys%add(values%sweep_steps, key_type(integer_value, 'sweep_steps', '', '', &
          'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=110, &
          needs='sweep_from'))
+      call keys%close()
    end subroutine list_load_keys
 
    !> Checks the keys and, if the group has no problems, converts its loads to the program's normalisation. Tensions and

@@ -57,6 +57,7 @@ contains
          needs='base_nu layer_thickness'))
       call keys%add(values%base_nu, key_type(real_value, 'base_nu', '', '-', &
          "Poisson's ratio of this half-space.", above=-1, most=0.5_dp, needs='base_e'))
+      call keys%close()
    end subroutine list_material_keys
 
    !> Checks the keys, lays the surface on a layer if there is one, finds E* and p*, and sets the hardness of the

@@ -41,7 +41,7 @@ contains
       call keys%add(values%directory, key_type(text_value, 'directory', "'outputs/<case>'", '', &
          'Where the results go, relative to where the program is started; made if it is not there.', &
          longest=longest_directory))
-      call all_tables(tables)
+      call all_tables(tables, without_adhesion=.true.)
       do i = 1, size(tables)
          if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
          call keys%add(values%tables(i), key_type(logical_value, tables(i)%key, '.false.', '', tables(i)%meaning))
@@ -61,6 +61,7 @@ contains
          ' x '//integer_text(text_side)//' points, npy beyond.', choices='auto text npy'))
       call keys%add(values%histogram_bins, key_type(integer_value, 'histogram_bins', '100', '', &
          'bins of the histograms of pressure and of gap, of equal width.', 4, most_bins))
+      call keys%close()
    end subroutine list_output_keys
 
    !> Sets the directory and the points of lines and maps. Tables that the solver or the surface cannot have are
@@ -79,7 +80,7 @@ contains
       call values%directory%set(text=plain_directory(values%directory%text))
       if (.not. allocated(surface)) return
       if (.not. method%grid_points%is_bad) call set_points(values, method, surface)
-      if (method%solver%is_bad) return
+      if (method%solver%is_bad .or. .not. any(values%tables%is_true)) return
       call all_tables(tables)
       do i = 1, size(tables)
          if (.not. values%tables(i)%is_true) cycle

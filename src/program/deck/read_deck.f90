@@ -109,7 +109,7 @@ contains
          if (allocated(error)) deallocate (error)
          call fatal_error(error, exit_bad_input, problem_report(problems, text))
       end if
-      if (.not. allocated(error)) call complete(scene, lists)
+      if (.not. allocated(error)) call complete(scene, lists, is_file)
    end subroutine parse_deck
 
    !> Checks &surface and, if it has no problems, makes the surface. If the deck does not label its unit of lengths, the
@@ -190,9 +190,10 @@ contains
 
    !> Sets the components of the scene that follow from the values of a deck without problems: roughness, units, names,
    !> the resolved deck, and what the deck asks for.
-   subroutine complete(scene, lists)
+   subroutine complete(scene, lists, is_run)
       type(scene_type), intent(inout), target :: scene
       type(key_list), intent(in) :: lists(:)   !! keys of all groups
+      logical, intent(in) :: is_run            !! whether the scene may be run: a checkpoint needs its fingerprint
 
       character(:), allocatable :: file, file2
       integer :: i
@@ -208,11 +209,13 @@ contains
          scene%pressure_unit = labels%pressure_unit%text
          scene%length_unit = labels%length_unit%text
          scene%directory = scene%output%directory%text
-         call scene%output%directory%set(text='')
-         scene%fingerprint = resolved_deck_text(scene)
-         ! Leave out the first line, which has the path of the deck.
-         scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
-         call scene%output%directory%set(text=scene%directory)
+         if (is_run) then
+            call scene%output%directory%set(text='')
+            scene%fingerprint = text_of(scene, lists)
+            ! Leave out the first line, which has the path of the deck.
+            scene%fingerprint = scene%fingerprint(index(scene%fingerprint, newline):)
+            call scene%output%directory%set(text=scene%directory)
+         end if
          ! The resolved deck names the maps' files by their absolute paths, so that a copy of the deck in another
          ! directory finds the files. A map that was made, not read, has no file.
          file = surface%file%text
@@ -221,7 +224,7 @@ contains
          if (allocated(scene%map)) then
             if (scene%map%path /= '') call surface%file%set(text=scene%map%path)
          end if
-         scene%resolved_deck = resolved_deck_text(scene)
+         scene%resolved_deck = text_of(scene, lists)
          if (file /= '') call surface%file%set(text=file)
          if (file2 /= '') call surface%file2%set(text=file2)
       end associate
@@ -239,9 +242,19 @@ contains
       character(:), allocatable :: text
 
       type(key_list) :: lists(number_of_groups)
-      integer :: i
 
       call list_keys(scene, lists)
+      text = text_of(scene, lists)
+   end function resolved_deck_text
+
+   !> The resolved deck.
+   function text_of(scene, lists) result(text)
+      type(scene_type), intent(in), target :: scene
+      type(key_list), intent(in) :: lists(:)   !! keys of all groups, which point to the values of the scene
+      character(:), allocatable :: text
+
+      integer :: i
+
       text = '! '//escaped(scene%deck_path)//' with the value in effect of every key that applies.'
       do i = 1, size(lists)
          ! A group &load, &stress or &interface that the deck does not have is left out: the group alone would ask for
@@ -249,7 +262,7 @@ contains
          if (lists(i)%group%position > 0 .or. all(lists(i)%name /= ['load     ', 'stress   ', 'interface'])) &
             text = text//group_text(lists(i))
       end do
-   end function resolved_deck_text
+   end function text_of
 
    !> The text of a group in the resolved deck. A key has a line "key = value   ! [unit] allowed values", and a line for
    !> each further value. Each line has a newline before it.

@@ -51,7 +51,7 @@ module wavycon_key_group
    end type key_pointer
 
    !> The table of a group, with a row for each key, and pointers to the values of the keys. The constructor
-   !> `key_list(name, meaning, values%key_group)` makes an empty list, and `add` adds the keys.
+   !> `key_list(name, meaning, values%key_group)` makes an empty list, `add` adds the keys, and `close` ends the list.
    type :: key_list
       character(name_length) :: name = ''      !! name of the group, without '&'
       character(80) :: meaning = ''            !! for --help
@@ -63,8 +63,10 @@ module wavycon_key_group
       character(48) :: of = ''                 !! choices of the selector that read the keys added next; empty: all
       type(key_type), allocatable :: rows(:)
       type(key_pointer), allocatable :: keys(:)   !! the values, in the order of `rows`
+      integer, private :: number = 0           !! number of keys so far; until `close` the arrays may be longer
    contains
       procedure :: add
+      procedure :: close => close_list
       procedure :: start
       procedure :: take
       procedure :: take_value
@@ -119,11 +121,30 @@ contains
       type(key_value), intent(in), target :: value   !! the component of the record
       type(key_type), intent(in) :: row              !! its description; the component `of` follows from the list's
 
-      if (.not. allocated(self%rows)) allocate (self%rows(0), self%keys(0))
-      self%rows = [self%rows, row]
-      self%rows(size(self%rows))%of = self%of
-      self%keys = [self%keys, key_pointer(value)]
+      integer, parameter :: first_size = 8
+
+      if (.not. allocated(self%rows)) allocate (self%rows(first_size), self%keys(first_size))
+      if (self%number == size(self%rows)) then
+         ! Twice the size: to copy all rows for each key took most of the time of a short deck.
+         self%rows = [self%rows, self%rows]
+         self%keys = [self%keys, self%keys]
+      end if
+      self%number = self%number + 1
+      self%rows(self%number) = row
+      self%rows(self%number)%of = self%of
+      self%keys(self%number)%value => value
    end subroutine add
+
+   !> Ends the list: no key will be added.
+   subroutine close_list(self)
+      class(key_list), intent(inout) :: self   !! with at least one key
+
+      type(key_type), allocatable :: rows(:)
+
+      allocate (rows, source=self%rows(:self%number))
+      call move_alloc(rows, self%rows)
+      self%keys = self%keys(:self%number)
+   end subroutine close_list
 
    !> Sets all keys to the defaults of the table. A default in words depends on other keys: such a key has no value
    !> until the group's check calls `set_default`.
@@ -137,11 +158,14 @@ contains
 
       self%group%deck_path = deck_path
       do k = 1, size(self%rows)
-         associate (key => self%keys(k)%value)
+         associate (key => self%keys(k)%value, row => self%rows(k))
             allocate (key%numbers(0))
             key%text = ''
-            if (self%rows(k)%default == '') cycle
-            call read_value(self%rows(k), trim(self%rows(k)%default), parsed, trouble)
+            if (row%default == '') cycle
+            ! Words are known by their letters: to read them as a number would make a message that nobody sees.
+            if (any(row%kind == [real_value, integer_value]) .and. verify(trim(row%default), '+-.0123456789e') > 0) &
+               cycle
+            call read_value(row, trim(row%default), parsed, trouble)
             if (.not. allocated(trouble)) call key%set([parsed%number], parsed%text)
          end associate
       end do
@@ -268,6 +292,7 @@ contains
       is_default = .false.
       is_told = .false.
       is_own = .true.
+      allocate (is_lacking(0))
       is_given = [(self%keys(k)%value%is_given, k=1, size(self%rows))]
       selector_index = key_index(self%rows, self%selector)
       if (selector_index > 0) then
@@ -300,6 +325,8 @@ contains
                   end if
                   cycle
                end if
+               ! Most keys have no relations.
+               if (rows(k)%way == 0 .and. rows(k)%needs == '' .and. .not. rows(k)%required) cycle
                ! The keys that give the same quantity: the key alone, or those of all ways.
                is_same = is_own .and. rows%way/100 == rows(k)%way/100
                if (rows(k)%way == 0) is_same = rows%name == key

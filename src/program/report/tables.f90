@@ -26,19 +26,24 @@ module wavycon_tables
    implicit none (type, external)
    private
 
-   public :: all_tables, summary_columns
+   public :: all_tables, summary_columns, summary_table
 
 contains
 
    !> All tables, in the order in which they are written.
-   subroutine all_tables(tables)
+   subroutine all_tables(tables, without_adhesion)
       type(table_type), allocatable, intent(out) :: tables(:)
+      !> Whether to leave out the last tables, those of the contact with adhesion, which have no keys; absent: .false.
+      logical, intent(in), optional :: without_adhesion
 
       type(table_type), allocatable :: of_adhesion(:)
       integer :: i
 
       tables = [summary_tables(), line_tables(), map_tables(), spot_tables(), theory_tables(), surface_tables(), &
                 stress_tables(), interface_tables(), bounds_tables()]
+      if (present(without_adhesion)) then
+         if (without_adhesion) return
+      end if
       ! The fields of the contact with adhesion get tables of their own, beside the tables without adhesion.
       ! Largest stresses are not among them: they are infinite at the edge.
       of_adhesion = pack(tables, tables%key == 'lines' .or. tables%key == 'map' .or. tables%key == 'contours' .or. &
@@ -61,7 +66,7 @@ contains
    function summary_tables() result(tables)
       type(table_type) :: tables(4)
 
-      tables(1) = table_type('summary', needs_surface=.false., columns=summary_columns())
+      tables(1) = summary_table()
       ! The energy is per nominal area. The perimeter is that of one contact spot or, once the spots have merged, of one
       ! open pool; the paper's cell has two of each.
       tables(2) = table_type('details', 'details', needs_fields=.true., &
@@ -76,6 +81,11 @@ contains
          'last_before[pressure] percolation[pressure] percolation_error[pressure] contact_area_fraction[-] '// &
          'contact_area_fraction_error[-] status_code[#] status[word]')
    end function summary_tables
+
+   !> The table <case>.summary.dat.
+   type(table_type) function summary_table() result(table)
+      table = table_type('summary', needs_surface=.false., columns=summary_columns())
+   end function summary_table
 
    !> The columns of the summary. `results%number` gives the number of each column.
    pure function summary_columns() result(columns)

@@ -173,35 +173,40 @@ contains
       asks_for_largest = allocated(scene%stress_setting) .and. scene%p_star > 0.0_dp .and. scene%stress%largest%is_true
    end function asks_for_largest
 
-   !> Starts the solver of a scene, selects the tables to write, and decides how the ranks share the work.
+   !> Starts the solver of a scene, selects the tables to write, if any are, and decides how the ranks share the work.
    subroutine start_results(scene, results, tables, with_fields)
       type(scene_type), allocatable, intent(inout) :: scene       !! not allocated afterwards: the results own it
       type(results_type), intent(out) :: results                  !! without solutions yet
-      type(table_type), allocatable, intent(out) :: tables(:)     !! the tables to write
+      type(table_type), allocatable, intent(out), optional :: tables(:)   !! the tables to write; absent: none
       !> Whether solutions keep their fields. Absent: they do if a table needs them. In a search for a load of yield
       !> or percolation they always do.
       logical, intent(in), optional :: with_fields
 
       character(:), allocatable :: description
       integer :: i
+      logical :: for_tables   ! whether a table needs fields
 
       call move_alloc(scene, results%scene)
-      call all_tables(tables)
       associate (scene => results%scene)
-         ! p* and Delta of a flat surface are zero.
-         tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
-                       [(tables(i)%is_requested(scene), i=1, size(tables))])
-         ! A table with `asked_by` is left out silently if the solver or the surface cannot have it. A table with a key
-         ! of its own that cannot be written was reported with the deck.
-         results%traits = traits_of(scene%method%solver%text)
-         tables = pack(tables, [(tables(i)%refusal(results%traits, scene%surface) == '', i=1, size(tables))])
-         results%keeps_fields = any(tables%needs_fields) .or. asks_for_largest(scene)
+         for_tables = .false.
+         if (present(tables)) then
+            call all_tables(tables)
+            ! p* and Delta of a flat surface are zero.
+            tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
+                          [(tables(i)%is_requested(scene), i=1, size(tables))])
+            ! A table with `asked_by` is left out silently if the solver or the surface cannot have it. A table with a
+            ! key of its own that cannot be written was reported with the deck.
+            results%traits = traits_of(scene%method%solver%text)
+            tables = pack(tables, [(tables(i)%refusal(results%traits, scene%surface) == '', i=1, size(tables))])
+            for_tables = any(tables%needs_fields)
+            results%keeps_fields = for_tables .or. asks_for_largest(scene)
+         end if
          if (present(with_fields)) results%keeps_fields = with_fields
          results%keeps_fields = results%keeps_fields .or. any(scene%loads_by == [by_yield, by_percolation])
          call start_solver(scene%surface, scene%method, results%keeps_fields, results%solver, description)
          results%method = scene%method%solver%text//', '//description
          results%traits = results%solver%traits()
-         results%sharing = choose_sharing(results%traits, size(scene%target), any(tables%needs_fields), &
+         results%sharing = choose_sharing(results%traits, size(scene%target), for_tables, &
                                           any(scene%loads_by == [by_yield, by_percolation]) .or. &
                                           allocated(scene%interface_setting))
       end associate

@@ -40,7 +40,8 @@ module wavycon_scene
       character(:), allocatable :: case             !! stem of the names of result files
       character(:), allocatable :: directory        !! directory of the results
       character(:), allocatable :: resolved_deck    !! text of a deck with the value in effect of every key
-      !> The resolved deck without the paths of deck and results: checkpoints identify a run by it.
+      !> The resolved deck without the paths of deck and results: checkpoints identify a run by it. Not allocated for a
+      !> deck in memory, which is not run.
       character(:), allocatable :: fingerprint
       type(surface_type), allocatable :: surface    !! not allocated once start_results has given it to the solver
       type(map_statistics), allocatable :: map      !! statistics of a height map; not allocated for other surfaces

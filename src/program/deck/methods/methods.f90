@@ -9,7 +9,7 @@ module wavycon_methods
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_fitted_contact, only: fitted_contact
-   use wavycon_fitted_frame, only: find_frame, fitted_frame
+   use wavycon_fitted_frame, only: crests_form_lattice
    use wavycon_formula_kinds, only: paper_waves
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_grid_contact, only: grid_contact, grid_options
@@ -82,6 +82,7 @@ contains
          'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
          'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
          'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=101))
+      call keys%close()
    end subroutine list_method_keys
 
    !> Why a solver cannot find the load of percolation, and what can; '' if it finds it.
@@ -115,8 +116,10 @@ contains
          call values%complain(values%solver, "solver = '"//solver//"' "//words//'. Give '//solvers_for(surface))
          return
       end if
-      words = without_errors(solver, surface)
-      if (load%percolates%is_given .and. words /= '') call values%complain(values%solver, words)
+      if (load%percolates%is_given) then
+         words = without_errors(solver, surface)
+         if (words /= '') call values%complain(values%solver, words)
+      end if
       select case (solver)
       case ('beale', 'series')
          call check_series_keys(values, surface)
@@ -132,8 +135,6 @@ contains
       type(surface_type), intent(in) :: surface
       character(:), allocatable :: words
 
-      type(fitted_frame) :: frame
-
       words = ''
       select case (solver)
       case ('beale', 'series')
@@ -141,9 +142,8 @@ contains
       case ('closed_form')
          if (.not. closed_form_exists(surface)) words = "is for the 1-D wave and kind = 'ball'"
       case ('fitted')
-         call find_frame(surface, frame)
          ! A flat surface is in full contact at every load: no fitted function is needed.
-         if (.not. allocated(frame%lattice) .and. surface%amplitude > 0.0_dp) words = &
+         if (.not. crests_form_lattice(surface) .and. surface%amplitude > 0.0_dp) words = &
             "is for the paper's wave, also with two wavelengths up to "//short_number(largest_aspect_ratio)// &
             ':1, for crossed waves with crest curvatures up to '//short_number(largest_curvature_ratio)// &
             ':1 and for three equal waves at 60 degrees'
