@@ -306,9 +306,9 @@ contains
    end function sums_after
 
    !> Replaces the direction of a step by which points reach H by the change that projects the pressure on the allowed
-   !> ones (C24): all free points get the same shift, and a pressure beyond a bound becomes this bound. The shift is that
-   !> which restores the mean. Close to H only a small part of a long step is left after this, so that the change is
-   !> computed in double precision.
+   !> ones (C24): all free points get the same shift, and a pressure beyond a bound becomes this bound. The shift is
+   !> that which restores the mean. Close to H only a small part of a long step is left after this, so that the change
+   !> is computed in double precision.
    subroutine project(state, step, direction)
       type(correction_state), intent(in) :: state
       real(sp), intent(in) :: step                              !! tau of (C6)
