@@ -8,6 +8,7 @@ module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
+   use wavycon_constants, only: pi
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
    use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
@@ -217,6 +218,8 @@ contains
       do i = 1, n
          if (allocated(solved%stresses)) then
             angles = session%scale%angles([x(i), y(i)])
+            ! Nothing repeats a map with free edges, and stresses are asked for far beyond it.
+            if (session%results%solver%surface%has_free_edges) angles = 2*pi*[x(i), y(i)]/session%scale%period
             call solved%stresses%at(angles(1), angles(2), session%scale%depth_angle(depth(i)), terms, point_error)
             stress(:, i) = session%scale%p_star*body%stress(terms, solved%stresses%pbar_over_pstar)
             point_error = session%scale%p_star*point_error

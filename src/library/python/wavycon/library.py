@@ -8,7 +8,7 @@ import json
 import sys
 import threading
 import warnings
-from ctypes import CDLL, CFUNCTYPE, byref, c_double, c_int as c_int, c_size_t, c_void_p, create_string_buffer
+from ctypes import CDLL, CFUNCTYPE, byref, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -18,15 +18,36 @@ import numpy.typing as npt
 Array: TypeAlias = npt.NDArray[np.float64]
 Rows: TypeAlias = npt.NDArray[Any]   # of tables: structured arrays
 
-PROGRESS = CFUNCTYPE(c_int, c_void_p, c_int, c_double)
-# Functions that make objects. How arguments are passed follows from their values: see call.
-MAKERS = "new_error", "new_scene", "read_scene", "solve", "solve_load", "new_table"
+TEXT, POINTER = c_char_p, c_void_p
+PROGRESS = CFUNCTYPE(c_int, POINTER, c_int, c_double)
+# Result and arguments of each function behind the error object. Functions that return pointers make objects.
+FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
+    "new_scene": (POINTER, [TEXT, TEXT, c_int, c_int, c_int, POINTER]),
+    "read_scene": (POINTER, [TEXT, TEXT, c_int]),
+    "set_progress": (c_int, [POINTER, PROGRESS, POINTER]),
+    "set_threads": (c_int, [c_int]),
+    "solve": (POINTER, [POINTER, TEXT, c_double]),
+    "solve_load": (POINTER, [POINTER, c_int]),
+    "get": (c_int, [POINTER, TEXT, POINTER]),
+    "get_text": (c_size_t, [POINTER, TEXT, POINTER, c_size_t]),
+    "new_table": (POINTER, [POINTER, TEXT]),
+    "get_column": (c_int, [POINTER, TEXT, c_int, POINTER]),
+    "get_fields": (c_int, [POINTER, c_int] + [POINTER]*5),
+    "get_grid": (c_int, [POINTER, c_int, c_int] + [POINTER]*4),
+    "get_bounds": (c_int, [POINTER, c_double, c_int, c_int] + [POINTER]*3),
+    "get_stresses": (c_int, [POINTER, c_int] + [POINTER]*3 + [c_double, TEXT] + [POINTER]*2),
+    "get_invariants": (c_int, [c_int] + [POINTER]*4),
+}
 
 folders = map(Path, sys.modules[__package__].__path__)
 lib = CDLL(str(next(path for folder in folders for path in folder.glob("libwavycon.*"))))
-lib.wavycon_get_message.restype = lib.wavycon_get_text.restype = c_size_t
-for _maker in MAKERS:
-    getattr(lib, f"wavycon_{_maker}").restype = c_void_p
+lib.wavycon_new_error.restype = POINTER
+lib.wavycon_get_code.argtypes = lib.wavycon_delete.argtypes = [POINTER]
+lib.wavycon_get_message.argtypes = [POINTER, POINTER, c_size_t]
+lib.wavycon_get_message.restype = c_size_t
+functions = {name: getattr(lib, "wavycon_" + name) for name in FUNCTIONS}
+for _name, (_result, _arguments) in FUNCTIONS.items():
+    functions[_name].restype, functions[_name].argtypes = _result, [POINTER, *_arguments]
 
 
 class Note(UserWarning):
@@ -37,7 +58,7 @@ class Handle:
     """An object of the library, which ends with this one."""
 
     def __init__(self, pointer: int | None) -> None:
-        self._as_parameter_ = c_void_p(pointer)
+        self._as_parameter_ = POINTER(pointer)
 
     def __del__(self, delete: Any = lib.wavycon_delete) -> None:
         delete(byref(self._as_parameter_))
@@ -47,18 +68,16 @@ _own = threading.local()   # each thread has an error object of its own
 
 
 def call(name: str, *arguments: Any) -> Any:
-    """Calls a function by its name without 'wavycon_', without its first argument. Numbers of the type float are passed
-    as double, whole numbers as int, arrays by address."""
+    """Calls a function by its name without 'wavycon_', without its first argument."""
     if not hasattr(_own, "error"):
         _own.error = Handle(lib.wavycon_new_error())
-    numbers = (c_double(one) if isinstance(one, float) else one for one in arguments)
-    answer = getattr(lib, f"wavycon_{name}")(_own.error, *numbers)
+    answer = functions[name](_own.error, *arguments)
     code = lib.wavycon_get_code(_own.error)
     if code:
-        message = create_string_buffer(lib.wavycon_get_message(_own.error, None, c_size_t(0)))
-        lib.wavycon_get_message(_own.error, message, c_size_t(len(message)))
+        message = create_string_buffer(lib.wavycon_get_message(_own.error, None, 0))
+        lib.wavycon_get_message(_own.error, message, len(message))
         raise (ValueError if code == 1 else OSError)(message.value.decode())
-    return Handle(answer) if name in MAKERS else answer
+    return Handle(answer) if FUNCTIONS[name][0] is POINTER else answer
 
 
 def number(thing: Handle, name: str) -> float:
@@ -68,8 +87,8 @@ def number(thing: Handle, name: str) -> float:
 
 
 def text(thing: Handle | None, name: str) -> str:
-    buffer = create_string_buffer(call("get_text", thing, name.encode(), None, c_size_t(0)))
-    call("get_text", thing, name.encode(), buffer, c_size_t(len(buffer)))
+    buffer = create_string_buffer(call("get_text", thing, name.encode(), None, 0))
+    call("get_text", thing, name.encode(), buffer, len(buffer))
     return buffer.value.decode()
 
 
@@ -125,9 +144,9 @@ def need(name: str, extra: str) -> Any:
                           f"{package} is installed, but cannot be imported: {error}") from error
 
 
-def address(array: Array) -> c_void_p:
+def address(array: Array) -> int:
     """Where the numbers of an array are; the array must outlive it."""
-    return c_void_p(array.ctypes.data)
+    return array.ctypes.data
 
 
 @functools.cache

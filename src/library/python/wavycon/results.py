@@ -257,8 +257,11 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
     @cached_property
     def surface(self) -> Roughness:
-        """Root mean square height, slope and curvature of the surface that was solved, and its spectrum."""
+        """Root mean square height, slope and curvature of the surface that was solved, and its spectrum. Errors: ValueError
+        with free edges."""
         rows = self._model.table("spectrum")
+        if not rows.size:
+            raise ValueError("a surface with free edges has no spectrum: nothing repeats it")
         last = rows[rows["direction"] == rows["direction"][0]][-1]
         height, slope, curvature = (float(last[f"rms_{name}_up_to"]) for name in ("height", "slope", "curvature"))
         return Roughness(height, slope, curvature, rows)
