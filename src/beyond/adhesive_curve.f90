@@ -451,6 +451,8 @@ contains
                solved = maxval(point%error)
                if (is_extreme) call step_to_extreme()
                if (fine == 2 .or. .not. is_extreme .or. maxval(point%error) <= curve%problem%accuracy) exit
+               ! A second solution at the same area would give no curvature.
+               if (fine == 1 .and. abs(next - area(n)) <= rounding*next) exit
                ! The slope is not known accurately enough. Its error falls with that of the solutions. If it is the
                ! curvature that is not, a second solution of the same accuracy gives it.
                fine = fine + 1

@@ -245,6 +245,8 @@ class Values(ValuesTest):
         profile = wc.solve(wc.wave_1d(amplitude=2, wavelength=3), pbar_over_pstar=0.1).surface
         self.assertAlmostEqual(4*numpy.pi/3/2**0.5, profile.rms_slope, delta=1e-12)
         self.assertIn("spectrum_1d", profile.spectrum.dtype.names)
+        with self.assertRaisesRegex(ValueError, "free edges"):
+            wc.solve(wc.ball(radius=1.0), force=1e-6).surface
 
     def test_a_table_for_notebooks(self):
         text = self.solve_rough(pressure_unit="<MPa>")._repr_html_()
