@@ -9,6 +9,8 @@ read for files of instruments; solve, run and sweep; problem for many loads one 
 of any code; load for saved results; Settings and Load, all keys of decks, and keys, the same as dictionaries; Note, the
 warnings. Lengths are in any one unit, pressures in any one unit.
 """
+import operator as _operator
+
 from . import library as _library
 from . import names as _names
 from .deck import heights
@@ -28,4 +30,4 @@ __version__ = _library.text(None, "version")
 
 def set_threads(number: int) -> None:
     """Sets the number of threads that work on large grids, 1 unless set."""
-    _library.call("set_threads", _library.c_int(number))
+    _library.call("set_threads", _operator.index(number))
