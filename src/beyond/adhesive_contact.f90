@@ -195,6 +195,7 @@ contains
       type(adhesive_point), intent(in) :: point         !! a point of this problem
       type(contact_solution), intent(out) :: solution   !! has load, area, approach and mean gap
 
+      type(fitted_source), allocatable :: fitted
       type(hertz_ball) :: contact
 
       associate (surface => self%surface, p => point%value(at_load))
@@ -213,8 +214,12 @@ contains
             allocate (solution%source, source=closed_form_source(record=solution%solution_record, &
                                                                  tension=sin(0.5_dp*pi*point%area)**2 - p))
          else
-            allocate (solution%source, source=fitted_source(record=solution%solution_record, frame=self%frame, &
-                                                            answer=point%answer, accuracy=self%accuracy))
+            allocate (fitted)
+            fitted%record = solution%solution_record
+            fitted%frame = self%frame
+            fitted%answer = point%answer
+            fitted%accuracy = self%accuracy
+            call move_alloc(fitted, solution%source)
          end if
       end associate
    end subroutine make_solution

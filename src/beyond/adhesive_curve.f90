@@ -86,11 +86,8 @@ contains
                p1 = p1/(1.0_dp + p1)
                area = 2/pi*asin(sqrt(p1))
             else
-               associate (surface => curve%problem%surface)
-                  contact = hertz_contact(ball_radii(surface), 1.0_dp, &
-                                          force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
-                  area = contact%contact_area()/surface%nominal_area()
-               end associate
+               contact = hertz_of_ball(curve%problem%surface, load=p1)
+               area = contact%contact_area()/curve%problem%surface%nominal_area()
             end if
          end associate
          call curve%problem%find_point(.false., area, point)
@@ -109,7 +106,6 @@ contains
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
-      logical :: is_past   ! whether the point is the first one and past the first extreme
       type(adhesive_point) :: point
       type(adhesive_problem) :: finer
       type(fitted_answer) :: start
@@ -144,9 +140,7 @@ contains
          end if
          ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
-         ! Neighbours may have moved the first extreme to before the first point: this is then tried at half the radius.
-         is_past = point%exists .and. ratio <= 0.0_dp .and. point%value(2 + merge(at_load, at_approach, pools)) > 0.0_dp
-         if (point%exists .and. .not. is_past .and. &
+         if (point%exists .and. &
              maxval(point%error) <= min(worst_error*curve%problem%accuracy, largest_error)) then
             call add_point(curve, point)
             start = point%answer
@@ -169,7 +163,7 @@ contains
          else
             radius = radius - step
             step = 0.5_dp*step
-            if ((ratio <= 0.0_dp .and. .not. is_past) .or. step < least_step*full_step) exit
+            if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
          end if
          radius = radius + step
       end do
@@ -272,11 +266,22 @@ contains
       type(adhesive_point) :: point
 
       known = size(curve%at_loads)
-      if (which == 0) call add_contacts_of_area(curve, target)
-      do i = 1, merge(size(curve%knots) - 1, 0, which > 0)
+      if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
+         ! The closed forms hold at any area, also beyond the ends of the computed curve.
+         call curve%problem%find_point(.false., target, point)
+         curve%at_loads = [curve%at_loads, point]
+         curve%at_loads(known + 1)%number = number
+         return
+      end if
+      do i = 1, size(curve%knots) - 1
          associate (here => curve%knots(i), after => curve%knots(i + 1))
-            if (.not. is_between(here, after, which, target)) cycle
-            call find_zero(curve, which, target, here, after, point)
+            if (which > 0) then
+               if (.not. is_between(here, after, which, target)) cycle
+               call find_zero(curve, which, target, here, after, point)
+            else
+               if ((here%pools .neqv. after%pools) .or. ((here%area < target) .eqv. (after%area < target))) cycle
+               call curve%problem%find_point(here%pools, target, point, here%answer)
+            end if
          end associate
          if (point%exists) curve%at_loads = [curve%at_loads, point]
       end do
@@ -285,27 +290,6 @@ contains
       if (.not. is_found) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
-
-   !> Adds to `at_loads` the contacts of a given area, of each branch that has it. Before the first point of a branch
-   !> they start from the asymptote of small spots or pools. Closed forms hold at any area.
-   subroutine add_contacts_of_area(curve, area)
-      type(adhesive_curve), intent(inout) :: curve
-      real(dp), intent(in) :: area     !! area fraction
-
-      integer :: before, branch, first   ! numbers of knots: how many come before the area, the branch's first one
-      type(adhesive_point) :: point
-
-      if (.not. (area > 0.0_dp .and. area < 1.0_dp)) return
-      do branch = 1, merge(1, 2, curve%problem%has_closed_form)
-         associate (are_meant => curve%knots%pools .eqv. branch == 2)
-            before = count(are_meant .and. (curve%knots%area < area .neqv. branch == 2))
-            if (before == count(are_meant) .and. .not. curve%problem%has_closed_form) cycle
-            first = findloc(are_meant, .true., dim=1)
-            call curve%problem%find_point(branch == 2, area, point, curve%knots(first + max(before - 1, 0))%answer)
-         end associate
-         if (point%exists) curve%at_loads = [curve%at_loads, point]
-      end do
-   end subroutine add_contacts_of_area
 
    !> The contact at a load of the deck as a solution with fields. Of several stable contacts the one with the largest
    !> area is taken, which the bodies reach by unloading. If an approach is given, contacts that are stable at the
@@ -388,10 +372,9 @@ contains
       !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
       !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
       !> of the last point. `curvature`, `distance`: the derivative of the slope, from two areas so far apart.
-      !> `curvature_error`: relative. `middle`: the miss between `first` and `last`. `solved`: larger error of the last
-      !> solution, before the step by the derivatives.
+      !> `curvature_error`: relative. `solved`: larger error of the last solution, before the step by the derivatives.
       real(dp) :: area(most_steps), bracket(2), changes(2), curvature, curvature_error, distance, errors(2), &
-         middle, miss(most_steps), next, solved
+         miss(most_steps), next, solved
       type(adhesive_problem) :: problem
 
       problem = curve%problem
@@ -403,14 +386,6 @@ contains
          area(:2) = area([2, 1])
          miss(:2) = miss([2, 1])
       end if
-      ! By the cubic that has the values and slopes of `first` and `last`.
-      associate (rise => last%value - first%value, whole => last%area - first%area)
-         if (is_extreme) then
-            middle = 1.5_dp*rise(which - 2)/whole - 0.25_dp*sum(miss(:2))
-         else
-            middle = 0.5_dp*sum(miss(:2)) - 0.125_dp*whole*rise(2 + which)
-         end if
-      end associate
       bracket = area(:2)
       fine = 0
       do n = 2, most_steps - 1
@@ -418,8 +393,6 @@ contains
             next = area(n) - miss(n)/curvature
          else if (n > 2 .and. .not. is_extreme) then
             next = area(n) - miss(n)/point%value(2 + which)
-         else if (n == 2) then
-            next = interpolated([area(1), 0.5_dp*sum(area(:2)), area(2)], [miss(1), middle, miss(2)])
          else
             next = interpolated(area(max(1, n - 2 + fine/2):n), miss(max(1, n - 2 + fine/2):n))
          end if
@@ -513,5 +486,14 @@ contains
       end do
       zero = p(1)
    end function interpolated
+
+   !> Hertz's contact of a ball under a load. The modulus is set to 1, as it does not matter in units of p* and Delta.
+   pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)
+      type(surface_type), intent(in) :: surface   !! a ball
+      real(dp), intent(in) :: load                !! P [p*]
+
+      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
+                              force=load*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+   end function hertz_of_ball
 
 end module wavycon_adhesive_curve

@@ -60,6 +60,7 @@ contains
 
       real(dp) :: unit(number_of_quantities)   !! units of the quantities of `answer` over those of `solution`
       type(fitted_answer) :: answer
+      type(fitted_source), allocatable :: source
 
       if (allocated(self%frame%lattice)) then
          ! solve_fitted takes an accuracy relative to the values. The largest of the three values is the peak pressure,
@@ -87,7 +88,11 @@ contains
       solution%status = not_accurate
       if (maxval(solution%error(main_quantities)) <= self%accuracy) solution%status = converged
       if (.not. self%keep_fields) return
-      allocate (solution%source, source=fitted_source(frame=self%frame, answer=answer, accuracy=self%accuracy))
+      allocate (source)
+      source%frame = self%frame
+      source%answer = answer
+      source%accuracy = self%accuracy
+      call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
 
    !> The traits. A solution starts from the last one, so that its last digits depend on the load before.
