@@ -247,6 +247,7 @@ contains
       real(dp), allocatable :: q(:)
       real(dp) :: even(6), n_x, n_y, q_y, q_z, sums(number_of_sums)
       integer :: i, k, l, last(2), m
+      logical :: is_image   ! whether waves are left out
 
       last = self%waves%last_waves(depth)
       m = dot_product(abs(direction), last)
@@ -275,11 +276,13 @@ contains
       end do
       do i = 1, size(t)
          sums = 0.0_dp
-         do m = lbound(along, 2), ubound(along, 2)
-            ! Beyond the cell about a map with free edges the waves are those of its images.
-            if (allocated(self%load) .and. any(abs(start + direction*t(i) - 0.5_dp*pi) > pi)) exit
-            sums = sums + real(along(:, m)*turn(m*t(i)))
-         end do
+         ! Beyond the cell about a map with free edges the waves are those of its images.
+         is_image = allocated(self%load) .and. any(abs(start + direction*t(i) - 0.5_dp*pi) > pi)
+         if (.not. is_image) then
+            do m = lbound(along, 2), ubound(along, 2)
+               sums = sums + real(along(:, m)*turn(m*t(i)))
+            end do
+         end if
          nu_terms(:, :, i) = nu_terms_of(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))
          error(i) = error_of(self, nu_terms(zz, 1, i) - self%pbar_over_pstar, sums(9:))
       end do

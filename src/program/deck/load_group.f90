@@ -87,9 +87,9 @@ contains
    !> Checks the keys and, if the group has no problems, converts its loads to the program's normalisation. Tensions and
    !> separations without adhesion or with friction, and contradictions, are reported. So are loads that the surface
    !> cannot have: a mean gap above that before load, an area above the nominal area, a pressure above
-   !> largest_pbar_over_pstar p*, a gap or an area on a flat surface, and on a surface with free edges loads that refer to
-   !> p*. A gap, approach or area may exceed its limit by rounding. On a flat surface, whose p* is 0, loads over p* are
-   !> reported too.
+   !> largest_pbar_over_pstar p*, a gap or an area on a flat surface, and on a surface with free edges loads that refer
+   !> to p*. A gap, approach or area may exceed its limit by rounding. On a flat surface, whose p* is 0, loads over p*
+   !> are reported too.
    subroutine check_load_group(values, surface, e_star, with_adhesion, with_friction, loads_by, target, mean_pressure)
       type(load_group), intent(inout) :: values
       type(surface_type), intent(in), optional :: surface        !! absent if it could not be made

@@ -257,8 +257,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
     @cached_property
     def surface(self) -> Roughness:
-        """Root mean square height, slope and curvature of the surface that was solved, and its spectrum. Errors: ValueError
-        with free edges."""
+        """Root mean square height, slope and curvature of the surface that was solved, and its spectrum.
+        Errors: ValueError with free edges."""
         rows = self._model.table("spectrum")
         if not rows.size:
             raise ValueError("a surface with free edges has no spectrum: nothing repeats it")
