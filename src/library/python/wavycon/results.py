@@ -250,10 +250,13 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         return f"<p>{html.escape(self.method)}</p><table><tr>{''.join(heads)}</tr>{''.join(rows)}</table>"
 
     def table(self, name: str = "summary") -> Rows:
-        """The rows of a table of all loads, see Result.table; 'height' and 'spectrum', those of the surface, once."""
-        if "load" not in (self._model.table(name).dtype.names or ()):
-            return self._model.table(name)
-        return locked(np.concatenate([load.table(name) for load in self] or [self._model.table(name)[:0]]))
+        """The rows of a table of all loads, see Result.table; those that belong to no load once, as 'height', 'spectrum'
+        and the curve of 'adhesion', whose load is 0."""
+        first = self._model.table(name)
+        if "load" not in (first.dtype.names or ()):
+            return first
+        tables = [load.table(name) for load in self]
+        return locked(np.concatenate([first[first["load"] == 0], *(rows[rows["load"] > 0] for rows in tables)]))
 
     @cached_property
     def surface(self) -> Roughness:
