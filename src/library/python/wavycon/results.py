@@ -164,7 +164,8 @@ class Result(Named, Columns[float, str]):
         return self._fields["displacement"]
 
     def fields_at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> dict[str, Array]:
-        """Pressure [pressure], gap and displacement [length] at points x, y [length], arrays of one shape."""
+        """Pressure [pressure], gap and displacement [length] at points x, y [length], arrays of one shape. Beyond free
+        edges the pressure is 0, and there is no surface: gap and displacement are NaN."""
         solution, (x, y) = self._live("fields"), same_shape(x, y)
         fields = {name: np.empty(x.shape) for name in FIELDS}
         call("get_fields", solution, x.size, address(x), address(y), *map(address, fields.values()))
