@@ -31,8 +31,8 @@ module wavycon_contact_solver
       !> Number of levels of lower accuracy, at which loads are solved faster; a search for a load begins at the
       !> coarsest.
       integer :: coarser_levels = 0
-      !> Points along x and y, on the part of the cell that is solved: of the coarsest and the finest grid on which a load
-      !> may meet the accuracy, and of the one grid whose points were given; zeros if there is no such grid.
+      !> Points along x and y, on the part of the cell that is solved: of the coarsest and the finest grid on which a
+      !> load may meet the accuracy, and of the one grid whose points were given; zeros if there is no such grid.
       integer :: coarsest_grid(2) = 0, finest_grid(2) = 0, given_grid(2) = 0
       logical :: lacks_waves = .false.         !! whether the given grid leaves out waves of the surface
       logical :: needs_whole_grids = .false.   !! whether no grid can be distributed over processes

@@ -167,8 +167,8 @@ contains
       allocate (own)
       call start_grid_fields(own%fields, surface, self%edge, self%record%value(approach), self%rotated)
       own%repeats = .not. surface%has_free_edges
-      call start_series_stress_fields(own%series_stress_fields, surface, pressure, self%record%pbar_over_pstar/cells**2, &
-                                      or_nan(error), is_sampled=.true.)
+      call start_series_stress_fields(own%series_stress_fields, surface, pressure, &
+                                      self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true.)
       if (cells > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses
