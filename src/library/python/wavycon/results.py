@@ -251,8 +251,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         return f"<p>{html.escape(self.method)}</p><table><tr>{''.join(heads)}</tr>{''.join(rows)}</table>"
 
     def table(self, name: str = "summary") -> Rows:
-        """The rows of a table of all loads, see Result.table; those that belong to no load once, as 'height', 'spectrum'
-        and the curve of 'adhesion', whose load is 0."""
+        """The rows of a table of all loads, see Result.table. Those that belong to no load stand once: 'height',
+        'spectrum', and the curve of 'adhesion', whose load is 0."""
         first = self._model.table(name)
         if "load" not in (first.dtype.names or ()):
             return first
