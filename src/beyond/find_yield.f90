@@ -43,6 +43,7 @@ contains
       !> and a load is found; otherwise unchanged.
       type(largest_stress), intent(inout), optional :: stresses(:, :)
 
+      logical :: ends
       real(dp) :: first_log_p, log_p, slope
 
       ! The first load must be below the hardness, which may be a small part of p*.
@@ -52,7 +53,8 @@ contains
       call solver%begin_search()
       do
          call find_root(solver, setting, log(target), log_p, slope, solution, stresses)
-         if (.not. solver%refines(is_over=solution%status == interrupted)) exit
+         call solver%next_level(is_over=solution%status == interrupted, ends=ends)
+         if (ends) exit
          if (solution%status == not_found) then
             log_p = first_log_p
             slope = light_slope(solver)

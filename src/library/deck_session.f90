@@ -166,6 +166,7 @@ contains
       call check_ready(self, error)
       if (allocated(error)) return
       call list_load_keys(values, keys(1))
+      call keys(1)%close()
       call keys(1)%start('')
       equals = index(quantity//'=', '=')
       k = key_index(keys(1)%rows, quantity(:equals - 1))

@@ -5,10 +5,9 @@
 !> numbers of points and coordinates that are out of range or not finite; exit_file_trouble if there is not enough
 !> memory.
 module wavycon_session_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
-   use wavycon_constants, only: pi
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
    use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
@@ -38,6 +37,7 @@ contains
 
    !> Fields at n points. The pressure is exactly 0 outside contact, and the gap is exactly 0 in contact. Only the
    !> truncated series of the solvers 'beale' and 'series' differ: they are returned as they are.
+   !> Beyond a surface with free edges the pressure is 0, and gap and displacement are NaN.
    subroutine fields_at(session, solved, n, x, y, error, pressure, gap, displacement)
       type(deck_session), intent(in) :: session
       type(solved_load), intent(inout) :: solved                     !! a load that the session has solved
@@ -60,6 +60,7 @@ contains
             call solved%fields%at(angles(1), angles(2), values(1), values(2), values(3))
             values = [session%scale%p_star, session%scale%amplitude, session%scale%amplitude]*values
          end if
+         if (is_beyond(session, [x(i), y(i)]/session%scale%sides)) values = [0.0_dp, no_surface(), no_surface()]
          if (present(pressure)) pressure(i) = values(1)
          if (present(displacement)) displacement(i) = values(2)
          if (present(gap)) gap(i) = values(3)
@@ -76,6 +77,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(out), optional, dimension(points(1), points(2)) :: pressure, gap, displacement
 
+      integer :: k, l
       real(dp) :: first(2)
       real(dp), allocatable :: g(:, :), p(:, :), u(:, :)
 
@@ -90,10 +92,35 @@ contains
          u = g
          p = g + solved%mean_pressure
       end if
+      do l = 1, points(2)
+         do k = 1, points(1)
+            if (.not. is_beyond(session, ([k, l] - 1 + first)/points)) cycle
+            p(k, l) = 0.0_dp
+            u(k, l) = no_surface()
+            g(k, l) = no_surface()
+         end do
+      end do
       if (present(pressure)) pressure = p
       if (present(gap)) gap = session%scale%amplitude*g
       if (present(displacement)) displacement = session%scale%amplitude*u
    end subroutine fields_on_grid
+
+   !> Whether a place lies beyond a surface with free edges, where there is no surface.
+   pure logical function is_beyond(session, place)
+      type(deck_session), intent(in) :: session
+      real(dp), intent(in) :: place(2)   !! x, y over the sides of the surface
+
+      real(dp), parameter :: rounding = 1e-9_dp
+
+      associate (n => session%results%solver%surface%dimension)
+         is_beyond = .not. session%scale%repeats .and. any(abs(place(:n) - 0.5_dp) > 0.5_dp + rounding)
+      end associate
+   end function is_beyond
+
+   !> The gap and the displacement where there is no surface: NaN.
+   pure real(dp) function no_surface()
+      no_surface = ieee_value(no_surface, ieee_quiet_nan)
+   end function no_surface
 
    !> The grid on which the load was solved, as arguments of fields_on_grid: there the fields are the numbers that the
    !> solver has computed. Zeros if the solver has no grid.
@@ -218,8 +245,6 @@ contains
       do i = 1, n
          if (allocated(solved%stresses)) then
             angles = session%scale%angles([x(i), y(i)])
-            ! Nothing repeats a map with free edges, and stresses are asked for far beyond it.
-            if (session%results%solver%surface%has_free_edges) angles = 2*pi*[x(i), y(i)]/session%scale%period
             call solved%stresses%at(angles(1), angles(2), session%scale%depth_angle(depth(i)), terms, point_error)
             stress(:, i) = session%scale%p_star*body%stress(terms, solved%stresses%pbar_over_pstar)
             point_error = session%scale%p_star*point_error
@@ -301,6 +326,7 @@ contains
       end if
       if (allocated(error)) return
       call list_stress_keys(values, keys)
+      call keys%close()
       call keys%start('')
       call keys%take_value(key_index(keys%rows, 'nu'), number=nu)
       call keys%take_value(key_index(keys%rows, 'lateral'), text=lateral)

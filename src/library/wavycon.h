@@ -137,7 +137,8 @@ int wavycon_get_column(wavycon_error error, wavycon_table table, const char *nam
 
 /* Gets fields at points. All arrays have the size [points]; an array for results may be NULL if it is not wanted. The
    pressure is exactly 0 outside contact, and the gap is exactly 0 in contact. Only the truncated series of the solvers
-   'beale' and 'series' differ: they are returned as they are. displacement: the displacement less its mean. */
+   'beale' and 'series' differ: they are returned as they are. displacement: the displacement less its mean. Beyond a
+   surface with free edges the pressure is 0, and gap and displacement are NaN. */
 int wavycon_get_fields(wavycon_error error, wavycon_solution solution, int points, const double *x, const double *y,
                        double *pressure, double *gap, double *displacement);
 

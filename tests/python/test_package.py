@@ -199,6 +199,8 @@ class Digits(PackageTest):
         # The last block is that of the load alone.
         self.assertEqual(["stable", "stable_by_approach"], results[0].table("adhesion")["point"][-2:].tolist())
         self.assertEqual("full_contact", results[1].table("adhesion")["point"][-1])
+        # The curve, which is that of all loads, stands once; the loads behind it as in the file.
+        self.assert_same_rows("line.adhesion.dat", results.table("adhesion"))
         lines = results[0].table("adhesion_lines")
         self.assertAlmostEqual(0.1, lines["pbar_over_pstar"][0], 9)
         # Next to the edge there is tension.

@@ -103,8 +103,8 @@ contains
          call on_grids%move_to(solution)
    end subroutine solve_partial_contact
 
-   !> The traits of the preferred solver, or of grids without one. `finest_grid` is that of the solver on grids wherever
-   !> a load may be solved on grids.
+   !> The traits of the preferred solver, or of grids without one. `coarsest_grid` and `finest_grid` are those of the
+   !> solver on grids wherever a load may be solved on grids.
    type(solver_traits) function traits(self)
       class(auto_contact), intent(in) :: self
 
@@ -113,7 +113,10 @@ contains
       of_grids = self%grid_contact%traits()
       traits = of_grids
       if (allocated(self%preferred)) traits = self%preferred%traits()
-      if (self%choice == has_lattice .or. of_grids%needs_whole_grids) traits%finest_grid = of_grids%finest_grid
+      if (self%choice == has_lattice .or. of_grids%needs_whole_grids) then
+         traits%coarsest_grid = of_grids%coarsest_grid
+         traits%finest_grid = of_grids%finest_grid
+      end if
       traits%needs_whole_grids = of_grids%needs_whole_grids
       traits%solver = by_auto
       traits%has_details = .false.

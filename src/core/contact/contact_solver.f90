@@ -31,9 +31,9 @@ module wavycon_contact_solver
       !> Number of levels of lower accuracy, at which loads are solved faster; a search for a load begins at the
       !> coarsest.
       integer :: coarser_levels = 0
-      !> Points along x and y, on the part of the cell that is solved: of the finest grid that may be solved, and of the
-      !> one grid whose points were given; zeros if there is no such grid.
-      integer :: finest_grid(2) = 0, given_grid(2) = 0
+      !> Points along x and y, on the part of the cell that is solved: of the coarsest and the finest grid on which a
+      !> load may meet the accuracy, and of the one grid whose points were given; zeros if there is no such grid.
+      integer :: coarsest_grid(2) = 0, finest_grid(2) = 0, given_grid(2) = 0
       logical :: lacks_waves = .false.         !! whether the given grid leaves out waves of the surface
       logical :: needs_whole_grids = .false.   !! whether no grid can be distributed over processes
       integer :: choice = 0                    !! reason of the choice of 'auto', a name of wavycon_auto_contact
@@ -55,7 +55,7 @@ module wavycon_contact_solver
       procedure(traits_of_solver), deferred :: traits
       procedure :: forget_last_load
       procedure :: begin_search
-      procedure :: refines
+      procedure :: next_level
       procedure :: set_search
       procedure :: skip_load
    end type contact_solver
@@ -147,7 +147,7 @@ contains
       associate (unused => self); end associate
    end subroutine forget_last_load
 
-   !> Begins a search for a load, at the coarsest level. At each level the caller searches and then asks `refines`.
+   !> Begins a search for a load, at the coarsest level. At each level the caller searches and then calls `next_level`.
    subroutine begin_search(self)
       class(contact_solver), intent(inout) :: self
 
@@ -158,17 +158,18 @@ contains
       call self%set_search(.true.)
    end subroutine begin_search
 
-   !> Whether a search goes on at the next finer level, which then is `level`. If not the search ends, and `level` is 0.
-   logical function refines(self, is_over)
-      class(contact_solver), intent(inout) :: self   !! after begin_search
+   !> Goes on with a search at the next finer level. The search ends after the finest one.
+   subroutine next_level(self, is_over, ends)
+      class(contact_solver), intent(inout) :: self   !! after begin_search; `level` is the next one, 0 at the end
       logical, intent(in) :: is_over                 !! whether finer levels are left out
+      logical, intent(out) :: ends                   !! whether the search ends
 
-      refines = self%level > 0 .and. .not. is_over
+      ends = is_over .or. self%level == 0
       self%level = self%level - 1
-      if (refines) return
+      if (.not. ends) return
       self%level = 0
       call self%set_search(.false.)
-   end function refines
+   end subroutine next_level
 
    !> Notes that a search for a load begins or ends. Loads within a search differ little, and each may start from the
    !> last one. The end of a search deletes these starts. By default nothing is done.

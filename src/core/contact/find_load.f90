@@ -55,6 +55,7 @@ contains
 
       type(root_search) :: search
       real(dp) :: compression   ! of a layer at P = 1 [Delta]; 0 without one
+      logical :: ends
       real(dp) :: known_load    ! P of a target that needs no search
 
       compression = 0.0_dp
@@ -86,7 +87,8 @@ contains
          ! On a coarser grid the quantity jumps with the load, and the secant of a jump may have any slope.
          search%slope = min(max(search%slope, least_slope), largest_slope)
          call find_root(solver, search, solution)
-         if (.not. solver%refines(is_over=solution%status == interrupted)) exit
+         call solver%next_level(is_over=solution%status == interrupted, ends=ends)
+         if (ends) exit
       end do
    end subroutine solve_for
 

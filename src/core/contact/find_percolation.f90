@@ -39,6 +39,7 @@ contains
       integer, intent(in) :: what                       !! place in `percolations`
       type(contact_solution), intent(out) :: solution
 
+      logical :: ends
       real(dp) :: before, change, last, logit_p
 
       call solver%begin_search()
@@ -49,7 +50,8 @@ contains
          last = solution%pbar_over_pstar   ! 0 before the first level
          call halve_bracket(solver, what, logit_p, before, solution)
          if (last > 0.0_dp) change = abs(solution%pbar_over_pstar - last)
-         if (.not. solver%refines(is_over=before < 0.0_dp)) exit
+         call solver%next_level(is_over=before < 0.0_dp, ends=ends)
+         if (ends) exit
       end do
       if (before < 0.0_dp) return
       solution%value(last_before) = before

@@ -96,7 +96,7 @@ contains
       end if
    end function coarser_levels
 
-   !> The traits. The finest grid is the last one of the plan, on the cell that is solved.
+   !> The traits. The grids are the first trusted one and the last one of the plan, on the cell that is solved.
    type(solver_traits) function traits(self)
       class(grid_contact), intent(in) :: self
 
@@ -107,6 +107,7 @@ contains
       traits%needs_whole_grids = self%surface%has_free_edges
       plan = plan_grids(self%surface, self%options%points)
       if (allocated(self%smaller)) plan = plan_grids(self%smaller, self%options%points)
+      traits%coarsest_grid = plan%grids(:, plan%trusted)
       traits%finest_grid = plan%grids(:, size(plan%grids, 2))
       traits%lacks_waves = plan%lacks_waves
       if (all(self%options%points > 0)) traits%given_grid = traits%finest_grid

@@ -14,11 +14,12 @@ module wavycon_grid_source
    use wavycon_grid_fields, only: grid_fields, start_grid_fields
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_points, only: point_angle
+   use wavycon_grid_stress_fields, only: grid_stress_fields
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    use wavycon_rotated_series, only: to_difference_angles
-   use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
+   use wavycon_series_stress_fields, only: start_series_stress_fields
    use wavycon_paper_wave, only: smaller_cell
    use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
    use wavycon_stress_fields, only: stress_fields
@@ -137,10 +138,10 @@ contains
 
       type(fourier_series) :: pressure
       type(grid_transform) :: transform
-      type(series_stress_fields), allocatable :: own
-      !> Real numbers for each point of the whole cell: pressures, series and waves. From a rotated cell the series has
-      !> twice as many.
-      integer(int64), parameter :: numbers_a_point = 8
+      type(grid_stress_fields), allocatable :: own
+      !> Real numbers for each point of the whole cell: pressures, their fields, series and waves. From a rotated cell
+      !> the series has twice as many.
+      integer(int64), parameter :: numbers_a_point = 10
       integer :: cells   ! cells along x and y of the series: the map alone, or the map and as many zeros
       real(dp) :: error
       real(dp), allocatable :: values(:, :)
@@ -164,8 +165,10 @@ contains
       deallocate (values)
       if (self%rotated) pressure = to_difference_angles(pressure)
       allocate (own)
-      call start_series_stress_fields(own, surface, pressure, self%record%pbar_over_pstar/cells**2, or_nan(error), &
-                                      is_sampled=.true.)
+      call start_grid_fields(own%fields, surface, self%edge, self%record%value(approach), self%rotated)
+      own%repeats = .not. surface%has_free_edges
+      call start_series_stress_fields(own%series_stress_fields, surface, pressure, &
+                                      self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true.)
       if (cells > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses

@@ -69,14 +69,16 @@ contains
       where (maps_in_cell > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function position_in_cell
 
-   !> Refines the places with the largest stresses, at most `refined_places` of them, and returns the largest refined
-   !> stress.
+   !> Refines the places with the largest stresses, at most `refined_places` of them besides doubtful ones, and returns
+   !> the largest refined stress.
    !>
    !> Two refined places are farther apart than twice the width of the maximum at the first one: closer places lead to
    !> the same maximum. A stress is doubtful if its error is more than a quarter of the stress, as at the edge of
    !> contact, where the stress may be large by its error alone. A doubtful stress is compared with the others after its
-   !> error is subtracted; two doubtful stresses are compared by their values. The error of the answer is at least the
-   !> largest sum of a refined stress and its own error, less the answer.
+   !> error is subtracted; two doubtful stresses are compared by their values. Errors fall with depth. So where a stress
+   !> is doubtful, or a deeper place may have a larger one by the error, the places that are no deeper are given up, and
+   !> deeper ones are refined. The error of the answer is at least the largest sum of a stress and its own error, less
+   !> the answer.
    subroutine search(fields, body, by_shear, places, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -88,9 +90,9 @@ contains
       !> refined; the answer less its error if it is doubtful; the largest one plus its error.
       real(dp) :: values(size(places)), threshold, certain, lower, highest
       real(dp) :: component_error, least_gain, gain, nu_terms(6, 2), uncertainty
-      logical :: is_doubtful, is_larger
+      logical :: hides_deeper, is_doubtful, is_larger
       type(largest_stress) :: other
-      integer :: best, i, k
+      integer :: best, i, k, refined
 
       values = [(size_of(by_shear, places(i)%stress), i=1, size(places))]
       best = maxloc(values, dim=1)
@@ -103,21 +105,23 @@ contains
       certain = -huge(certain)
       threshold = 0.0_dp
       highest = 0.0_dp
-      do i = 1, refined_places
+      hides_deeper = .false.
+      refined = 0
+      do while (refined < refined_places)
          best = maxloc(values, dim=1)
          if (values(best) < threshold) exit
          other%value = values(best)
          other%position = places(best)%position
-         call refine(fields, body, by_shear, places(best)%width, least_gain, answer%value, other, gain)
-         if (fields%dimension == 1) other%position(2) = 0.0_dp
-         call fields%at(other%position(1), other%position(2), other%position(3), nu_terms, component_error)
-         other%value = size_of(by_shear, body%stress(nu_terms, fields%pbar_over_pstar))
-         ! (S7).
-         other%error = error_of_invariant*component_error + gain
-         uncertainty = 0.0_dp
-         if (.not. ieee_is_nan(component_error)) uncertainty = error_of_invariant*component_error
+         gain = 0.0_dp
+         ! One place of those that hide deeper ones is refined.
+         if (hides_deeper) call measure()
+         if (.not. hides_deeper) then
+            call refine(fields, body, by_shear, places(best)%width, least_gain, answer%value, other, gain)
+            if (fields%dimension == 1) other%position(2) = 0.0_dp
+            call measure()
+         end if
+         if (.not. hides_deeper) refined = refined + 1
          highest = max(highest, other%value + uncertainty)
-         is_doubtful = uncertainty > (1.0_dp - close_to_largest)*other%value
          lower = other%value
          if (is_doubtful) lower = other%value - uncertainty
          is_larger = lower > certain
@@ -126,9 +130,7 @@ contains
             answer = other
             certain = lower
          end if
-         ! Errors fall with depth. So where a stress is doubtful, the stresses at all places that are no deeper are
-         ! doubtful too. These places are given up, and the next deeper ones are refined.
-         if (is_doubtful) then
+         if (hides_deeper) then
             associate (no_deeper => places%position(3) <= places(best)%position(3))
                highest = max(highest, maxval(values, mask=no_deeper) + uncertainty)
                where (no_deeper) values = -1.0_dp
@@ -141,6 +143,21 @@ contains
          end associate
       end do
       if (.not. ieee_is_nan(answer%error)) answer%error = max(answer%error, highest - answer%value)
+
+   contains
+
+      !> Computes the stress at the current place by the sums over all waves, and its error, (S7).
+      subroutine measure()
+         call fields%at(other%position(1), other%position(2), other%position(3), nu_terms, component_error)
+         other%value = size_of(by_shear, body%stress(nu_terms, fields%pbar_over_pstar))
+         other%error = error_of_invariant*component_error + gain
+         uncertainty = 0.0_dp
+         if (.not. ieee_is_nan(component_error)) uncertainty = error_of_invariant*component_error
+         is_doubtful = uncertainty > (1.0_dp - close_to_largest)*other%value
+         hides_deeper = is_doubtful .or. &
+            any(values >= other%value - uncertainty .and. places%position(3) > places(best)%position(3))
+      end subroutine measure
+
    end subroutine search
 
    !> Moves a place to a maximum of the stress, by a sequence of quadratic models (S6) of falling size.

@@ -41,7 +41,7 @@ module wavycon_series_stress_fields
    type, extends(stress_fields) :: series_stress_fields
       private
       type(pressure_wave_sums) :: waves              !! the waves of the pressure that (S4) adds up
-      real(dp) :: pressure_error = 0.0_dp            !! error estimate of the pressure [p*]; NaN if there is none
+      real(dp), public :: pressure_error = 0.0_dp    !! error estimate of the pressure [p*]; NaN if there is none
       type(taylor_series), allocatable :: known(:)   !! series made by `expand` so far
       integer :: used = 0                            !! number of the one that `near` takes
       real(dp) :: first(3) = 0.0_dp                  !! X, Y, 0: the surface's position of the series' origin [rad]
@@ -232,6 +232,14 @@ contains
       if (allocated(stress%load)) sums = stress%load%sums(place*[1.0_dp, stress%side_ratio, 1.0_dp])
    end function smooth_sums
 
+   !> Whether the waves at a place are those of an image: beyond the cell about a map with free edges.
+   pure logical function is_image(stress, place)
+      class(series_stress_fields), intent(in) :: stress
+      real(dp), intent(in) :: place(2)   !! X, Y [rad]
+
+      is_image = allocated(stress%load) .and. any(abs(place - 0.5_dp*pi) > pi)
+   end function is_image
+
    !> The stresses along a line. Waves with the same wave number m = d_x k + d_y l along the line are added up first, so
    !> that each point takes a sum over m only.
    subroutine on_line(self, start, direction, t, depth, nu_terms, error)
@@ -247,7 +255,6 @@ contains
       real(dp), allocatable :: q(:)
       real(dp) :: even(6), n_x, n_y, q_y, q_z, sums(number_of_sums)
       integer :: i, k, l, last(2), m
-      logical :: is_image   ! whether waves are left out
 
       last = self%waves%last_waves(depth)
       m = dot_product(abs(direction), last)
@@ -276,9 +283,7 @@ contains
       end do
       do i = 1, size(t)
          sums = 0.0_dp
-         ! Beyond the cell about a map with free edges the waves are those of its images.
-         is_image = allocated(self%load) .and. any(abs(start + direction*t(i) - 0.5_dp*pi) > pi)
-         if (.not. is_image) then
+         if (.not. is_image(self, start + direction*t(i))) then
             do m = lbound(along, 2), ubound(along, 2)
                sums = sums + real(along(:, m)*turn(m*t(i)))
             end do
@@ -338,6 +343,7 @@ contains
       end associate
       do l = 1, points(2)
          do k = 1, points(1)
+            if (is_image(self, ([k, l] - 1 + offset)*step)) fields(k, l, :) = 0.0_dp
             stress(k, l, :) = fields(k, l, :6) + mean
             if (allocated(self%load)) stress(k, l, :) = stress(k, l, :) &
                + matmul(nu_terms_of(smooth(:, k, l)), [1.0_dp, body%nu])
@@ -351,7 +357,9 @@ contains
    !>
    !> The first plane is the surface, and each further one is `plane_ratio` times as deep as the plane before. Deeper
    !> planes need fewer points. If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the
-   !> planes close to the surface are computed within these windows only, which takes less time at light loads.
+   !> planes close to the surface are computed within these windows only, which takes less time at light loads. The
+   !> surface itself is computed in the whole cell: at an edge of contact the shear stress may be the largest one where
+   !> the pressure is low.
    subroutine start_points(self, body, places)
       class(series_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -389,6 +397,7 @@ contains
       end if
       call scan(all_waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
       if (shallow < 0) return
+      call scan(all_waves, 0, 0, [0, 0], points, 0.0_dp, region)
       call plane%start(window, even=.false., whole=.true.)
       do
          block = maxloc(highest)

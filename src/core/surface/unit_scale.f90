@@ -16,7 +16,8 @@ module wavycon_unit_scale
       real(dp) :: amplitude = 0.0_dp           !! Delta, mean gap before load [length]
       real(dp) :: sides(2) = 1.0_dp            !! sides of the cell, or of a mirrored map, along x and y [length]
       real(dp) :: nominal_area = 1.0_dp        !! product of these sides [length^2]; of a profile its length [length]
-      real(dp) :: period(2) = 1.0_dp           !! periods L_x, L_y of the surface [length]
+      real(dp) :: period(2) = 1.0_dp           !! sides L_x, L_y of the surface's cell [length]
+      logical :: repeats = .true.              !! whether the cell is repeated: not with free edges
    contains
       procedure :: angles
       procedure :: depth_angle
@@ -30,16 +31,18 @@ contains
       real(dp), intent(in) :: e_star   !! > 0 [pressure]
 
       scale = unit_scale(e_star, surface%full_contact_pressure(e_star), surface%amplitude, surface%sides(), &
-                         surface%nominal_area(), surface%length)
+                         surface%nominal_area(), surface%length, .not. surface%has_free_edges)
    end function scale_of
 
-   !> The angles X, Y of a position, reduced to one cell [rad].
+   !> The angles X, Y of a position [rad]: those in the first cell, but with free edges also beyond.
    pure function angles(self, position)
       class(unit_scale), intent(in) :: self
       real(dp), intent(in) :: position(2)   !! x, y [length]
       real(dp) :: angles(2)
 
-      angles = 2*pi*modulo(position/self%period, 1.0_dp)
+      angles = position/self%period
+      if (self%repeats) angles = modulo(angles, 1.0_dp)
+      angles = 2*pi*angles
    end function angles
 
    !> Depth as an angle, Z = 2 pi z/L_x [rad].

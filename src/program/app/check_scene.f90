@@ -33,7 +33,7 @@ contains
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards
       logical, intent(in) :: quiet                            !! whether to write nothing
 
-      character(:), allocatable :: reason, words
+      character(:), allocatable :: least, most, reason, words
       integer :: solutions   ! of a load
       type(results_type) :: results
       type(run_log) :: logger
@@ -60,14 +60,27 @@ contains
          ! With a lattice a search solves few loads on grids or none.
          if (results%traits%choice == has_lattice) solutions = 1
          if (results%scene%loads_by == by_pressure .or. results%traits%choice == has_lattice) words = 'some '
-         call logger%say('time: '//words// &
-            duration(max(1.0_dp, seconds_of_load(results%traits%finest_grid)*solutions*size(results%scene%target)))// &
-            ' if all loads need that grid, by its transforms as measured now')
+         least = time_on(results%traits%coarsest_grid)
+         most = least
+         if (any(results%traits%coarsest_grid < results%traits%finest_grid)) most = time_on(results%traits%finest_grid)
+         if (most /= least) words = words//least//' on coarse grids, '
+         call logger%say('time: '//words//most//' if all loads need that grid, by its transforms as measured now')
       end if
       words = ''
       if (results%scene%output%csv%is_true) words = ', also with commas,'
       call logger%say('tables: '//listed(tables%name())//words//' in '//escaped(results%scene%directory))
       call logger%say(escaped(results%scene%deck_path)//': the deck is fine')
+
+   contains
+
+      !> The time of all loads on one grid, in words.
+      function time_on(points) result(words)
+         integer, intent(in) :: points(2)
+         character(:), allocatable :: words
+
+         words = duration(max(1.0_dp, seconds_of_load(points)*solutions*size(results%scene%target)))
+      end function time_on
+
    end subroutine check_scene
 
    !> The memory that the finest grid takes and the memory that is available, in words.

@@ -33,6 +33,8 @@ contains
       type(scene_type), intent(in), target :: scene            !! the records of the groups, to which the lists point
       type(key_list), intent(out) :: lists(number_of_groups)
 
+      integer :: i
+
       call list_scene_keys(scene%scene_values, lists(1))
       call list_material_keys(scene%material, lists(2))
       call list_surface_keys(scene%surface_values, lists(3))
@@ -41,6 +43,9 @@ contains
       call list_interface_keys(scene%interface, lists(6))
       call list_method_keys(scene%method, lists(7))
       call list_output_keys(scene%output, lists(8))
+      do i = 1, size(lists)
+         call lists(i)%close()
+      end do
    end subroutine list_keys
 
    !> Reads the values of all groups, in one pass over the text, and checks them against the grammar and the tables of

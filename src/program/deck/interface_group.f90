@@ -58,7 +58,6 @@ contains
          'unit of e_star times length', &
          'Work of adhesion w: adds the contact with adhesion in the limit of Johnson, Kendall & Roberts, of '// &
          'waves and round balls. The loads are then its mean pressures, and tensions if < 0.', above=0))
-      call keys%close()
    end subroutine list_interface_keys
 
    !> Checks the keys and makes the setting that the group asks for. Keys that are missing, that contradict each other

@@ -81,7 +81,6 @@ contains
       call keys%add(values%sweep_steps, key_type(integer_value, 'sweep_steps', '', '', &
          'Number of loads of the sweep, both ends included; 1 only if the ends are equal.', 1, most_loads, way=110, &
          needs='sweep_from'))
-      call keys%close()
    end subroutine list_load_keys
 
    !> Checks the keys and, if the group has no problems, converts its loads to the program's normalisation. Tensions and
@@ -154,12 +153,14 @@ contains
          limit = short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)
          ! With free edges p_star is only a unit, a modulus times a slope: do not call it p*.
          if (surface%has_free_edges) limit = short_number(largest_pbar_over_pstar)//' times what presses the map flat'
-      case ('mean_gap', 'approach')
+      case ('mean_gap')
          most = surface%amplitude
-         if (.not. with_adhesion) limit = 'the mean gap before load, '//short_number(most)
-         if (key == 'approach') limit = 'that of full contact, the mean gap before load, '//short_number(most)
+         limit = 'the mean gap before load, '//short_number(most)
       case ('mean_gap_over_amplitude')
-         if (.not. with_adhesion) limit = '1, the mean gap before load'
+         limit = '1, the mean gap before load'
+      case ('approach')
+         most = surface%amplitude
+         limit = 'that of full contact, the mean gap before load, '//short_number(most)
       case ('contact_area')
          most = surface%nominal_area()
          limit = 'the nominal area, '//short_number(most)
@@ -180,8 +181,16 @@ contains
          target = target/most
          return
       end if
-      if (limit /= '' .and. maxval(target) > (1 + rounding)*most) call values%problems%add(position, &
-         key//' = '//short_number(maxval(target))//' is more than '//limit//'. Do the units agree?')
+      if (limit /= '' .and. maxval(target) > (1 + rounding)*most) then
+         limit = key//' = '//short_number(maxval(target))//' is more than '//limit
+         if (loads_by /= by_mean_gap .or. .not. with_adhesion) then
+            call values%problems%add(position, limit//'. Do the units agree?')
+         else if (with_friction) then
+            ! With adhesion such a gap is one in tension.
+            call values%problems%add(position, limit// &
+               ', and partial slip is computed without adhesion: leave friction of &interface out')
+         end if
+      end if
       if (loads_by /= by_pressure) then
          target = target/most
          if (all(loads_by /= [by_yield, by_percolation]) .and. .not. (loads_by == by_mean_gap .and. with_adhesion)) &

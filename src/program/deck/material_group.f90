@@ -57,7 +57,6 @@ contains
          needs='base_nu layer_thickness'))
       call keys%add(values%base_nu, key_type(real_value, 'base_nu', '', '-', &
          "Poisson's ratio of this half-space.", above=-1, most=0.5_dp, needs='base_e'))
-      call keys%close()
    end subroutine list_material_keys
 
    !> Checks the keys, lays the surface on a layer if there is one, finds E* and p*, and sets the hardness of the
@@ -78,17 +77,21 @@ contains
       if (values%problems%number > 0 .or. values%any_bad) return
       e_star = plane_strain_modulus(values)
       if (values%layer_thickness%is_given) call lay_on_base(values, e_star, surface)
-      if (values%problems%number > 0) return
       p_star = surface%full_contact_pressure(e_star)
-      if (.not. values%hardness%is_given) return
-      hardness = values%hardness%number
-      if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
-         call values%complain(values%hardness, &
-            'hardness = '//short_number(hardness)//' is not within a factor of '// &
-            short_number(most_hardness)//' of p* = '//short_number(p_star)//'. Do the units agree?')
-      else
-         surface%hardness = hardness/p_star
+      if (values%hardness%is_given .and. values%problems%number == 0) then
+         hardness = values%hardness%number
+         if (hardness > most_hardness*p_star .or. hardness < p_star/most_hardness) then
+            call values%complain(values%hardness, &
+               'hardness = '//short_number(hardness)//' is not within a factor of '// &
+               short_number(most_hardness)//' of p* = '//short_number(p_star)//'. Do the units agree?')
+         else
+            surface%hardness = hardness/p_star
+         end if
       end if
+      if (values%problems%number == 0) return
+      ! A modulus or a length in another unit has been reported: loads are not compared with it.
+      e_star = 0.0_dp
+      p_star = 0.0_dp
    end subroutine check_material_group
 
    !> Reports a layer that lacks a key or contradicts another, and surfaces that have none. Other keys may be bad.

@@ -61,7 +61,6 @@ contains
          ' x '//integer_text(text_side)//' points, npy beyond.', choices='auto text npy'))
       call keys%add(values%histogram_bins, key_type(integer_value, 'histogram_bins', '100', '', &
          'bins of the histograms of pressure and of gap, of equal width.', 4, most_bins))
-      call keys%close()
    end subroutine list_output_keys
 
    !> Sets the directory and the points of lines and maps. Tables that the solver or the surface cannot have are

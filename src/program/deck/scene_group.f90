@@ -35,7 +35,6 @@ contains
       call keys%add(values%length_unit, key_type(text_value, 'length_unit', "'length'", '', &
          "Label of the deck's unit of lengths, such as 'mm'. A height map whose file names units is converted "// &
          'to it or, if the deck gives none, sets it.', longest=longest_unit))
-      call keys%close()
    end subroutine list_scene_keys
 
    !> Checks the labels of units and the name of the case. The default name is that of the deck's file without '.nml',

@@ -58,7 +58,6 @@ contains
       call keys%add(values%yield_criterion, key_type(choice_value, 'yield_criterion', "'von_mises'", '', &
          "which stress reaches the yield stress: 'von_mises', the von Mises stress; 'tresca', twice the largest "// &
          'shear stress.', choices='von_mises tresca', needs='yield_stress'))
-      call keys%close()
    end subroutine list_stress_keys
 
    !> Sets the defaults that depend on &material, checks the keys, and makes the setting that the group asks for. The

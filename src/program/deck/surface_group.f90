@@ -175,7 +175,6 @@ contains
          'radius of curvature along x of the ball.', above=0, way=201, needs='radius_y'))
       call keys%add(values%radius_y, key_type(real_value, 'radius_y', '', 'length', &
          'radius of curvature along y.', above=0, way=201, needs='radius_x'))
-      call keys%close()
    end subroutine list_surface_keys
 
    !> Checks the keys against the kind of surface and sets the defaults that depend on the kind.

@@ -114,7 +114,8 @@ def table(solution: Handle, name: str, load: int) -> tuple[Rows, dict[str, str]]
     values = np.empty(len(rows))
     for column, unit in units.items():
         call("get_column", handle, column.encode(), len(rows), address(values))
-        rows[column] = words[values.astype(int) - 1] if unit == "word" else load if column == "load" else values
+        rows[column] = words[values.astype(int) - 1] if unit == "word" else \
+            np.where(values > 0, load, 0) if column == "load" else values   # 0: rows that belong to no load
     return locked(rows), units
 
 

@@ -164,7 +164,8 @@ class Result(Named, Columns[float, str]):
         return self._fields["displacement"]
 
     def fields_at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> dict[str, Array]:
-        """Pressure [pressure], gap and displacement [length] at points x, y [length], arrays of one shape."""
+        """Pressure [pressure], gap and displacement [length] at points x, y [length], arrays of one shape. Beyond free
+        edges the pressure is 0, and there is no surface: gap and displacement are NaN."""
         solution, (x, y) = self._live("fields"), same_shape(x, y)
         fields = {name: np.empty(x.shape) for name in FIELDS}
         call("get_fields", solution, x.size, address(x), address(y), *map(address, fields.values()))
@@ -250,10 +251,13 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         return f"<p>{html.escape(self.method)}</p><table><tr>{''.join(heads)}</tr>{''.join(rows)}</table>"
 
     def table(self, name: str = "summary") -> Rows:
-        """The rows of a table of all loads, see Result.table; 'height' and 'spectrum', those of the surface, once."""
-        if "load" not in (self._model.table(name).dtype.names or ()):
-            return self._model.table(name)
-        return locked(np.concatenate([load.table(name) for load in self] or [self._model.table(name)[:0]]))
+        """The rows of a table of all loads, see Result.table. Those that belong to no load stand once: 'height',
+        'spectrum', and the curve of 'adhesion', whose load is 0."""
+        first = self._model.table(name)
+        if "load" not in (first.dtype.names or ()):
+            return first
+        tables = [load.table(name) for load in self]
+        return locked(np.concatenate([first[first["load"] == 0], *(rows[rows["load"] > 0] for rows in tables)]))
 
     @cached_property
     def surface(self) -> Roughness:

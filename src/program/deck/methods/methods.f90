@@ -82,7 +82,6 @@ contains
          'with grid_points or a height map on its own points: largest root mean square over the grid of gaps '// &
          'in contact and of overlaps, over the mean gap, for comparisons with other programs. The default '// &
          'keeps the iteration error below a tenth of the error estimates.', 1e-13_dp, 0.1_dp, way=101))
-      call keys%close()
    end subroutine list_method_keys
 
    !> Why a solver cannot find the load of percolation, and what can; '' if it finds it.

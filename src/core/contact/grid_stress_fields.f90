@@ -1,0 +1,85 @@
+!> The stresses below a pressure that was solved on a grid: those of the series through the pressures at the points.
+!>
+!> Between the points the series rings about edges of contact. At the surface the vertical stress is the pressure, which
+!> is known without the ringing there. The difference of the two is an error of the series that (S5) may not see: of
+!> waves that come from several edges the sums (S5) may cancel.
+module wavycon_grid_stress_fields
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use wavycon_constants, only: pi
+   use wavycon_elastic_body, only: elastic_body
+   use wavycon_grid_fields, only: grid_fields
+   use wavycon_kinds, only: dp
+   use wavycon_series_stress_fields, only: series_stress_fields
+   use wavycon_stress_tensor, only: zz
+   implicit none (type, external)
+   private
+
+   public :: grid_stress_fields
+
+   type, extends(series_stress_fields) :: grid_stress_fields
+      type(grid_fields) :: fields     !! pressures between the points of the grid
+      logical :: repeats = .true.     !! whether the cell is repeated: not with free edges
+   contains
+      procedure :: on_line
+      procedure :: on_plane
+      procedure, private :: add_ringing
+   end type grid_stress_fields
+
+contains
+
+   !> The stresses along a line, with the ringing in their errors.
+   subroutine on_line(self, start, direction, t, depth, nu_terms, error)
+      class(grid_stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: start(2)
+      integer, intent(in) :: direction(2)
+      real(dp), intent(in) :: t(:)
+      real(dp), intent(in) :: depth
+      real(dp), intent(out) :: nu_terms(:, :, :), error(:)
+
+      integer :: i
+
+      call self%series_stress_fields%on_line(start, direction, t, depth, nu_terms, error)
+      if (depth > 0.0_dp) return
+      do i = 1, size(t)
+         call self%add_ringing(start + direction*t(i), nu_terms(zz, 1, i) - self%pbar_over_pstar, error(i))
+      end do
+   end subroutine on_line
+
+   !> The stresses on a plane, with the ringing in their errors.
+   subroutine on_plane(self, points, offset, depth, body, stress, error)
+      class(grid_stress_fields), intent(inout) :: self
+      integer, intent(in) :: points(2)
+      real(dp), intent(in) :: offset(2)
+      real(dp), intent(in) :: depth
+      type(elastic_body), intent(in) :: body
+      real(dp), allocatable, intent(out) :: stress(:, :, :)
+      real(dp), allocatable, intent(out) :: error(:, :)
+
+      integer :: k, l
+
+      call self%series_stress_fields%on_plane(points, offset, depth, body, stress, error)
+      if (depth > 0.0_dp) return
+      do l = 1, points(2)
+         do k = 1, points(1)
+            call self%add_ringing(2*pi*([k, l] - 1 + offset)/(self%maps_in_cell*points), stress(k, l, zz), error(k, l))
+         end do
+      end do
+   end subroutine on_plane
+
+   !> Adds the error of the vertical stress at a place on the surface to that of the stresses, (S14).
+   subroutine add_ringing(self, place, vertical, error)
+      class(grid_stress_fields), intent(inout) :: self
+      real(dp), intent(in) :: place(2)       !! X, Y [rad]
+      real(dp), intent(in) :: vertical       !! zz, with that of the mean pressure [p*]
+      real(dp), intent(inout) :: error       !! [p*]; NaN stays
+
+      real(dp) :: displacement, gap, pressure
+
+      if (ieee_is_nan(error)) return
+      call self%fields%at(place(1), place(2), pressure, displacement, gap)
+      ! Beyond a map with free edges the fields are those of its mirror images.
+      if (.not. self%repeats .and. any(abs(place(:self%dimension) - 0.5_dp*pi) > 0.5_dp*pi)) pressure = 0.0_dp
+      error = self%pressure_error + hypot(error - self%pressure_error, vertical + pressure)
+   end subroutine add_ringing
+
+end module wavycon_grid_stress_fields
