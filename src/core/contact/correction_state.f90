@@ -85,7 +85,9 @@ contains
          call self%region%gather_scaled(grid%hardness - grid%pressure, self%scale, self%below_hardness)
          where (self%below_hardness <= 0.0_sp) self%contact = 0.0_sp
       end if
+      ! The first call finds the approach, the second the violations at this approach.
       call self%update_contact(0.0_sp)
+      call self%update_contact(self%approach)
    end subroutine start
 
    !> Writes the residual r of (C3) to the points of the region: the gap at free points, zero at others.

@@ -46,12 +46,12 @@ contains
       real(dp) :: blocked, descent
       real(dp) :: curvature                    !! (d, S d)
       real(sp), allocatable :: r(:), d(:)      !! residual and direction of the last iteration, shape (region%points)
+      real(sp), allocatable :: change(:)       !! minus the change of the pressure in a step that meets a bound
       real(sp), allocatable :: field(:, :)     !! shape of the pressure
       real(sp) :: expected_step                !! of the next iteration; 0: unknown
       real(sp) :: step                         !! tau of (C6), nu of (C7a)
       integer :: iterations
-      logical :: is_bounded                    !! whether d is the change of the pressure (C7), (C7a) or (C24)
-      logical :: restarts                      !! whether the next direction is not conjugate to this one
+      logical :: is_foreseen                   !! whether d is minus the change of the pressure (C7a)
       logical :: is_plate                      !! whether a stiff layer bends like a plate (C8c)
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
@@ -77,27 +77,27 @@ contains
             call precondition(extension, stencil, half_space, state, field)
          call find_direction(state, field, r, d, descent)                            ! (C5)
          if (is_plate) expected_step = 0.0_sp                                        ! no (C7a)
-         is_bounded = .false.
-         if (expected_step > 0.0_sp) &
-            call bound_direction(state, expected_step, .true., d, is_bounded, restarts)   ! (C7a)
+         call bound_step(state, expected_step, .true., d, change)                    ! (C7a)
+         is_foreseen = allocated(change)
+         if (is_foreseen) call move_alloc(change, d)
          call state%displace(half_space, d, field)                                   !       field = Sd
          call find_least_energy(state, r, d, field, step, curvature)                 ! (C6)
-         if (is_bounded) then
+         if (is_foreseen) then
             expected_step = expected_step*step
             if (step < least_foreseen) expected_step = 0.0_sp
             step = max(step, 0.0_sp)
             if (step > whole_step) step = 1.0_sp
+            descent = step*curvature                                                 ! (C7b)
          else
             expected_step = step
-            call bound_direction(state, step, .false., d, is_bounded, restarts)      ! (C7), (C24)
-            if (is_bounded) then
-               call state%displace(half_space, d, field)
-               call find_least_energy(state, r, d, field, step, curvature)
-               step = 1.0_sp
-            end if
+            call bound_step(state, step, .false., d, change)                         ! (C7), (C24)
          end if
-         if (is_bounded) descent = merge(0.0_dp, step*curvature, restarts)            ! (C7b)
-         call state%take_step(step, d, field)                                        ! (C8), (C3)
+         if (allocated(change)) then
+            call state%displace(half_space, change, field)
+            call state%take_step(1.0_sp, change, field)                              ! (C8), (C3)
+         else
+            call state%take_step(step, d, field)
+         end if
       end do
       call state%add_to(grid)
       grid%corrections = grid%corrections + 1
@@ -197,31 +197,29 @@ contains
       end do
    end subroutine find_direction
 
-   !> If a step would take points to a bound: replaces the direction by the change of the pressure that keeps it within
-   !> its bounds and keeps its mean, (C7), (C7a) or (C24). The factor of the mean is 1 + excess. A step that is only
-   !> foreseen is left as it is if it may be a bad one, or takes points to a hardness.
-   subroutine bound_direction(state, step, is_foreseen, direction, is_bounded, restarts)
+   !> If a step along the direction would take points to a bound: computes the change of the pressure that keeps it
+   !> within its bounds and keeps its mean, (C7), (C7a) or (C24). The factor of the mean is 1 + excess. A step that is
+   !> only foreseen is left as it is if it may be a bad one, or takes points to a hardness.
+   subroutine bound_step(state, step, is_foreseen, direction, change)
       type(correction_state), intent(in) :: state
-      real(sp), intent(in) :: step                              !! tau, or tau_e
+      real(sp), intent(in) :: step                              !! tau, or tau_e, 0: unknown
       logical, intent(in) :: is_foreseen                        !! whether the step is tau_e of (C7a)
-      real(sp), intent(inout), contiguous :: direction(:)       !! d; on return with is_bounded minus the change
-      logical, intent(out) :: is_bounded
-      !> Whether points reach H: hardly anything may be left of the step, and the search must restart.
-      logical, intent(out) :: restarts
+      real(sp), intent(in), contiguous :: direction(:)          !! d, shape (region%points)
+      !> Minus the change, shape (region%points); not allocated if the step is left as it is.
+      real(sp), allocatable, intent(out) :: change(:)
 
       real(dp) :: sums(4)
-      real(sp) :: change(longest_chunk), excess, factor
+      real(sp) :: after(longest_chunk), excess, factor
       integer :: c, n
 
+      if (is_foreseen .and. step <= 0.0_sp) return
       sums = sums_after(state, direction, step)
-      is_bounded = sums(1) < state%contact_points .or. sums(4) > 0.0_dp
+      if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) return
       ! A step after which the sum of the pressures is more than twice the right one is foreseen badly.
-      if (is_foreseen) is_bounded = is_bounded .and. sums(1) > 0.0_dp .and. sums(3) < 0.5_dp*sums(2) .and. &
-                                    sums(4) <= 0.0_dp
-      restarts = is_bounded .and. sums(4) > 0.0_dp
-      if (.not. is_bounded) return
-      if (restarts) then
-         call project(state, step, direction)
+      if (is_foreseen .and. (sums(1) <= 0.0_dp .or. sums(3) >= 0.5_dp*sums(2) .or. sums(4) > 0.0_dp)) return
+      allocate (change(size(direction)))
+      if (sums(4) > 0.0_dp) then
+         call project(state, step, direction, change)
          return
       end if
       excess = 0.0_sp
@@ -230,20 +228,20 @@ contains
       ! The step may be so much longer than the pressure that the factor 1 + excess would be rounded to zero or less.
       ! The factor is then computed from the sum of the pressures at the start.
       if (excess <= -1.0_sp) factor = real(state%sum_of(real(state%start_pressure, dp))/sums(2), sp)
-      !$omp parallel do num_threads(state%region%threads) private(change, n)
+      !$omp parallel do num_threads(state%region%threads) private(after, n)
       do c = 1, state%region%chunks
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
             n = b - a + 1
-            change(:n) = max(state%change(a:b) - step*direction(a:b), -start(a:b))
+            after(:n) = max(state%change(a:b) - step*direction(a:b), -start(a:b))
             if (excess > -1.0_sp) then
-               change(:n) = change(:n) + state%contact(a:b)*(excess*(start(a:b) + change(:n)))
+               after(:n) = after(:n) + state%contact(a:b)*(excess*(start(a:b) + after(:n)))
             else
-               where (change(:n) > -start(a:b)) change(:n) = factor*(start(a:b) + change(:n)) - start(a:b)
+               where (after(:n) > -start(a:b)) after(:n) = factor*(start(a:b) + after(:n)) - start(a:b)
             end if
-            direction(a:b) = state%change(a:b) - change(:n)
+            change(a:b) = state%change(a:b) - after(:n)
          end associate
       end do
-   end subroutine bound_direction
+   end subroutine bound_step
 
    !> The step to the least energy along the direction (C6).
    subroutine find_least_energy(state, residuals, direction, field, step, curvature)
@@ -305,28 +303,29 @@ contains
       sums = state%totals(chunk_sums)
    end function sums_after
 
-   !> Replaces the direction of a step by which points reach H by the change that projects the pressure on the allowed
-   !> ones (C24): all free points get the same shift, and a pressure beyond a bound becomes this bound. The shift is
-   !> that which restores the mean. Close to H only a small part of a long step is left after this, so that the change
-   !> is computed in double precision.
-   subroutine project(state, step, direction)
+   !> The change of the pressure by a step that takes points to H, projected on the allowed pressures (C24): all free
+   !> points get the same shift, and a pressure beyond a bound becomes this bound. The shift is that which restores the
+   !> mean. Close to H only a small part of a long step is left after this, so that the change is computed in double
+   !> precision.
+   subroutine project(state, step, direction, change)
       type(correction_state), intent(in) :: state
       real(sp), intent(in) :: step                              !! tau of (C6)
-      real(sp), intent(inout), contiguous :: direction(:)       !! d; on return minus the change, shape (region%points)
+      real(sp), intent(in), contiguous :: direction(:)          !! d, shape (region%points)
+      real(sp), intent(out), contiguous :: change(:)            !! minus the change, shape (region%points)
 
-      real(dp), allocatable, dimension(:) :: above, below, change
+      real(dp), allocatable, dimension(:) :: above, after, below
       real(dp) :: shift
 
       associate (start => state%start_pressure, contact => state%contact)
-         allocate (change, source=state%change - real(step, dp)*direction)
-         above = contact*(start + change)
-         below = contact*(state%below_hardness - change)
-         shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(change))
-         change = min(max(change + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
-         direction = real(state%change - change, sp)
+         allocate (after, source=state%change - real(step, dp)*direction)
+         above = contact*(start + after)
+         below = contact*(state%below_hardness - after)
+         shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(after))
+         after = min(max(after + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
+         change = real(state%change - after, sp)
          ! With this addition rounding does not leave the pressure below H.
-         where (contact > 0.0_sp .and. change >= state%below_hardness) &
-            direction = direction - 2*spacing(max(abs(state%change), state%below_hardness))
+         where (contact > 0.0_sp .and. after >= state%below_hardness) &
+            change = change - 2*spacing(max(abs(state%change), state%below_hardness))
       end associate
    end subroutine project
 
