@@ -192,11 +192,11 @@ contains
       real(sp), parameter :: rounding = 4*epsilon(1.0_sp)
       real(dp) :: sums(3)
       real(dp), allocatable :: chunk_sums(:, :)
-      real(sp) :: gap(longest_chunk)
+      real(sp), dimension(longest_chunk) :: gap, within   ! within: 1 where the pressure is within a bound, else 0
       integer :: c, n
 
       allocate (chunk_sums(size(sums), self%region%chunks), source=0.0_dp)
-      !$omp parallel do num_threads(self%region%threads) private(gap, n)
+      !$omp parallel do num_threads(self%region%threads) private(gap, n, within)
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1, start => self%start_pressure, &
                     change => self%change, contact => self%contact)
@@ -204,15 +204,14 @@ contains
             call self%region%take_chunk(c, image, gap)
             self%gap(a:b) = self%gap(a:b) - step*gap(:n)
             change(a:b) = change(a:b) - step*direction(a:b)
-            where (start(a:b) + change(a:b) <= rounding*(start(a:b) + abs(change(a:b))))
-               change(a:b) = -start(a:b)
-               contact(a:b) = 0.0_sp
-            end where
+            ! Products with 0 and 1 make vector instructions, `where` and longer expressions with `merge` do not.
+            within(:n) = merge(1.0_sp, 0.0_sp, start(a:b) + change(a:b) > rounding*(start(a:b) + abs(change(a:b))))
+            contact(a:b) = within(:n)*contact(a:b)
+            change(a:b) = within(:n)*change(a:b) - (1.0_sp - within(:n))*start(a:b)
             if (allocated(self%below_hardness)) then
-               where (self%below_hardness(a:b) <= change(a:b))
-                  change(a:b) = self%below_hardness(a:b)
-                  contact(a:b) = 0.0_sp
-               end where
+               within(:n) = merge(1.0_sp, 0.0_sp, change(a:b) < self%below_hardness(a:b))
+               contact(a:b) = within(:n)*contact(a:b)
+               change(a:b) = min(change(a:b), self%below_hardness(a:b))
             end if
             gap(:n) = contact(a:b)*self%gap(a:b)
             chunk_sums(:2, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, self%gap(a:b), 1)]
@@ -254,7 +253,8 @@ contains
                ! At the hardness the condition on the gap has the other sign (C21).
                where (self%below_hardness(a:b) <= self%change(a:b)) outside(:n) = -gap(:n)
             end if
-            enter(:n) = merge(1.0_sp - self%contact(a:b), 0.0_sp, outside(:n) < -allowance)
+            enter(:n) = merge(1.0_sp, 0.0_sp, outside(:n) < -allowance)
+            enter(:n) = (1.0_sp - self%contact(a:b))*enter(:n)
             contact(:n) = self%contact(a:b) + enter(:n)
             outside(:n) = (1.0_sp - contact(:n))*min(outside(:n), 0.0_sp)
             gap(:n) = contact(:n)*gap(:n)

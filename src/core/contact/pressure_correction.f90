@@ -291,12 +291,14 @@ contains
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
             n = b - a + 1
             change(:n) = max(state%change(a:b) - step*direction(a:b), -start(a:b))
-            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) > -start(a:b))
+            free(:n) = merge(1.0_sp, 0.0_sp, change(:n) > -start(a:b))
+            free(:n) = state%contact(a:b)*free(:n)
             chunk_sums(1, c) = sdot(n, free, 1, free, 1)
             chunk_sums(2, c) = sdot(n, free, 1, start(a:b), 1) + sdot(n, free, 1, change, 1)
             chunk_sums(3, c) = sdot(n, change, 1, ones, 1)
             if (.not. allocated(state%below_hardness)) cycle
-            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) >= state%below_hardness(a:b))
+            free(:n) = merge(1.0_sp, 0.0_sp, change(:n) >= state%below_hardness(a:b))
+            free(:n) = state%contact(a:b)*free(:n)
             chunk_sums(4, c) = sdot(n, free, 1, free, 1)
          end associate
       end do
