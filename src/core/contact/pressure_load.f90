@@ -71,11 +71,7 @@ contains
 
       !> Newton's method ends in a few steps, bisection when the digits are used up.
       integer, parameter :: most_steps = 100
-      !> An excess below this part of the sum of all sizes is rounding of the sum. Newton's method would not make it
-      !> smaller, and bisection only after many steps.
-      real(dp), parameter :: rounding = 128*epsilon(1.0_dp)
-      real(dp) :: cut, excess, extremes(2), free, high, low, next, size_of_all, strip_sums(3, size(first) - 1), sums(3)
-      real(dp) :: total_of_strip
+      real(dp) :: excess, extremes(2), free, high, low, next, strip_sums(2, size(first) - 1), sums(2)
       integer :: i, s, step
 
       shift = 0.0_dp
@@ -85,26 +81,22 @@ contains
       high = max(0.0_dp, extremes(2))
       do step = 1, most_steps
          do s = 1, size(first) - 1
-            total_of_strip = 0.0_dp
-            free = 0.0_dp
-            size_of_all = 0.0_dp
-            !$omp simd reduction(+:free, size_of_all, total_of_strip) private(cut)
+            ! One after another: close to H a sum in another order may make the iteration longer.
+            sums = 0.0_dp
             do i = first(s), first(s + 1) - 1
-               cut = min(max(shift, -above(i)), below(i))
-               total_of_strip = total_of_strip + cut
-               size_of_all = size_of_all + abs(cut)
-               free = free + merge(1.0_dp, 0.0_dp, shift > -above(i) .and. shift < below(i))
+               sums(1) = sums(1) + min(max(shift, -above(i)), below(i))
+               sums(2) = sums(2) + merge(1.0_dp, 0.0_dp, shift > -above(i) .and. shift < below(i))
             end do
-            strip_sums(:, s) = [total_of_strip, free, size_of_all]
+            strip_sums(:, s) = sums
          end do
          sums = slab%strip_totals(strip_sums)
          excess = sums(1) - total
-         if (abs(excess) <= rounding*sums(3)) exit
+         free = sums(2)
          if (excess > 0.0_dp) high = shift
          if (excess < 0.0_dp) low = shift
-         next = shift - excess/max(sums(2), 1.0_dp)
-         if (sums(2) <= 0.0_dp .or. next <= low .or. next >= high) next = 0.5_dp*(low + high)
-         if (abs(next - shift) <= epsilon(shift)*abs(shift)) exit
+         next = shift - excess/max(free, 1.0_dp)
+         if (free <= 0.0_dp .or. next <= low .or. next >= high) next = 0.5_dp*(low + high)
+         if (abs(excess) <= 0.0_dp .or. abs(next - shift) <= epsilon(shift)*abs(shift)) exit
          shift = next
       end do
    end function bounded_shift
