@@ -286,8 +286,20 @@ class Digits(PackageTest):
         self.assertEqual((8, 6), (results.length_x, results.length_y))
         expected = wc.solve(wc.heights(h[::-1], length_x=8), pbar_over_pstar=0)[0].gap
         numpy.testing.assert_allclose(results[0].gap, expected, atol=1e-12)
-        with self.assertRaisesRegex(SystemExit, "decks read this grid of ESRI as it is"):
+        with self.assertRaisesRegex(SystemExit, "decks read this file as it is"):
             convert(["map.asc", "map.npy"])
+
+    def test_decimal_commas(self):
+        """The program reads them; SurfaceTopography takes them for separators, here for x, y and z of a map."""
+        heights = numpy.sin(numpy.arange(100.0))
+        lines = "".join(f"{x}\t{z:.4f}\n".replace(".", ",") for x, z in enumerate(heights))
+        pathlib.Path("stylus.txt").write_text("stylus 2 um\nx [mm]\tz [um]\n" + lines)
+        results = wc.solve(wc.read("stylus.txt", height_scale=1e-3, length_unit="mm"), pbar_over_pstar=0)
+        self.assertEqual((100, "mm"), (results.length_x, results.length_unit))
+        numpy.testing.assert_allclose(results[0].gap.ravel(), 1e-3*(heights.max() - heights), atol=2e-7)
+        for text, is_of_program in (("1,5;2,5\n", True), ("2 0,5\r\n", True), ("1,2,3\n", False), ("0.1,5 2\n", False)):
+            pathlib.Path("numbers.txt").write_text(text)
+            self.assertEqual(is_of_program, files.is_of_program("numbers.txt"), text)
 
     def test_gsf_keeps_heights_beside_a_large_mean(self):
         h = numpy.random.default_rng(1).uniform(size=(12, 16))

@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -19,8 +20,11 @@ from .surfaces import Surface
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
-# Of ESRI's grids, whose steps and order of rows the program knows, and SurfaceTopography does not.
-ESRI = b"ncols"
+# Texts that the program reads, and SurfaceTopography not or otherwise than they are meant: the grids of ESRI, by their
+# steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
+ESRI = re.compile(rb"\s*ncols\s", re.IGNORECASE)
+NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
+DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n", re.MULTILINE)
 
 
 def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
@@ -30,10 +34,11 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
     and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
-    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf and grids of ESRI, which the program
-    reads, and .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as in wavycon.heights.
+    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf, grids of ESRI and numbers with a
+    decimal comma, which the program reads, and .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or
+    (x,), as in wavycon.heights.
     """
-    if os.path.isfile(file) and first_bytes(file).lower().startswith((b"gwyddion simple field 1.", ESRI)):
+    if os.path.isfile(file) and (first_bytes(file).startswith(b"Gwyddion Simple Field 1.") or is_of_program(file)):
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: a file of this kind has one, which has no name")
         return Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
@@ -81,6 +86,12 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
     with open(file, "rb") as opened:
         return opened.read(number)
+
+
+def is_of_program(file: str | os.PathLike[str]) -> bool:
+    """Whether decks read a text better than SurfaceTopography."""
+    start = first_bytes(file, 65536)
+    return ESRI.match(start) is not None or DECIMAL_COMMAS.search(start) is not None
 
 
 def reason(error: Exception) -> str:
@@ -154,8 +165,8 @@ def convert(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
-        if os.path.isfile(given.file) and first_bytes(given.file).lower().startswith(ESRI):
-            raise ValueError(f"{given.file}: decks read this grid of ESRI as it is")
+        if os.path.isfile(given.file) and is_of_program(given.file):
+            raise ValueError(f"{given.file}: decks read this file as it is")
         x, z, sides, unit = open_file(given.file, channel, given.unit)
         kind, rows = Path(given.map).suffix, np.atleast_2d(z)
         if x is not None and kind != ".txt":
