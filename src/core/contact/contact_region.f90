@@ -7,7 +7,6 @@
 !> several operations on it read the memory once, and threads share the chunks. Each strip of columns (`grid_slab`)
 !> begins a new chunk. So the sum over a strip does not depend on how strips are distributed over processes.
 module wavycon_contact_region
-   use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab, strip_columns
    use wavycon_kinds, only: dp, sp
@@ -42,7 +41,6 @@ module wavycon_contact_region
       procedure :: strip_places
       procedure :: strip_sums
       procedure :: correct
-      procedure :: clear_outside
    end type contact_region
 
 contains
@@ -211,13 +209,11 @@ contains
    end function strip_sums
 
    !> Adds changes to the pressure at the free points and keeps it between zero and an upper bound. At the other points
-   !> of the region the pressure becomes zero or the upper bound.
-   subroutine correct(self, change, contact, at_bound, unit, bound, pressure)
+   !> of the region, which are at a bound but for rounding, the pressure becomes this bound.
+   subroutine correct(self, change, contact, unit, bound, pressure)
       class(contact_region), intent(in) :: self
       real(sp), intent(in) :: change(:)            !! changes of the pressure over `unit`, shape (points)
       real(sp), intent(in) :: contact(:)           !! 1 at free points, 0 at others, shape (points)
-      !> Whether the pressure becomes the upper bound at a point that is not free, shape (points).
-      logical(c_bool), intent(in) :: at_bound(:)
       real(dp), intent(in) :: unit                 !! unit of the changes
       real(dp), intent(in) :: bound                !! upper bound of the pressure, > 0
       real(dp), intent(inout) :: pressure(:, :)    !! shape (M, slab%columns())
@@ -229,38 +225,12 @@ contains
          associate (p => pressure(:, self%column(r)))
             do i = self%first(r), self%last(r)
                k = self%position(r) + i - self%first(r)
-               if (contact(k) > 0.0_sp) then
-                  p(i) = min(bound, max(0.0_dp, p(i) + unit*change(k)))
-               else
-                  p(i) = 0.0_dp
-                  if (at_bound(k)) p(i) = bound
-               end if
+               p(i) = min(bound, max(0.0_dp, p(i) + unit*change(k)))
+               if (contact(k) <= 0.0_sp) p(i) = merge(0.0_dp, bound, p(i) < 0.5_dp*bound)
             end do
          end associate
       end do
    end subroutine correct
-
-   !> Sets a field to zero outside the region, but only in columns that have points of the region. The other columns do
-   !> not change: transforms leave them out.
-   pure subroutine clear_outside(self, field)
-      class(contact_region), intent(in) :: self
-      real(sp), intent(inout) :: field(:, :)   !! shape (M, slab%columns())
-
-      integer :: column, last, r
-
-      column = 0
-      last = 0
-      do r = 1, self%chunk_run(self%chunks + 1) - 1
-         if (self%column(r) /= column) then
-            if (column > 0) field(last + 1:, column) = 0.0_sp
-            column = self%column(r)
-            last = 0
-         end if
-         field(last + 1:self%first(r) - 1, column) = 0.0_sp
-         last = self%last(r)
-      end do
-      if (column > 0) field(last + 1:, column) = 0.0_sp
-   end subroutine clear_outside
 
    !> Adds to the value at each point the values at its four neighbours, in 1-D at its two. Applied to a field that is
    !> positive in a region and zero elsewhere it widens the region by one step.

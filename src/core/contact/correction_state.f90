@@ -1,12 +1,11 @@
 !> State of a correction of the pressure (`pressure_correction`): pressure, gap and contact at the points of a region.
 !> The procedures compute the approach (C3), the points that enter the contact (C8) and the residual (C9), from the
-!> sums (C8c). Numbers (C..) are the equations of README.md in this directory.
+!> sums (C8b). Numbers (C..) are the equations of README.md in this directory.
 !>
 !> Vectors have the points of the columns that this process has. A pass over vectors goes chunk by chunk
 !> (`contact_region`) and computes several sums over each chunk. If the grid is distributed, one message then adds the
 !> sums of all processes.
 module wavycon_correction_state
-   use, intrinsic :: iso_c_binding, only: c_bool
    use wavycon_assertion, only: assert, assertions_stop
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: contact_region, longest_chunk
@@ -33,7 +32,7 @@ module wavycon_correction_state
       logical, allocatable :: has_entered(:)      !! whether a chunk has points that became free, shape (region%chunks)
       real(sp) :: approach = 0.0_sp               !! change of the approach, which is still to be subtracted from `gap`
       real(sp) :: allowance = huge(1.0_sp)        !! points with a smaller overlap than this do not enter (C8)
-      !> Points with a smaller overlap than this part of the gap at the free points, `free_gap`, do not enter (C8d).
+      !> Points with a smaller overlap than this part of the gap at the free points, `free_gap`, do not enter (C8c).
       real(sp) :: part_of_free_gap = 0.0_sp
       real(sp) :: free_gap = 0.0_sp               !! root mean square gap at the free points
       real(sp), allocatable :: start_pressure(:)  !! pressure p at the start
@@ -47,8 +46,8 @@ module wavycon_correction_state
       procedure :: put_residual
       procedure :: exclude_blocked
       procedure :: displace
-      procedure :: mean_gap
-      procedure :: update_contact
+      procedure :: take_step
+      procedure, private :: update_contact
       procedure :: totals
       procedure :: sum_of
       procedure :: add_to
@@ -86,7 +85,9 @@ contains
          call self%region%gather_scaled(grid%hardness - grid%pressure, self%scale, self%below_hardness)
          where (self%below_hardness <= 0.0_sp) self%contact = 0.0_sp
       end if
-      call self%update_contact(self%mean_gap())
+      ! The first call finds the approach, the second the violations at this approach.
+      call self%update_contact(0.0_sp)
+      call self%update_contact(self%approach)
    end subroutine start
 
    !> Writes the residual r of (C3) to the points of the region: the gap at free points, zero at others.
@@ -157,59 +158,81 @@ contains
       self%approach = self%approach + real(sums(2)/max(self%contact_points, 1.0_dp), sp)
    end subroutine exclude_blocked
 
-   !> Replaces a pressure by its displacement S p. Pressures outside the region are taken as zero, and the displacement
-   !> is computed in the columns of the region only.
-   subroutine displace(self, half_space, field)
+   !> The displacement S p of a pressure that is zero outside the region, in the columns of the region.
+   subroutine displace(self, half_space, pressure, field)
       class(correction_state), intent(in) :: self
       type(compliance_operator), intent(inout) :: half_space   !! S, started on the grid
-      !> On entry the pressure, on return the displacement, shape (M, slab%columns()).
+      real(sp), intent(in), contiguous :: pressure(:)          !! shape (region%points)
+      !> On return the displacement, undefined in other columns, shape (M, slab%columns()).
       real(sp), intent(inout), contiguous :: field(:, :)
 
-      call self%region%clear_outside(field)
+      integer :: c, j
+
+      !$omp parallel num_threads(self%region%threads)
+      !$omp do
+      do j = 1, size(field, 2)
+         if (self%region%columns(j)) field(:, j) = 0.0_sp
+      end do
+      !$omp do
+      do c = 1, self%region%chunks
+         call self%region%put_chunk(c, pressure(self%region%chunk(c):self%region%chunk(c + 1) - 1), field)
+      end do
+      !$omp end parallel
       call half_space%displacement(field, self%region%columns, self%region%columns)
    end subroutine displace
 
-   !> Adds a displacement, if one is given, to the gap, and returns the mean of the gap over the free points.
-   real(sp) function mean_gap(self, displacement)
+   !> Takes a step, and updates the contact. Points whose pressure reaches a bound leave it.
+   subroutine take_step(self, step, direction, image)
       class(correction_state), intent(inout) :: self
-      real(sp), intent(in), optional :: displacement(:, :)   !! shape (M, slab%columns())
+      real(sp), intent(in) :: step                            !! step*direction is subtracted from the pressure
+      real(sp), intent(in), contiguous :: direction(:)        !! shape (region%points)
+      real(sp), intent(in), contiguous :: image(:, :)         !! displacement of `direction`, shape (M, slab%columns())
 
+      !> A pressure below this part of the numbers that it is the sum of is zero but for rounding.
+      real(sp), parameter :: rounding = 4*epsilon(1.0_sp)
       real(dp) :: sums(3)
       real(dp), allocatable :: chunk_sums(:, :)
-      real(sp) :: added(longest_chunk)
+      real(sp), dimension(longest_chunk) :: gap, within   ! within: 1 where the pressure is within a bound, else 0
       integer :: c, n
 
-      allocate (chunk_sums(size(sums), self%region%chunks))
-      !$omp parallel do num_threads(self%region%threads) private(added, n)
+      allocate (chunk_sums(size(sums), self%region%chunks), source=0.0_dp)
+      !$omp parallel do num_threads(self%region%threads) private(gap, n, within)
       do c = 1, self%region%chunks
-         associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1, contact => self%contact)
+         associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1, start => self%start_pressure, &
+                    change => self%change, contact => self%contact)
             n = b - a + 1
-            if (present(displacement)) then
-               call self%region%take_chunk(c, displacement, added)
-               self%gap(a:b) = self%gap(a:b) + added(:n)
+            call self%region%take_chunk(c, image, gap)
+            self%gap(a:b) = self%gap(a:b) - step*gap(:n)
+            change(a:b) = change(a:b) - step*direction(a:b)
+            ! Products with 0 and 1 make vector instructions, `where` and longer expressions with `merge` do not.
+            within(:n) = merge(1.0_sp, 0.0_sp, start(a:b) + change(a:b) > rounding*(start(a:b) + abs(change(a:b))))
+            contact(a:b) = within(:n)*contact(a:b)
+            change(a:b) = within(:n)*change(a:b) - (1.0_sp - within(:n))*start(a:b)
+            if (allocated(self%below_hardness)) then
+               within(:n) = merge(1.0_sp, 0.0_sp, change(a:b) < self%below_hardness(a:b))
+               contact(a:b) = within(:n)*contact(a:b)
+               change(a:b) = min(change(a:b), self%below_hardness(a:b))
             end if
+            gap(:n) = contact(a:b)*self%gap(a:b)
             chunk_sums(:2, c) = [sdot(n, contact(a:b), 1, contact(a:b), 1), sdot(n, contact(a:b), 1, self%gap(a:b), 1)]
-            chunk_sums(3, c) = 0.0_dp
-            if (self%part_of_free_gap <= 0.0_sp) cycle   ! (C8d) is for plates alone
-            added(:n) = contact(a:b)*self%gap(a:b)
-            chunk_sums(3, c) = sdot(n, added, 1, added, 1)
+            if (self%part_of_free_gap > 0.0_sp) chunk_sums(3, c) = sdot(n, gap, 1, gap, 1)   ! (C8c)
          end associate
       end do
       sums = self%totals(chunk_sums)
       sums(2:) = sums(2:)/max(sums(1), 1.0_dp)
-      mean_gap = real(sums(2), sp)
-      self%free_gap = real(sqrt(max(sums(3) - sums(2)**2, 0.0_dp)), sp)
-   end function mean_gap
+      if (sums(1) < self%contact_points) then
+         self%contact_is_new = .true.
+         self%free_gap = real(sqrt(max(sums(3) - sums(2)**2, 0.0_dp)), sp)
+      end if
+      call self%update_contact(real(sums(2), sp))
+   end subroutine take_step
 
-   !> Updates the contact after a step, in one pass over the points and with one message. Points that overlap become
-   !> free (C8). The approach becomes that whose mean gap over the free points is zero (C3). The residual (C9) times G
-   !> follows from the sums (C8c). If a step is given, the pass also takes the step; no point may then reach a bound.
-   subroutine update_contact(self, mean, step, direction, image)
+   !> Updates the contact, in one pass over the points and with one message. Points that overlap become free (C8). The
+   !> approach becomes that whose mean gap over the free points is zero (C3). The residual (C9) times G follows from the
+   !> sums (C8b).
+   subroutine update_contact(self, mean)
       class(correction_state), intent(inout) :: self
-      real(sp), intent(in) :: mean                      !! mean gap over the free points after the step, m of (C8c)
-      real(sp), intent(in), optional :: step            !! tau of (C6): step*direction is subtracted from the pressure
-      real(sp), intent(in), optional :: direction(:)    !! d, direction of the pressure, shape (region%points)
-      real(sp), intent(in), optional :: image(:, :)     !! S d, displacement of `direction`, shape (M, slab%columns())
+      real(sp), intent(in) :: mean                      !! mean gap over the free points, m of (C8b)
 
       real(dp) :: shift, squares, sums(5)
       real(dp), allocatable :: chunk_sums(:, :)
@@ -224,18 +247,14 @@ contains
       do c = 1, self%region%chunks
          associate (a => self%region%chunk(c), b => self%region%chunk(c + 1) - 1)
             n = b - a + 1
-            if (present(step)) then
-               call self%region%take_chunk(c, image, gap)
-               self%gap(a:b) = (self%gap(a:b) - self%approach) - step*gap(:n)
-               self%change(a:b) = self%change(a:b) - step*direction(a:b)
-            end if
             gap(:n) = self%gap(a:b) - mean
             outside(:n) = gap(:n)
             if (allocated(self%below_hardness)) then
                ! At the hardness the condition on the gap has the other sign (C21).
                where (self%below_hardness(a:b) <= self%change(a:b)) outside(:n) = -gap(:n)
             end if
-            enter(:n) = merge(1.0_sp - self%contact(a:b), 0.0_sp, outside(:n) < -allowance)
+            enter(:n) = merge(1.0_sp, 0.0_sp, outside(:n) < -allowance)
+            enter(:n) = (1.0_sp - self%contact(a:b))*enter(:n)
             contact(:n) = self%contact(a:b) + enter(:n)
             outside(:n) = (1.0_sp - contact(:n))*min(outside(:n), 0.0_sp)
             gap(:n) = contact(:n)*gap(:n)
@@ -287,13 +306,10 @@ contains
       class(correction_state), intent(in) :: self
       type(grid_state), intent(inout) :: grid   !! the grid of `start`, with the same pressure
 
-      logical(c_bool), allocatable :: at_hardness(:)
       real(dp) :: load
 
-      allocate (at_hardness(self%region%points), source=.false._c_bool)
-      if (allocated(self%below_hardness)) at_hardness = self%below_hardness <= self%change
       load = grid%slab%sum_of(grid%pressure)
-      call self%region%correct(self%change, self%contact, at_hardness, self%scale, grid%hardness, grid%pressure)
+      call self%region%correct(self%change, self%contact, self%scale, grid%hardness, grid%pressure)
       call set_load(grid%slab, grid%pressure, load, grid%hardness)
    end subroutine add_to
 

@@ -14,7 +14,6 @@ module wavycon_grid_solver
    use wavycon_contact_region, only: add_neighbours
    use wavycon_contact_tuning, only: approach_tolerance, correction_limit, correction_margin, correction_part, &
       edge_tolerance, halo
-   use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -62,7 +61,7 @@ contains
          call compute_gap(half_space, undeformed_gap, touched, state)
          allowed = residual*state%size_of_gaps()
          if (residual <= 0.0_dp) then
-            allowed = edge_tolerance*gap_at_edge(half_space%even, state, touched)
+            allowed = edge_tolerance*gap_at_edge(half_space%even, state)
             if (half_space%is_free) then
                ! With free edges the smaller of (C10) and (C28); the number of points in contact gives A of (C28).
                touching = state%slab%sum_of(merge(1.0_dp, 0.0_dp, state%pressure > 0.0_dp))
@@ -207,63 +206,36 @@ contains
    end subroutine reduce_violation
 
    !> g_e A^(1/2) of (C10) [Delta]: the root mean square of the gap at the points next to free ones, times the square
-   !> root of the free part of all points. It is zero if all points are free. Only columns next to points in contact are
-   !> looked at.
-   real(dp) function gap_at_edge(even, state, touched) result(gap)
+   !> root of the free part of all points. It is zero if all points are free.
+   real(dp) function gap_at_edge(even, state) result(gap)
       logical, intent(in) :: even             !! whether the grid continues by mirror images, otherwise periodically
       type(grid_state), intent(in) :: state   !! pressure and gap are used
-      logical, intent(in) :: touched(:)       !! whether a column has points in contact, shape (slab%columns())
 
-      real(dp), dimension(0:size(state%gap, 1) + 1) :: before, here, next   ! 1 at the free points of a column, else 0
-      real(dp), dimension(size(state%gap, 1), 1) :: high, low
-      real(dp) :: beside, column_sums(3, size(touched)), free, number, squares, sums(3)
-      integer :: i, j, n
+      real(sp), allocatable :: near(:, :)     !! > 0 at free points and those next to them
+      real(dp) :: beside, column_sums(3, size(state%gap, 2)), free, number, squares, sums(3)
+      integer :: i, j
 
-      n = size(touched)
-      low = 0.0_dp
-      high = 0.0_dp
-      if (state%slab%points(2) > 1) call state%slab%halo(state%pressure, even, low, high)
-      column_sums = 0.0_dp
-      here = marked(low(:, 1))
-      if (n > 0) next = marked(state%pressure(:, 1))
-      do j = 1, n
-         before = here
-         here = next
-         next = 0.0_dp
-         if (j == n) then
-            next = marked(high(:, 1))
-         else if (touched(j + 1)) then
-            next = marked(state%pressure(:, j + 1))
-         end if
-         if (j > 1 .and. j < n .and. .not. any(touched(max(j - 1, 1):min(j + 1, n)))) cycle
+      allocate (near(size(state%gap, 1), size(state%gap, 2)))
+      do j = 1, size(near, 2)
+         near(:, j) = merge(1.0_sp, 0.0_sp, is_free(state%pressure(:, j), state%hardness))
+      end do
+      call add_neighbours(state%slab, even, near)
+      do j = 1, size(near, 2)
          squares = 0.0_dp
          number = 0.0_dp
          free = 0.0_dp
          !$omp simd reduction(+:free, number, squares) private(beside)
-         do i = 1, size(state%gap, 1)
-            beside = (1.0_dp - here(i))*max(here(i - 1), here(i + 1), before(i), next(i))
+         do i = 1, size(near, 1)
+            beside = merge(1.0_dp, 0.0_dp, near(i, j) > 0.0_sp)
+            free = free + merge(1.0_dp, 0.0_dp, is_free(state%pressure(i, j), state%hardness))
+            beside = merge(0.0_dp, beside, is_free(state%pressure(i, j), state%hardness))
             squares = squares + beside*state%gap(i, j)**2
             number = number + beside
-            free = free + here(i)
          end do
          column_sums(:, j) = [squares, number, free]
       end do
       sums = state%slab%column_totals(column_sums)
       gap = sqrt(sums(1)/max(sums(2), 1.0_dp)*sums(3)/product(real(state%slab%points, dp)))
-
-   contains
-
-      !> 1 at the free points of a column and 0 at the others, also at the image points before and after the column.
-      pure function marked(pressure)
-         real(dp), intent(in) :: pressure(:)         !! p/p* of a column, shape (M)
-         real(dp) :: marked(0:size(pressure) + 1)
-
-         associate (m => size(pressure))
-            marked(1:m) = merge(1.0_dp, 0.0_dp, is_free(pressure, state%hardness))
-            marked([0, m + 1]) = marked(image_of_point([0, m + 1], m, even))
-         end associate
-      end function marked
-
    end function gap_at_edge
 
    !> Selects the region of the next correction: the points that may be free after it. These are the free points, points

@@ -28,8 +28,7 @@ module wavycon_pressure_correction
 contains
 
    !> Iterates (C3) to (C8) until the residual is at most a given part of the residual at the start, or for a given
-   !> number of iterations. To save memory one field of the grid holds z, d, S d, and the further change of the pressure
-   !> by (C7), one after another.
+   !> number of iterations. To save memory one field of the grid holds z and S d, one after another.
    subroutine correct_pressure(half_space, inside, part, most_iterations, grid, progress)
       type(compliance_operator), intent(inout) :: half_space
       !> > 0 at the points whose pressure may change, shape of the pressure; not allocated afterwards.
@@ -45,12 +44,15 @@ contains
       type(local_stiffness) :: stencil
       type(multilevel_preconditioner) :: extension
       real(dp) :: blocked, descent
+      real(dp) :: curvature                    !! (d, S d)
       real(sp), allocatable :: r(:), d(:)      !! residual and direction of the last iteration, shape (region%points)
+      real(sp), allocatable :: change(:)       !! minus the change of the pressure in a step that meets a bound
       real(sp), allocatable :: field(:, :)     !! shape of the pressure
       real(sp) :: expected_step                !! of the next iteration; 0: unknown
+      real(sp) :: step                         !! tau of (C6), nu of (C7a)
       integer :: iterations
-      logical :: is_bounded                    !! whether d is the change of the pressure (C7a)
-      logical :: is_plate                      !! whether a stiff layer bends like a plate (C8d)
+      logical :: is_foreseen                   !! whether d is minus the change of the pressure (C7a)
+      logical :: is_plate                      !! whether a stiff layer bends like a plate (C8c)
 
       call assert(part > 0.0_dp .and. part < 1.0_dp, '0 < part < 1')
       call assert(most_iterations > 0, 'most_iterations > 0')
@@ -73,14 +75,28 @@ contains
          call state%exclude_blocked(field, blocked)                                  ! (C4d)
          if (blocked > blocked_part*state%contact_points) &
             call precondition(extension, stencil, half_space, state, field)
-         call find_direction(state, field, r, d, descent)                            ! (C5): field = d
+         call find_direction(state, field, r, d, descent)                            ! (C5)
          if (is_plate) expected_step = 0.0_sp                                        ! no (C7a)
-         call bound_direction(state, expected_step, d, field, is_bounded)            ! (C7a)
-         call state%displace(half_space, field)                                      !       field = Sd
-         if (is_bounded) then
-            call take_bounded_step(state, r, d, field, expected_step, descent)       ! (C7a), (C8), (C3)
+         call bound_step(state, expected_step, .true., d, change)                    ! (C7a)
+         is_foreseen = allocated(change)
+         if (is_foreseen) call move_alloc(change, d)
+         call state%displace(half_space, d, field)                                   !       field = Sd
+         call find_least_energy(state, r, d, field, step, curvature)                 ! (C6)
+         if (is_foreseen) then
+            expected_step = expected_step*step
+            if (step < least_foreseen) expected_step = 0.0_sp
+            step = max(step, 0.0_sp)
+            if (step > whole_step) step = 1.0_sp
+            descent = step*curvature                                                 ! (C7b)
          else
-            call take_step(state, half_space, r, d, field, expected_step)            ! (C6) to (C8), (C3)
+            expected_step = step
+            call bound_step(state, step, .false., d, change)                         ! (C7), (C24)
+         end if
+         if (allocated(change)) then
+            call state%displace(half_space, change, field)
+            call state%take_step(1.0_sp, change, field)                              ! (C8), (C3)
+         else
+            call state%take_step(step, d, field)
          end if
       end do
       call state%add_to(grid)
@@ -134,7 +150,7 @@ contains
    !> change. In (r_old, z) it matters, because r_old has a mean when points have left the contact.
    subroutine find_direction(state, field, residuals, direction, descent)
       type(correction_state), intent(in) :: state
-      real(sp), intent(inout), contiguous :: field(:, :)    !! on entry z, on return d; shape (M, slab%columns())
+      real(sp), intent(in), contiguous :: field(:, :)       !! z, shape (M, slab%columns())
       real(sp), intent(inout), contiguous :: residuals(:)   !! on entry r_old, on return r; shape (region%points)
       real(sp), intent(inout), contiguous :: direction(:)   !! on entry d_old, on return d; shape (region%points)
       !> On entry (gap_old, z_old), after a change (C7a) that of (C7b); on return (gap, z). Zero on entry restarts the
@@ -177,128 +193,66 @@ contains
             call state%region%take_chunk(c, field, z)
             residuals(a:b) = contact(a:b)*(state%gap(a:b) - state%approach)
             direction(a:b) = contact(a:b)*((z(:n) - mean) + beta*(direction(a:b) - mean_before))
-            call state%region%put_chunk(c, direction(a:b), field)
          end associate
       end do
    end subroutine find_direction
 
-   !> If the expected step would take points out of the contact: replaces the direction by the change of the pressure
-   !> that keeps it within its bound and keeps its mean (C7a). The transform that follows is then that of the change
-   !> itself, and (C7) needs no further one. If it would take points to a hardness, the step is that of (C6) and (C24).
-   subroutine bound_direction(state, expected_step, direction, field, is_bounded)
+   !> If a step along the direction would take points to a bound: computes the change of the pressure that keeps it
+   !> within its bounds and keeps its mean, (C7), (C7a) or (C24). The factor of the mean is 1 + excess. A step that is
+   !> only foreseen is left as it is if it may be a bad one, or takes points to a hardness.
+   subroutine bound_step(state, step, is_foreseen, direction, change)
       type(correction_state), intent(in) :: state
-      real(sp), intent(in) :: expected_step                     !! tau_e; 0: unknown
-      real(sp), intent(inout), contiguous :: direction(:)       !! d; on return with is_bounded the d of (C7a)
-      real(sp), intent(inout), contiguous :: field(:, :)        !! the same at the points of the region
-      logical, intent(out) :: is_bounded
+      real(sp), intent(in) :: step                              !! tau, or tau_e, 0: unknown
+      logical, intent(in) :: is_foreseen                        !! whether the step is tau_e of (C7a)
+      real(sp), intent(in), contiguous :: direction(:)          !! d, shape (region%points)
+      !> Minus the change, shape (region%points); not allocated if the step is left as it is.
+      real(sp), allocatable, intent(out) :: change(:)
 
       real(dp) :: sums(4)
-      real(sp) :: change(longest_chunk), excess
+      real(sp) :: after(longest_chunk), excess, factor
       integer :: c, n
 
-      is_bounded = .false.
-      if (expected_step <= 0.0_sp) return
-      sums = sums_after(state, direction, expected_step)
-      ! A step after which the sum of the pressures is more than twice the right one is foreseen badly.
-      is_bounded = sums(1) > 0.0_dp .and. sums(1) < state%contact_points .and. sums(3) < 0.5_dp*sums(2) .and. &
-                   sums(4) <= 0.0_dp
-      if (.not. is_bounded) return
-      excess = real(-sums(3)/sums(2), sp)
-      !$omp parallel do num_threads(state%region%threads) private(change, n)
-      do c = 1, state%region%chunks
-         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
-            n = b - a + 1
-            change(:n) = max(state%change(a:b) - expected_step*direction(a:b), -start(a:b))
-            change(:n) = change(:n) + state%contact(a:b)*(excess*(start(a:b) + change(:n)))
-            direction(a:b) = state%change(a:b) - change(:n)
-            call state%region%put_chunk(c, direction(a:b), field)
-         end associate
-      end do
-   end subroutine bound_direction
-
-   !> Moves pressure and gap along the change (C7a) to the least energy, but not beyond the change, and updates the
-   !> contact (C8). With the whole change points leave the contact, with a shorter one only points without pressure.
-   subroutine take_bounded_step(state, residuals, direction, field, expected_step, descent)
-      type(correction_state), intent(inout) :: state
-      real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d of (C7a), shape (region%points)
-      real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
-      real(sp), intent(inout) :: expected_step             !! on entry that of (C7a), on return the next one
-      real(dp), intent(out) :: descent                     !! nu (d, S d) of (C7b)
-
-      !> A pressure below this part of the numbers that it is the sum of is zero but for rounding.
-      real(sp), parameter :: rounding = 4*epsilon(1.0_sp)
-      real(dp) :: curvature    ! (d, S d)
-      real(sp) :: best, step   ! part of the change with the least energy, and the part that is taken
-      real(sp), dimension(longest_chunk) :: image, least
-      real(sp) :: unused
-      integer :: c, n
-
-      call find_least_energy(state, residuals, direction, field, best, curvature, unused)
-      best = max(best, 0.0_sp)
-      step = best
-      if (best > whole_step) step = 1.0_sp
-      descent = step*curvature
-      expected_step = expected_step*best
-      if (best < least_foreseen) expected_step = 0.0_sp
-      !$omp parallel do num_threads(state%region%threads) private(image, least, n)
-      do c = 1, state%region%chunks
-         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
-            n = b - a + 1
-            call state%region%take_chunk(c, field, image)
-            image(:n) = -step*image(:n)
-            call state%region%put_chunk(c, image, field)
-            least(:n) = rounding*(start(a:b) + abs(state%change(a:b)))
-            state%change(a:b) = state%change(a:b) - step*direction(a:b)
-            where (start(a:b) + state%change(a:b) <= least(:n))
-               state%change(a:b) = -start(a:b)
-               state%contact(a:b) = 0.0_sp
-            end where
-         end associate
-      end do
-      state%contact_is_new = .true.
-      call state%update_contact(state%mean_gap(field))
-   end subroutine take_bounded_step
-
-   !> Takes the step to the least energy along the direction (C6), keeps the pressure within its bounds and restores its
-   !> mean (C7) or (C24), and updates the contact (C8). If no point reaches a bound, the displacement S d gives the new
-   !> gap; otherwise one more application of S is needed for the change of the pressure.
-   subroutine take_step(state, half_space, residuals, direction, field, step)
-      type(correction_state), intent(inout) :: state
-      type(compliance_operator), intent(inout) :: half_space           !! S, started on the grid
-      real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d, shape (region%points)
-      real(sp), intent(inout), contiguous :: field(:, :)   !! on entry S d, shape (M, slab%columns()); then overwritten
-      real(sp), intent(out) :: step                        !! tau of (C6)
-
-      real(dp) :: curvature, sums(4)   ! curvature: (d, S d)
-      real(sp) :: mean                 ! mean gap over the free points after the step (C8b)
-
-      call find_least_energy(state, residuals, direction, field, step, curvature, mean)
+      if (is_foreseen .and. step <= 0.0_sp) return
       sums = sums_after(state, direction, step)
-      if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) then
-         call state%update_contact(mean, step, direction, field)
+      if (sums(1) >= state%contact_points .and. sums(4) <= 0.0_dp) return
+      ! A step after which the sum of the pressures is more than twice the right one is foreseen badly.
+      if (is_foreseen .and. (sums(1) <= 0.0_dp .or. sums(3) >= 0.5_dp*sums(2) .or. sums(4) > 0.0_dp)) return
+      allocate (change(size(direction)))
+      if (sums(4) > 0.0_dp) then
+         call project(state, step, direction, change)
          return
       end if
-      if (sums(4) > 0.0_dp) then
-         call project(state, direction, step, field)
-      else
-         call restore_mean(state, direction, step, sums(2), sums(3), field)
-      end if
-      state%contact_is_new = .true.
-      call state%displace(half_space, field)
-      call state%update_contact(state%mean_gap(field))
-   end subroutine take_step
+      excess = 0.0_sp
+      factor = 0.0_sp
+      if (sums(2) > 0.0_dp) excess = real(-sums(3)/sums(2), sp)
+      ! The step may be so much longer than the pressure that the factor 1 + excess would be rounded to zero or less.
+      ! The factor is then computed from the sum of the pressures at the start.
+      if (excess <= -1.0_sp) factor = real(state%sum_of(real(state%start_pressure, dp))/sums(2), sp)
+      !$omp parallel do num_threads(state%region%threads) private(after, n)
+      do c = 1, state%region%chunks
+         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
+            n = b - a + 1
+            after(:n) = max(state%change(a:b) - step*direction(a:b), -start(a:b))
+            if (excess > -1.0_sp) then
+               after(:n) = after(:n) + state%contact(a:b)*(excess*(start(a:b) + after(:n)))
+            else
+               where (after(:n) > -start(a:b)) after(:n) = factor*(start(a:b) + after(:n)) - start(a:b)
+            end if
+            change(a:b) = state%change(a:b) - after(:n)
+         end associate
+      end do
+   end subroutine bound_step
 
-   !> The step to the least energy along the direction (C6), and the mean gap over the free points after it (C8b).
-   subroutine find_least_energy(state, residuals, direction, field, step, curvature, mean)
+   !> The step to the least energy along the direction (C6).
+   subroutine find_least_energy(state, residuals, direction, field, step, curvature)
       type(correction_state), intent(in) :: state
       real(sp), intent(in), contiguous :: residuals(:), direction(:)   !! r and d, shape (region%points)
       real(sp), intent(in), contiguous :: field(:, :)   !! S d, shape (M, slab%columns())
       real(sp), intent(out) :: step                     !! tau of (C6)
       real(dp), intent(out) :: curvature                !! (d, S d)
-      real(sp), intent(out) :: mean                     !! [Delta], over the scale of the correction
 
       real(dp), allocatable :: chunk_sums(:, :)
-      real(dp) :: sums(3)
+      real(dp) :: sums(2)
       real(sp) :: image(longest_chunk)
       integer :: c, n
 
@@ -308,8 +262,7 @@ contains
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
             n = b - a + 1
             call state%region%take_chunk(c, field, image)
-            chunk_sums(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1), &
-                                sdot(n, state%contact(a:b), 1, image, 1)]
+            chunk_sums(:, c) = [sdot(n, direction(a:b), 1, image, 1), sdot(n, residuals(a:b), 1, direction(a:b), 1)]
          end associate
       end do
       sums = state%totals(chunk_sums)
@@ -317,7 +270,6 @@ contains
       step = 0.0_sp
       if (sums(1) > 0.0_dp) step = real(sums(2)/sums(1), sp)
       curvature = sums(1)
-      mean = real(-step*sums(3)/max(state%contact_points, 1.0_dp), sp)
    end subroutine find_least_energy
 
    !> Sums over the grid after a step that keeps the pressure at zero or above: number of the free points whose pressure
@@ -339,89 +291,44 @@ contains
          associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
             n = b - a + 1
             change(:n) = max(state%change(a:b) - step*direction(a:b), -start(a:b))
-            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) > -start(a:b))
+            free(:n) = merge(1.0_sp, 0.0_sp, change(:n) > -start(a:b))
+            free(:n) = state%contact(a:b)*free(:n)
             chunk_sums(1, c) = sdot(n, free, 1, free, 1)
             chunk_sums(2, c) = sdot(n, free, 1, start(a:b), 1) + sdot(n, free, 1, change, 1)
             chunk_sums(3, c) = sdot(n, change, 1, ones, 1)
             if (.not. allocated(state%below_hardness)) cycle
-            free(:n) = merge(state%contact(a:b), 0.0_sp, change(:n) >= state%below_hardness(a:b))
+            free(:n) = merge(1.0_sp, 0.0_sp, change(:n) >= state%below_hardness(a:b))
+            free(:n) = state%contact(a:b)*free(:n)
             chunk_sums(4, c) = sdot(n, free, 1, free, 1)
          end associate
       end do
       sums = state%totals(chunk_sums)
    end function sums_after
 
-   !> Takes a step by which points leave the contact, and then multiplies the pressure by the factor that restores its
-   !> mean (C7). The factor is 1 + excess.
-   subroutine restore_mean(state, direction, step, load, change_sum, field)
-      type(correction_state), intent(inout) :: state
-      real(sp), intent(in), contiguous :: direction(:)     !! d, shape (region%points)
-      real(sp), intent(in) :: step                         !! tau of (C6)
-      real(dp), intent(in) :: load                         !! sum of the pressures after the step, before the factor
-      real(dp), intent(in) :: change_sum                   !! sum of the changes since the start, before the factor
-      !> On return the change of the pressure at the points of the region, shape (M, slab%columns()).
-      real(sp), intent(inout), contiguous :: field(:, :)
+   !> The change of the pressure by a step that takes points to H, projected on the allowed pressures (C24): all free
+   !> points get the same shift, and a pressure beyond a bound becomes this bound. The shift is that which restores the
+   !> mean. Close to H only a small part of a long step is left after this, so that the change is computed in double
+   !> precision.
+   subroutine project(state, step, direction, change)
+      type(correction_state), intent(in) :: state
+      real(sp), intent(in) :: step                              !! tau of (C6)
+      real(sp), intent(in), contiguous :: direction(:)          !! d, shape (region%points)
+      real(sp), intent(out), contiguous :: change(:)            !! minus the change, shape (region%points)
 
-      real(sp) :: excess, factor
-      real(sp), dimension(longest_chunk) :: change, delta
-      integer :: c, n
-
-      excess = 0.0_sp
-      factor = 0.0_sp
-      if (load > 0.0_dp) excess = real(-change_sum/load, sp)
-      ! The step may be so much longer than the pressure that the factor 1 + excess would be rounded to zero or less.
-      ! The factor is then computed from the sum of the pressures at the start.
-      if (excess <= -1.0_sp) factor = real(state%sum_of(real(state%start_pressure, dp))/load, sp)
-      !$omp parallel do num_threads(state%region%threads) private(change, delta, n)
-      do c = 1, state%region%chunks
-         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1, start => state%start_pressure)
-            n = b - a + 1
-            change(:n) = max(state%change(a:b) - step*direction(a:b), -start(a:b))
-            state%contact(a:b) = merge(state%contact(a:b), 0.0_sp, change(:n) > -start(a:b))
-            if (excess > -1.0_sp) then
-               change(:n) = change(:n) + state%contact(a:b)*(excess*(start(a:b) + change(:n)))
-            else
-               where (state%contact(a:b) > 0.0_sp) change(:n) = factor*(start(a:b) + change(:n)) - start(a:b)
-            end if
-            delta(:n) = change(:n) - state%change(a:b)
-            state%change(a:b) = change(:n)
-            call state%region%put_chunk(c, delta, field)
-         end associate
-      end do
-   end subroutine restore_mean
-
-   !> Takes a step by which points reach H, and projects the pressure on the allowed ones (C24): all free points get the
-   !> same shift, and a pressure beyond a bound becomes this bound. The shift is that which restores the mean. Close to
-   !> H only a small part of a long step is left after this, so that the change is computed in double precision.
-   subroutine project(state, direction, step, field)
-      type(correction_state), intent(inout) :: state
-      real(sp), intent(in), contiguous :: direction(:)     !! d, shape (region%points)
-      real(sp), intent(in) :: step                         !! tau of (C6)
-      !> On return the change of the pressure at the points of the region, shape (M, slab%columns()).
-      real(sp), intent(inout), contiguous :: field(:, :)
-
-      real(dp), allocatable, dimension(:) :: above, below, change
+      real(dp), allocatable, dimension(:) :: above, after, below
       real(dp) :: shift
-      real(sp) :: delta(longest_chunk)
-      integer :: c, n
 
       associate (start => state%start_pressure, contact => state%contact)
-         allocate (change, source=state%change - real(step, dp)*direction)
-         above = contact*(start + change)
-         below = contact*(state%below_hardness - change)
-         shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(change))
-         change = min(max(change + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
+         allocate (after, source=state%change - real(step, dp)*direction)
+         above = contact*(start + after)
+         below = contact*(state%below_hardness - after)
+         shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(after))
+         after = min(max(after + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
+         change = real(state%change - after, sp)
+         ! With this addition rounding does not leave the pressure below H.
+         where (contact > 0.0_sp .and. after >= state%below_hardness) &
+            change = change - 2*spacing(max(abs(state%change), state%below_hardness))
       end associate
-      do c = 1, state%region%chunks
-         associate (a => state%region%chunk(c), b => state%region%chunk(c + 1) - 1)
-            n = b - a + 1
-            delta(:n) = real(change(a:b), sp) - state%change(a:b)
-            state%change(a:b) = real(change(a:b), sp)
-            where (state%change(a:b) <= -state%start_pressure(a:b) .or. &
-                   state%change(a:b) >= state%below_hardness(a:b)) state%contact(a:b) = 0.0_sp
-            call state%region%put_chunk(c, delta, field)
-         end associate
-      end do
    end subroutine project
 
 end module wavycon_pressure_correction

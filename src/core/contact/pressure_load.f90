@@ -72,7 +72,7 @@ contains
       !> Newton's method ends in a few steps, bisection when the digits are used up.
       integer, parameter :: most_steps = 100
       real(dp) :: excess, extremes(2), free, high, low, next, strip_sums(2, size(first) - 1), sums(2)
-      integer :: s, step
+      integer :: i, s, step
 
       shift = 0.0_dp
       extremes = slab%largest([maxval(above), maxval(below)])
@@ -81,9 +81,13 @@ contains
       high = max(0.0_dp, extremes(2))
       do step = 1, most_steps
          do s = 1, size(first) - 1
-            associate (down => above(first(s):first(s + 1) - 1), up => below(first(s):first(s + 1) - 1))
-               strip_sums(:, s) = [sum(min(max(shift, -down), up)), real(count(shift > -down .and. shift < up), dp)]
-            end associate
+            ! One after another: close to H a sum in another order may make the iteration longer.
+            sums = 0.0_dp
+            do i = first(s), first(s + 1) - 1
+               sums(1) = sums(1) + min(max(shift, -above(i)), below(i))
+               sums(2) = sums(2) + merge(1.0_dp, 0.0_dp, shift > -above(i) .and. shift < below(i))
+            end do
+            strip_sums(:, s) = sums
          end do
          sums = slab%strip_totals(strip_sums)
          excess = sums(1) - total

@@ -72,12 +72,12 @@ module wavycon_contact_tuning
    !> If less than this part of the change (C7a) is best, the next step is not foreseen.
    real(dp), parameter, public :: least_foreseen = 0.5_dp
 
-   !> A layer bends like a plate, (C8d), if about some wave the compliance goes with a lower power of the wave number
+   !> A layer bends like a plate, (C8c), if about some wave the compliance goes with a lower power of the wave number
    !> than this. Layers 3, 5, 10 and 1000 times stiffer than their base have -1.6, -1.9, -2.3 and -3.7. At 3 and
-   !> 5 times (C7a), which takes fewer transforms, takes as many iterations as (C7) with (C8d).
+   !> 5 times (C7a), which takes fewer transforms, takes as many iterations as (C7) with (C8c).
    real(dp), parameter, public :: plate_order = -2.0_dp
    !> A point enters the contact of a plate when its overlap exceeds this times the root mean square gap in contact
-   !> (C8d). With 1 one of six loads at a ratio of 1000 reached the limit of iterations, with 2 they took 1.1 to 1.4
+   !> (C8c). With 1 one of six loads at a ratio of 1000 reached the limit of iterations, with 2 they took 1.1 to 1.4
    !> times the iterations, with 4 two to three times.
    real(dp), parameter, public :: plate_overlap = 1.5_dp
 
