@@ -96,8 +96,9 @@ contains
    end subroutine follow_closed_form
 
    !> Follows one branch of a wave on a lattice by steps of the radius of a circle of the spot's or pool's area. The
-   !> first radius is smaller than that of pull-off of a spot, or of the largest load of a pool, (I20). The branch ends
-   !> past the last extreme of the approach, before spots or pools touch.
+   !> first radius is smaller than that of pull-off of a spot, or of the largest load of a pool, (I20). Where neighbours
+   !> have moved the first extreme, which is of the approach of spots or of the load of pools, to a smaller radius, the
+   !> branch starts at half the radius. It ends past the last extreme of the approach, before spots or pools touch.
    subroutine follow_branch(curve, pools)
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
@@ -105,7 +106,9 @@ contains
       real(dp), parameter :: largest_first = 0.1_dp, largest_error = 0.02_dp
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
-      real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
+      !> `tolerance`: largest error of a point of the branch.
+      real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step, tolerance
+      logical :: starts_late   ! whether the point would be the first one, and is past the first extreme
       type(adhesive_point) :: point
       type(adhesive_problem) :: finer
       type(fitted_answer) :: start
@@ -138,10 +141,14 @@ contains
             start = point%answer
             call finer%find_point(pools, part, point, start)
          end if
+         starts_late = point%exists .and. ratio <= 0.0_dp .and. &
+                       point%value(2 + merge(at_load, at_approach, pools)) > 0.0_dp
          ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
-         ! solution that is accurate.
-         if (point%exists .and. &
-             maxval(point%error) <= min(worst_error*curve%problem%accuracy, largest_error)) then
+         ! solution that is accurate. Of a point past the last extreme only the sign of the slope has to be sure.
+         tolerance = min(worst_error*curve%problem%accuracy, largest_error)
+         if (point%exists .and. ratio > ratio_of_extremes .and. &
+             point%value(2 + at_approach) < -point%slope_error(at_approach)) tolerance = largest_error
+         if (point%exists .and. .not. starts_late .and. maxval(point%error) <= tolerance) then
             call add_point(curve, point)
             start = point%answer
             ! Past its last extreme the approach falls with the radius, and no contact is stable from there on.
@@ -163,7 +170,7 @@ contains
          else
             radius = radius - step
             step = 0.5_dp*step
-            if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
+            if ((ratio <= 0.0_dp .and. .not. starts_late) .or. step < least_step*full_step) exit
          end if
          radius = radius + step
       end do
@@ -266,30 +273,50 @@ contains
       type(adhesive_point) :: point
 
       known = size(curve%at_loads)
-      if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
-         ! The closed forms hold at any area, also beyond the ends of the computed curve.
-         call curve%problem%find_point(.false., target, point)
-         curve%at_loads = [curve%at_loads, point]
-         curve%at_loads(known + 1)%number = number
-         return
-      end if
-      do i = 1, size(curve%knots) - 1
-         associate (here => curve%knots(i), after => curve%knots(i + 1))
-            if (which > 0) then
+      if (which == 0) then
+         call add_contacts_of_area(curve, target)
+      else
+         do i = 1, size(curve%knots) - 1
+            associate (here => curve%knots(i), after => curve%knots(i + 1))
                if (.not. is_between(here, after, which, target)) cycle
                call find_zero(curve, which, target, here, after, point)
-            else
-               if ((here%pools .neqv. after%pools) .or. ((here%area < target) .eqv. (after%area < target))) cycle
-               call curve%problem%find_point(here%pools, target, point, here%answer)
-            end if
-         end associate
-         if (point%exists) curve%at_loads = [curve%at_loads, point]
-      end do
+            end associate
+            if (point%exists) curve%at_loads = [curve%at_loads, point]
+         end do
+      end if
       is_found = any(curve%at_loads(known + 1:)%kind == stable_point .or. which == 0 .or. &
                      (which == at_approach .and. curve%at_loads(known + 1:)%kind == approach_stable))
       if (.not. is_found) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
+
+   !> Adds to `at_loads` the contacts of a given area, of each branch that has it. They start from the knot before this
+   !> area, those before the first knot from it or, if it is too far away, from the asymptote of small spots or pools.
+   !> Closed forms hold at any area, also beyond the ends of the computed curve.
+   subroutine add_contacts_of_area(curve, area)
+      type(adhesive_curve), intent(inout) :: curve
+      real(dp), intent(in) :: area     !! area fraction
+
+      integer :: before, first, members   ! of a branch's knots: those before the area, the first one, how many
+      logical :: pools
+      logical, allocatable :: are_of_branch(:)
+      type(adhesive_point) :: point
+
+      if (.not. (area > 0.0_dp .and. area < 1.0_dp)) return
+      pools = .false.
+      do
+         are_of_branch = curve%knots%pools .eqv. pools
+         members = count(are_of_branch)
+         before = count(are_of_branch .and. (curve%knots%area < area .neqv. pools))
+         first = findloc(are_of_branch, .true., dim=1)
+         if (before < members .or. curve%problem%has_closed_form) then
+            call curve%problem%find_point(pools, area, point, curve%knots(first + max(before - 1, 0))%answer)
+            if (point%exists) curve%at_loads = [curve%at_loads, point]
+         end if
+         if (pools .or. curve%problem%has_closed_form) return
+         pools = .true.
+      end do
+   end subroutine add_contacts_of_area
 
    !> The contact at a load of the deck as a solution with fields. Of several stable contacts the one with the largest
    !> area is taken, which the bodies reach by unloading. If an approach is given, contacts that are stable at the
