@@ -106,9 +106,9 @@ contains
       real(dp), parameter :: largest_first = 0.1_dp, largest_error = 0.02_dp
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
-      !> `tolerance`: largest error of a point of the branch.
-      real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step, tolerance
+      real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
       logical :: starts_late   ! whether the point would be the first one, and is past the first extreme
+      type(adhesive_point) :: past    ! the nearest point past the last extreme that is not accurate enough, if any
       type(adhesive_point) :: point
       type(adhesive_problem) :: finer
       type(fitted_answer) :: start
@@ -137,18 +137,16 @@ contains
          call curve%problem%find_point(pools, part, point, start)
          ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
          if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
-             abs(point%value(2 + at_approach)) <= 0.5_dp*point%slope_error(at_approach)) then
+             (contradicts() .or. abs(point%value(2 + at_approach)) <= point%slope_error(at_approach))) then
             start = point%answer
             call finer%find_point(pools, part, point, start)
          end if
          starts_late = point%exists .and. ratio <= 0.0_dp .and. &
                        point%value(2 + merge(at_load, at_approach, pools)) > 0.0_dp
          ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
-         ! solution that is accurate. Of a point past the last extreme only the sign of the slope has to be sure.
-         tolerance = min(worst_error*curve%problem%accuracy, largest_error)
-         if (point%exists .and. ratio > ratio_of_extremes .and. &
-             point%value(2 + at_approach) < -point%slope_error(at_approach)) tolerance = largest_error
-         if (point%exists .and. .not. starts_late .and. maxval(point%error) <= tolerance) then
+         ! solution that is accurate.
+         if (point%exists .and. .not. (starts_late .or. contradicts()) .and. &
+             maxval(point%error) <= min(worst_error*curve%problem%accuracy, largest_error)) then
             call add_point(curve, point)
             start = point%answer
             ! Past its last extreme the approach falls with the radius, and no contact is stable from there on.
@@ -168,6 +166,8 @@ contains
                   step = min(step, max(beyond_extreme*(next - radius), 0.1_dp*least_step*full_step))
             end if
          else
+            if (point%exists .and. ratio > ratio_of_extremes .and. maxval(point%error) <= largest_error .and. &
+                point%value(2 + at_approach) < -point%slope_error(at_approach)) past = point
             radius = radius - step
             step = 0.5_dp*step
             if ((ratio <= 0.0_dp .and. .not. starts_late) .or. step < least_step*full_step) exit
@@ -175,9 +175,26 @@ contains
          radius = radius + step
       end do
       if (ratio <= 0.0_dp) return
+      ! Of a point past the last extreme only the sign of the slope has to be sure.
+      if (past%exists .and. curve%points(size(curve%points))%value(2 + at_approach) > 0.0_dp) &
+         call add_point(curve, past)
       point = curve%points(size(curve%points))
       point%kind = end_of_branch
       curve%critical = [curve%critical, point]
+
+   contains
+
+      !> Whether the slope says that the approach rises with the area, and the last point's approach that it falls: the
+      !> slope is then wrong.
+      pure logical function contradicts()
+         contradicts = ratio > ratio_of_extremes .and. point%exists
+         if (.not. contradicts) return
+         associate (last => curve%points(size(curve%points)))
+            contradicts = point%value(2 + at_approach) > 0.0_dp .and. &
+                          (point%value(at_approach) - last%value(at_approach))*(point%area - last%area) < 0.0_dp
+         end associate
+      end function contradicts
+
    end subroutine follow_branch
 
    !> Adds a point at the end of its branch, and before the point the extremes of load and approach that lie between the
@@ -199,6 +216,9 @@ contains
             associate (slope => [before%value(2 + which), point%value(2 + which)])
                if (slope(1)*slope(2) >= 0.0_dp) cycle
                call find_zero(curve, 2 + which, 0.0_dp, before, point, extreme(which))
+               ! The solution of the last point of a branch may be a bad start. That of the point before may be better.
+               if (.not. extreme(which)%exists) &
+                  call find_zero(curve, 2 + which, 0.0_dp, point, before, extreme(which))
                ! At a maximum the slope is positive on the side of the smaller area: before it on the branch of spots,
                ! after it on that of pools.
                extreme(which)%kind = kinds(1, which)
