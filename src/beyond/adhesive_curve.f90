@@ -108,8 +108,8 @@ contains
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
       logical :: starts_late   ! whether the point would be the first one, and is past the first extreme
-      type(adhesive_point) :: past    ! the nearest point past the last extreme that is not accurate enough, if any
-      type(adhesive_point) :: point
+      !> `past`: the newest point past the last extreme that is not accurate enough, if there is any.
+      type(adhesive_point) :: past, point
       type(adhesive_problem) :: finer
       type(fitted_answer) :: start
 
@@ -176,9 +176,12 @@ contains
       end do
       if (ratio <= 0.0_dp) return
       ! Of a point past the last extreme only the sign of the slope has to be sure.
-      if (past%exists .and. curve%points(size(curve%points))%value(2 + at_approach) > 0.0_dp) &
-         call add_point(curve, past)
       point = curve%points(size(curve%points))
+      if (past%exists .and. point%value(2 + at_approach) > 0.0_dp .and. &
+          (past%area > point%area .neqv. pools)) then
+         call add_point(curve, past)
+         point = past
+      end if
       point%kind = end_of_branch
       curve%critical = [curve%critical, point]
 
