@@ -96,8 +96,9 @@ contains
    end subroutine follow_closed_form
 
    !> Follows one branch of a wave on a lattice by steps of the radius of a circle of the spot's or pool's area. The
-   !> first radius is smaller than that of pull-off of a spot, or of the largest load of a pool, (I20). The branch ends
-   !> past the last extreme of the approach, before spots or pools touch.
+   !> first radius is smaller than that of pull-off of a spot, or of the largest load of a pool, (I20). Where neighbours
+   !> have moved the first extreme, which is of the approach of spots or of the load of pools, to a smaller radius, the
+   !> branch starts at half the radius. It ends past the last extreme of the approach, before spots or pools touch.
    subroutine follow_branch(curve, pools)
       type(adhesive_curve), intent(inout) :: curve
       logical, intent(in) :: pools   !! true: the branch of pools; false: of spots
@@ -106,7 +107,9 @@ contains
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
-      type(adhesive_point) :: point
+      logical :: starts_late   ! whether the point would be the first one, and is past the first extreme
+      !> `past`: the newest point past the last extreme that is not accurate enough, if there is any.
+      type(adhesive_point) :: past, point
       type(adhesive_problem) :: finer
       type(fitted_answer) :: start
 
@@ -134,13 +137,15 @@ contains
          call curve%problem%find_point(pools, part, point, start)
          ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
          if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
-             abs(point%value(2 + at_approach)) <= 0.5_dp*point%slope_error(at_approach)) then
+             (contradicts() .or. abs(point%value(2 + at_approach)) <= point%slope_error(at_approach))) then
             start = point%answer
             call finer%find_point(pools, part, point, start)
          end if
+         starts_late = point%exists .and. ratio <= 0.0_dp .and. &
+                       point%value(2 + merge(at_load, at_approach, pools)) > 0.0_dp
          ! Near the end of a branch a solution may be less accurate than asked for. A shorter step then leads to a
          ! solution that is accurate.
-         if (point%exists .and. &
+         if (point%exists .and. .not. (starts_late .or. contradicts()) .and. &
              maxval(point%error) <= min(worst_error*curve%problem%accuracy, largest_error)) then
             call add_point(curve, point)
             start = point%answer
@@ -161,16 +166,38 @@ contains
                   step = min(step, max(beyond_extreme*(next - radius), 0.1_dp*least_step*full_step))
             end if
          else
+            if (point%exists .and. ratio > ratio_of_extremes .and. maxval(point%error) <= largest_error .and. &
+                point%value(2 + at_approach) < -point%slope_error(at_approach)) past = point
             radius = radius - step
             step = 0.5_dp*step
-            if (ratio <= 0.0_dp .or. step < least_step*full_step) exit
+            if ((ratio <= 0.0_dp .and. .not. starts_late) .or. step < least_step*full_step) exit
          end if
          radius = radius + step
       end do
       if (ratio <= 0.0_dp) return
+      ! Of a point past the last extreme only the sign of the slope has to be sure.
       point = curve%points(size(curve%points))
+      if (past%exists .and. point%value(2 + at_approach) > 0.0_dp .and. &
+          (past%area > point%area .neqv. pools)) then
+         call add_point(curve, past)
+         point = past
+      end if
       point%kind = end_of_branch
       curve%critical = [curve%critical, point]
+
+   contains
+
+      !> Whether the slope says that the approach rises with the area, and the last point's approach that it falls: the
+      !> slope is then wrong.
+      pure logical function contradicts()
+         contradicts = ratio > ratio_of_extremes .and. point%exists
+         if (.not. contradicts) return
+         associate (last => curve%points(size(curve%points)))
+            contradicts = point%value(2 + at_approach) > 0.0_dp .and. &
+                          (point%value(at_approach) - last%value(at_approach))*(point%area - last%area) < 0.0_dp
+         end associate
+      end function contradicts
+
    end subroutine follow_branch
 
    !> Adds a point at the end of its branch, and before the point the extremes of load and approach that lie between the
@@ -192,6 +219,9 @@ contains
             associate (slope => [before%value(2 + which), point%value(2 + which)])
                if (slope(1)*slope(2) >= 0.0_dp) cycle
                call find_zero(curve, 2 + which, 0.0_dp, before, point, extreme(which))
+               ! The solution of the last point of a branch may be a bad start. That of the point before may be better.
+               if (.not. extreme(which)%exists) &
+                  call find_zero(curve, 2 + which, 0.0_dp, point, before, extreme(which))
                ! At a maximum the slope is positive on the side of the smaller area: before it on the branch of spots,
                ! after it on that of pools.
                extreme(which)%kind = kinds(1, which)
@@ -266,30 +296,50 @@ contains
       type(adhesive_point) :: point
 
       known = size(curve%at_loads)
-      if (which == 0 .and. curve%problem%has_closed_form .and. target > 0.0_dp .and. target < 1.0_dp) then
-         ! The closed forms hold at any area, also beyond the ends of the computed curve.
-         call curve%problem%find_point(.false., target, point)
-         curve%at_loads = [curve%at_loads, point]
-         curve%at_loads(known + 1)%number = number
-         return
-      end if
-      do i = 1, size(curve%knots) - 1
-         associate (here => curve%knots(i), after => curve%knots(i + 1))
-            if (which > 0) then
+      if (which == 0) then
+         call add_contacts_of_area(curve, target)
+      else
+         do i = 1, size(curve%knots) - 1
+            associate (here => curve%knots(i), after => curve%knots(i + 1))
                if (.not. is_between(here, after, which, target)) cycle
                call find_zero(curve, which, target, here, after, point)
-            else
-               if ((here%pools .neqv. after%pools) .or. ((here%area < target) .eqv. (after%area < target))) cycle
-               call curve%problem%find_point(here%pools, target, point, here%answer)
-            end if
-         end associate
-         if (point%exists) curve%at_loads = [curve%at_loads, point]
-      end do
+            end associate
+            if (point%exists) curve%at_loads = [curve%at_loads, point]
+         end do
+      end if
       is_found = any(curve%at_loads(known + 1:)%kind == stable_point .or. which == 0 .or. &
                      (which == at_approach .and. curve%at_loads(known + 1:)%kind == approach_stable))
       if (.not. is_found) curve%at_loads = [curve%at_loads, beyond_extremes(curve, which, target)]
       curve%at_loads(known + 1:)%number = number
    end subroutine add_load
+
+   !> Adds to `at_loads` the contacts of a given area, of each branch that has it. They start from the knot before this
+   !> area, those before the first knot from it or, if it is too far away, from the asymptote of small spots or pools.
+   !> Closed forms hold at any area, also beyond the ends of the computed curve.
+   subroutine add_contacts_of_area(curve, area)
+      type(adhesive_curve), intent(inout) :: curve
+      real(dp), intent(in) :: area     !! area fraction
+
+      integer :: before, first, members   ! of a branch's knots: those before the area, the first one, how many
+      logical :: pools
+      logical, allocatable :: are_of_branch(:)
+      type(adhesive_point) :: point
+
+      if (.not. (area > 0.0_dp .and. area < 1.0_dp)) return
+      pools = .false.
+      do
+         are_of_branch = curve%knots%pools .eqv. pools
+         members = count(are_of_branch)
+         before = count(are_of_branch .and. (curve%knots%area < area .neqv. pools))
+         first = findloc(are_of_branch, .true., dim=1)
+         if (before < members .or. curve%problem%has_closed_form) then
+            call curve%problem%find_point(pools, area, point, curve%knots(first + max(before - 1, 0))%answer)
+            if (point%exists) curve%at_loads = [curve%at_loads, point]
+         end if
+         if (pools .or. curve%problem%has_closed_form) return
+         pools = .true.
+      end do
+   end subroutine add_contacts_of_area
 
    !> The contact at a load of the deck as a solution with fields. Of several stable contacts the one with the largest
    !> area is taken, which the bodies reach by unloading. If an approach is given, contacts that are stable at the

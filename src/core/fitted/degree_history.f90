@@ -17,8 +17,8 @@ module wavycon_degree_history
       integer :: solutions = 0                                     !! number of solutions so far
       real(dp) :: measures(all_measures, 0:most_previous) = 0.0_dp !! measures of the last solutions, the newest first
       real(dp) :: scale(all_measures) = 0.0_dp                     !! what errors of the newest solution are relative to
-      !> The least scale of each measure: the accuracy is relative to the larger one of the two.
-      real(dp) :: least_scale(all_measures) = 0.0_dp
+      !> The bounds of each scale for the accuracy, which is relative to the scale or, beyond them, to the nearer bound.
+      real(dp) :: least_scale(all_measures) = 0.0_dp, largest_scale(all_measures) = huge(1.0_dp)
       real(dp) :: error(all_measures) = huge(1.0_dp)               !! error estimates of the newest solution's measures
       real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! error estimates of the best solution's measures
       logical :: newest_is_best = .false.                          !! whether the newest solution is the best one
@@ -93,7 +93,8 @@ contains
 
       associate (n => self%required)
          best_meets = self%solutions >= least_solutions &
-            .and. all(self%best_error(:n) <= accuracy*max(self%scale(:n), self%least_scale(:n)))
+            .and. all(self%best_error(:n) <= accuracy*min(max(self%scale(:n), self%least_scale(:n)), &
+                                                          self%largest_scale(:n)))
       end associate
    end function best_meets
 

@@ -1,15 +1,14 @@
 !> Solves the contact of a wave on a lattice to a given accuracy, by collocation fitted to the edge of contact.
 module wavycon_fitted_solver
    use wavycon_contact_equations, only: contact_equations, start_equations
-   use wavycon_degree_history, only: degree_history
+   use wavycon_degree_history, only: degree_history, error_estimate
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
       fitted_solved, most_previous
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_measures, only: all_measures, area_measure, centre_measure, energy_measure, gap_measure, &
       load_measure, measure_fitted_function, peak_measure, perimeter_measure
    use wavycon_fitted_size, only: merging_ratio, next_clustering, next_degree, shape_terms
-   use wavycon_fitted_tuning, only: degree_step, error_safety, first_degree, last_degree, previous_difference_share, &
-      round_shape_ratio, series_growth
+   use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
    use wavycon_gauss_newton, only: change_with_area, newton_steps
    use wavycon_kinds, only: dp
    use wavycon_load_continuation, only: is_start, start_at_area, start_at_load
@@ -137,7 +136,9 @@ contains
       type(degree_history) :: history
       type(newton_steps) :: newton
       real(dp), allocatable :: area_change(:)
-      real(dp) :: area_slopes(2, 0:2)   ! derivatives by the area of the newest solution and the two before
+      !> Derivatives by the area of the newest solutions, the newest first, and the decay of their errors (F70a).
+      !> `changes`: the last step's change of the shape at this degree and at the one before.
+      real(dp) :: area_slopes(2, 0:most_previous), changes(2), slope_decay(2)
       real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
       integer :: degree, failed, k
       logical :: merged
@@ -152,9 +153,11 @@ contains
       if (now%work > 0.0_dp) then
          ! Most solutions of a curve are to a low accuracy. What Newton's method leaves is part of the told errors.
          tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-5_dp)
-         ! The area is given and has no error.
+         ! The area is given and has no error. Under tension gap and load may be larger than Delta and the closing
+         ! pressure: their accuracy is relative to these.
          history%least_scale(:load_measure) = lattice%closing_pressure
          history%least_scale([gap_measure, area_measure]) = [1.0_dp, huge(1.0_dp)]
+         history%largest_scale([gap_measure, load_measure]) = history%least_scale([gap_measure, load_measure])
       end if
       ratio = merging_ratio(lattice, now)
       ! For round shapes a lower first degree gives the error estimates one more difference. It cannot represent sharp
@@ -162,6 +165,8 @@ contains
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       failed = 0
       area_slopes = 0.0_dp
+      slope_decay = 1.0_dp
+      changes = 0.0_dp
       allocate (area_change(0))
       ! Next to merging convergence is slower than quadratic. A second step at the first degree measures its rate.
       newton%contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
@@ -183,18 +188,22 @@ contains
             failed = 0
             call measure_fitted_function(equations, lattice, now, measures, reference)
             if (.not. all(reference(:load_measure) > 0.0_dp)) exit
+            call history%push(now, measures, reference, newton%misfit, newton%remaining)
             if (now%work > 0.0_dp) then
-               area_slopes(:, 1:) = area_slopes(:, :1)
+               area_slopes(:, 1:) = area_slopes(:, :most_previous - 1)
                area_change = [(0.0_dp, k=1, equations%unknowns)]
                call change_with_area(equations, now, area_change)
                area_slopes(:, 0) = slopes_of(equations, lattice, now, area_change)
+               changes = [newton%change, changes(1)]
+               slope_decay = [max(history%decay(1), min(changes(1)/max(changes(2), tiny(changes)), 1.0_dp)), &
+                              slope_decay(1)]
             end if
-            call history%push(now, measures, reference, newton%misfit, newton%remaining)
             if (history%newest_is_best) then
                call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
                answer%area_slopes = area_slopes(:, 0)
-               answer%area_slope_errors = error_safety*max(abs(area_slopes(:, 0) - area_slopes(:, 1)), &
-                  previous_difference_share*abs(area_slopes(:, 1) - area_slopes(:, 2)))
+               if (now%work > 0.0_dp) answer%area_slope_errors = error_estimate( &
+                  area_slopes(:, :min(history%solutions - 1, most_previous)), slope_decay, &
+                  [lattice%closing_pressure, 1.0_dp]/lattice%area)
                answer%area_change = area_change
             end if
             if (history%best_meets(accuracy)) then
