@@ -24,7 +24,8 @@ BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
 # steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
 ESRI = re.compile(rb"\s*ncols\s", re.IGNORECASE)
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
-DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n", re.MULTILINE)
+DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
+                            re.MULTILINE)
 
 
 def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
