@@ -80,6 +80,9 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
+    if not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
+        raise ValueError(f"{file}: its lines have three numbers, as those of points x, y, z with missing ones have: "
+                         "wavycon.file(file=...) reads them")
     # Of one name, so that length_unit="um" is that of the surface.
     return x, z, dict(zip(("length_x", "length_y"), sides)), unit or (topography.unit or "").replace("µ", "u") or None
 
