@@ -62,7 +62,7 @@ module wavycon_deck_session
       real(dp), allocatable, private :: mean_pressure(:)  !! the same [pressure], if the deck gives them by pressure
       type(solution_record), allocatable, private :: records(:)   !! records of the deck's loads; status < 0: not solved
       type(run_log), private :: log                       !! writes nothing, but keeps notes on surface and tables
-      integer(c_int), private :: is_solving = 0           !! number of the thread of a C program that solves a load; else 0
+      integer(c_int), private :: is_solving = 0           !! number of the thread that solves a load; else 0
    contains
       procedure :: open => open_session
       procedure :: open_file

@@ -15,7 +15,8 @@ module wavycon_notes
       main_quantities, mean_gap, peak_pressure, percolation
    use wavycon_results, only: results_type, status_tables
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, target_words
+   use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
+      target_words
    use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
    implicit none (type, external)
    private

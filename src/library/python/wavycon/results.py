@@ -299,8 +299,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
     def save(self, file: str | os.PathLike[str] | IO[bytes], fields: bool = True) -> None:
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to a file .npz or, with
-        h5py, .h5 or .hdf5. It appears whole or not at all, and replaces no other kind of file. Tables with commas are those of
-        to_dataframe().to_csv."""
+        h5py, .h5 or .hdf5. It appears whole or not at all, and replaces no other kind of file. Tables with commas are
+        those of to_dataframe().to_csv."""
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
         for number, one in [(one._load, one) for one in self] or [(MODEL, self._model)]:
