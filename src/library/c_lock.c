@@ -9,6 +9,9 @@ static pthread_cond_t load_solved = PTHREAD_COND_INITIALIZER;
 static _Thread_local int has_lock = 0;
 /* Number of loads that this thread is solving: a callback may call the library, which then solves another load. */
 static _Thread_local int solves = 0;
+/* Number of threads that have solved loads, and the number of this one, from 1; 0 before its first load. */
+static int threads = 0;
+static _Thread_local int this_thread = 0;
 
 /* A process that forks first waits until no other thread is in the library, so that the child has no half-changed data;
    the child's lock is free. The lock is made anew in the child at once: Python deletes objects of other threads there
@@ -51,16 +54,22 @@ void wavycon_unlock(void)
 }
 
 /* Called before a load is solved. Waits until no other thread solves with the scene to which `is_solving` belongs, then
-   releases the lock, so that other threads may enter the library. */
-void wavycon_begin_solve(int *is_solving)
+   releases the lock, so that other threads may enter the library. Returns 0, or 1 if this thread itself solves with the
+   scene: a callback must not wait for the load that called it. */
+int wavycon_begin_solve(int *is_solving)
 {
     if (!has_lock)
-        return;
+        return 0;
+    if (this_thread == 0)
+        this_thread = ++threads;
+    if (*is_solving == this_thread)
+        return 1;
     while (*is_solving)
         pthread_cond_wait(&load_solved, &lock);
-    *is_solving = 1;
+    *is_solving = this_thread;
     solves++;
     wavycon_unlock();
+    return 0;
 }
 
 /* Called after a load was solved: takes the lock again, and lets other threads solve with the scene. */

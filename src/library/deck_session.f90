@@ -37,16 +37,19 @@ module wavycon_deck_session
 
    !> In C programs other threads may call the library while one solves a load, but not with the same session: c_lock.c.
    interface
-      subroutine begin_solve(is_solving) bind(c, name='wavycon_begin_solve')
+      !> 0, or 1 if this thread solves with the session already, whose progress callback it is then in.
+      integer(c_int) function begin_solve(is_solving) bind(c, name='wavycon_begin_solve')
          import :: c_int
          integer(c_int), intent(inout) :: is_solving
-      end subroutine begin_solve
+      end function begin_solve
 
       subroutine end_solve(is_solving) bind(c, name='wavycon_end_solve')
          import :: c_int
          integer(c_int), intent(inout) :: is_solving
       end subroutine end_solve
    end interface
+
+   character(*), parameter :: in_callback = 'this scene solves a load: its progress callback cannot solve another one'
 
    !> A deck with its solver started.
    type :: deck_session
@@ -59,7 +62,7 @@ module wavycon_deck_session
       real(dp), allocatable, private :: mean_pressure(:)  !! the same [pressure], if the deck gives them by pressure
       type(solution_record), allocatable, private :: records(:)   !! records of the deck's loads; status < 0: not solved
       type(run_log), private :: log                       !! writes nothing, but keeps notes on surface and tables
-      integer(c_int), private :: is_solving = 0           !! 1: a thread of a C program solves a load; else 0
+      integer(c_int), private :: is_solving = 0           !! number of the thread that solves a load; else 0
    contains
       procedure :: open => open_session
       procedure :: open_file
@@ -242,7 +245,10 @@ contains
       allocate (answer%solution)
       answer%loads_by = loads_by
       answer%target = target(load)
-      call begin_solve(self%is_solving)
+      if (begin_solve(self%is_solving) /= 0) then
+         call fatal_error(error, exit_bad_input, in_callback)
+         return
+      end if
       call solve_target(self%results%solver, loads_by, target(load), answer%solution, self%results%scene%stress_setting)
       call end_solve(self%is_solving)
       answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar
@@ -278,12 +284,15 @@ contains
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
-            call begin_solve(self%is_solving)
-            call find_interface(results, self%log, name)
-            call end_solve(self%is_solving)
+            if (begin_solve(self%is_solving) == 0) then
+               call find_interface(results, self%log, name)
+               call end_solve(self%is_solving)
+            else
+               call fatal_error(error, exit_bad_input, in_callback)
+            end if
          end if
          results%memory => table
-         call writer%write(results, error)
+         if (.not. allocated(error)) call writer%write(results, error)
          nullify (results%memory)
          call results%loads(1)%move_to(solved%solution)
          call move_alloc(results%spots, solved%spots)

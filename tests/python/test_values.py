@@ -69,7 +69,7 @@ class Names(ValuesTest):
             self.assertEqual([key["name"] for key in own], list(inspect.signature(function).parameters))
             for key in own:
                 unit = rf" \[{re.escape(key['unit'])}\]" if key["unit"] else ""
-                self.assertRegex(function.__doc__, rf"(?m)^    {key['name']}{unit}: ")
+                self.assertRegex(inspect.getdoc(function), rf"(?m)^{key['name']}{unit}: ")
                 if key["default"]:
                     self.assertIn(f"Default: {key['default']}.", " ".join(function.__doc__.split()))
 

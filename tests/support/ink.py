@@ -43,6 +43,7 @@ def inked_borders(picture):
                   f"print '{name} ', {name}_min\n"
     done = subprocess.run(["gnuplot", "-d"], cwd=picture.parent, input=script, capture_output=True, text=True,
                           check=True)
-    found = dict(line.split() for line in done.stderr.splitlines())
+    # gnuplot 6 says more there.
+    found = dict(words for words in map(str.split, done.stderr.splitlines()) if words and words[0] in strips)
     assert found.keys() == strips.keys(), done.stderr
     return [name for name, least in found.items() if float(least) < 3*255]

@@ -109,7 +109,8 @@ contains
          solution%status = closed_form
          solution%solver = by_closed_form
          solution%value(mean_gap) = gap
-         solution%value(approach) = 1.0_dp - gap
+         ! 1 - gap, without cancellation at light loads.
+         solution%value(approach) = pbar_over_pstar*(1.0_dp - log(pbar_over_pstar))
          solution%value(contact_area) = westergaard_contact_area_fraction(pbar_over_pstar)
          solution%value(peak_pressure) = westergaard_peak_pressure_over_pstar(pbar_over_pstar)
          solution%value(elastic_energy) = energy

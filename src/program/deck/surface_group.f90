@@ -64,9 +64,10 @@ contains
          'wavelength along y.', above=0, required=.true.))
       keys%of = 'sum file self_affine ball'
       call keys%add(values%length_x, key_type(real_value, 'length_x', '1.0', 'length', &
-         'side of the periodic cell along x.', above=0))
+         "side of the cell along x; a ball's are by default four half axes of the contact under the largest load, "// &
+         'and it stands in the middle.', above=0))
       call keys%add(values%length_y, key_type(real_value, 'length_y', 'length_x', 'length', &
-         'side of the periodic cell along y; without it points of a file are equally far apart along x and y.', &
+         'side of the cell along y; without it points of a file are equally far apart along x and y.', &
          above=0))
       keys%of = 'sum'
       call keys%add(values%amplitudes, key_type(real_value, 'amplitudes', '', 'length', &
@@ -89,7 +90,8 @@ contains
          'a second map, of the other body, upwards to the first one: points and sides are those of `file`. The '// &
          'surface has the sum of both heights. The keys below prepare each map by itself.', longest=longest_path))
       call keys%add(values%file2_scale, key_type(real_value, 'file2_scale', 'height_scale', 'length', &
-         "length of one unit of file2's heights; beside a file with units a factor.", above=0, needs='file2'))
+         "length of one unit of file2's heights, a factor if the file has units; default 1 if only one of both "// &
+         'files has units.', above=0, needs='file2'))
       call keys%add(values%file2_flip, key_type(logical_value, 'file2_flip', '.true.', '', &
          'whether the second map is turned over about the y axis, as its body is when it is laid on the first: '// &
          'the last point along x becomes the first.', needs='file2'))
@@ -102,7 +104,7 @@ contains
          'heights of the file that have this value are missing, as are nan and empty fields between commas, '// &
          'semicolons or tabs.'))
       call keys%add(values%height_scale, key_type(real_value, 'height_scale', '1.0', 'length', &
-         "length of one unit of the file's heights; beside a file with units a factor.", above=0))
+         "length of one unit of the file's heights; a factor if the file has units.", above=0))
       call keys%add(values%crop_missing, key_type(logical_value, 'crop_missing', '.false.', '', &
          'whether rows and columns at the borders in which all heights are missing are cut off. The sides of '// &
          'the cell are those of the whole file.'))

@@ -15,7 +15,8 @@ module wavycon_notes
       main_quantities, mean_gap, peak_pressure, percolation
    use wavycon_results, only: results_type, status_tables
    use wavycon_run_log, only: run_log
-   use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_yield, scene_type, target_words
+   use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
+      target_words
    use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
    implicit none (type, external)
    private
@@ -37,6 +38,7 @@ contains
       type(results_type), intent(in) :: results   !! with the scene and the started solver
       type(run_log), intent(inout) :: logger
 
+      real(dp), parameter :: far_beyond = 10.0_dp
       character(:), allocatable :: words
       real(dp) :: loads(size(results%scene%target))
 
@@ -44,8 +46,9 @@ contains
          call logger%say(head_lines(scene, surface, results%method, ''))
          words = scene%deck_path(index(scene%deck_path, '/', back=.true.) + 1:)
          if (index(words//'.nml', '.nml') > 1) words = words(:index(words//'.nml', '.nml') - 1)
-         if (.not. scene%scene_values%case%is_given .and. index(scene%case, words) /= 1) call logger%note( &
-            'the results have the name '//scene%case//", with '_' for characters of the deck's name")
+         if (.not. scene%scene_values%case%is_given .and. words /= '-' .and. index(scene%case, words) /= 1) &
+            call logger%note('the results have the name '//scene%case// &
+                             ", with '_' for characters of the deck's name")
          loads = scene%target
          words = trim(target_words(scene%loads_by))
          if (surface%has_free_edges .and. allocated(scene%mean_pressure)) then
@@ -62,6 +65,11 @@ contains
          end if
          call logger%say('loads: '//integer_text(size(loads))//', '//words)
          if (results%sharing%words() /= '') call logger%say('ranks: '//results%sharing%words())
+         if (scene%loads_by == by_pressure .and. scene%p_star > 0.0_dp .and. .not. surface%has_free_edges) then
+            if (minval(scene%target) > far_beyond) call logger%note('all loads are more than '// &
+               short_number(far_beyond)//' times p*, which closes the gap everywhere. Do the units agree, and are '// &
+               'loads over p* no percentages?')
+         end if
          call note_scene(scene, logger)
       end associate
    end subroutine show_scene
@@ -111,6 +119,8 @@ contains
       character(:), allocatable :: remedies
       integer :: direction
 
+      if (scene%has_units .and. index(map%assumed_sides, 'length_x') == 1) call logger%note( &
+         'the side length_x = 1 ['//scene%length_unit//'] is assumed: neither the deck nor the file gives it')
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
       if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other '// &
          'map does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')

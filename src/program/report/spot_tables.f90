@@ -115,20 +115,23 @@ contains
 
       character(*), parameter :: names(2) = ['contact', 'gap    '], limits(2) = [', from ', ', up to']
       character(:), allocatable :: words
-      integer :: i, region_kind, load
+      integer :: i, known, region_kind, load
       logical :: percolates(size(results%loads), 2, 2)   ! at each load, along x and y, contact and gap
       real(dp) :: limit
 
       if (results%solver%surface%has_free_edges .or. results%solver%surface%dimension == 1 .or. logger%quiet) return
       percolates = .false.
+      known = 0   ! loads with a solution
       call results%find_spots()
       do load = 1, size(results%loads)
          associate (regions => results%spots(load))
             if (.not. allocated(regions%spots)) cycle
+            known = known + 1
             percolates(load, :, 1) = [(any(regions%spots%percolates(i)), i=1, 2)]
             percolates(load, :, 2) = [(any(regions%pools%percolates(i)), i=1, 2)]
          end associate
       end do
+      if (known == 0) return
       do region_kind = 1, 2
          words = ''
          do i = 1, 2
@@ -137,7 +140,7 @@ contains
             if (region_kind == 2) limit = maxval(results%loads%pbar_over_pstar, mask=percolates(:, i, region_kind))
             words = clauses(words, 'along '//'xy'(i:i)//' at '// &
                             integer_text(count(percolates(:, i, region_kind)))//' of '// &
-                            integer_text(size(results%loads))//' loads'//trim(limits(region_kind))//' pbar/p* = '// &
+                            integer_text(known)//' loads'//trim(limits(region_kind))//' pbar/p* = '// &
                             short_number(limit))
          end do
          if (words == '') words = 'at no load'

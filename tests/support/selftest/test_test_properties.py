@@ -3,6 +3,7 @@
 
 import pathlib
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -32,7 +33,8 @@ class TestProperties(unittest.TestCase):
                       f'wavycon_test_properties({name} ends)']
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, 'CMakeLists.txt').write_text('\n'.join(lines) + '\n', encoding='utf-8')
-            subprocess.run(['cmake', '-S', folder, '-B', folder], check=True, capture_output=True)
+            subprocess.run(['cmake', '-S', folder, '-B', folder, *(['-GNinja'] if shutil.which('ninja') else [])],
+                           check=True, capture_output=True)
             run = subprocess.run(['ctest', '--test-dir', folder, '-L', 'ends'], check=False, capture_output=True, text=True)
         found = dict(re.findall(r'Test +#\d+: (\w+) \.+\** *(Passed|Failed)', run.stdout.replace('***', '* ')))
         self.assertEqual({name: 'Passed' if passes else 'Failed' for name, (_, _, passes) in ENDS.items()}, found)

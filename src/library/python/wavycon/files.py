@@ -24,7 +24,8 @@ BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
 # steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
 ESRI = re.compile(rb"\s*ncols\s", re.IGNORECASE)
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
-DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n", re.MULTILINE)
+DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
+                            re.MULTILINE)
 
 
 def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
@@ -79,6 +80,9 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
+    if not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
+        raise ValueError(f"{file}: its lines have three numbers, as those of points x, y, z with missing ones have: "
+                         "wavycon.file(file=...) reads them")
     # Of one name, so that length_unit="um" is that of the surface.
     return x, z, dict(zip(("length_x", "length_y"), sides)), unit or (topography.unit or "").replace("µ", "u") or None
 

@@ -56,6 +56,8 @@ def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pres
     for column in x, y:
         if column not in names:
             raise ValueError(unknown("column", column, names))
+        if results.table().dtype[column].kind == "U":
+            raise ValueError(f"the column {column!r} has words, not numbers")
     ax, rows = axes(ax), results.table()[np.argsort(results[x])]
     (factor_x, label_x), (factor_y, label_y) = scaled(results._facts, x), scaled(results._facts, y)
     across, values = factor_x*rows[x], factor_y*rows[y]
@@ -72,8 +74,8 @@ def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pres
 
 def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: Any) -> Any:
     """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these;
-    or 'regions': each spot of contact in a colour, and what percolates. style: options of pcolormesh, for a profile
-    of plot."""
+    or 'regions': each spot of contact in a colour, and what percolates. style: options of pcolormesh, such as vmax in
+    the units that are drawn, for a profile of plot."""
     fields = [name for name in result._fields if name not in PLACES]
     if field == "regions":
         # Without p*, with free edges, nothing is repeated.

@@ -20,6 +20,7 @@ from .names import Columns
 from .surfaces import unknown
 
 FIELDS = ("pressure", "gap", "displacement")
+HDF5 = (".h5", ".hdf5")
 # In a file: the number of the load that has the columns, where there are no loads.
 MODEL = 0
 # The columns that notebooks show.
@@ -122,7 +123,8 @@ class Result(Named, Columns[float, str]):
 
     def _live(self, what: str) -> Handle:
         if self._solution is None:
-            raise ValueError(f"'{what}' was not saved")
+            raise ValueError(f"'{what}' was not saved: a copy or a file has the tables that were asked for before, and "
+                             "the fields if they were kept")
         return self._solution
 
     @cached_property
@@ -199,6 +201,10 @@ class Roughness(NamedTuple):
     rms_slope: float       # of the size of the gradient
     rms_curvature: float   # of half the Laplacian [1/length]
     spectrum: Rows
+
+    def __repr__(self) -> str:
+        return (f"Roughness(rms_height={self.rms_height:g}, rms_slope={self.rms_slope:g}, "
+                f"rms_curvature={self.rms_curvature:g}, spectrum: {len(self.spectrum)} rows)")
 
 
 class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
@@ -293,8 +299,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
     def save(self, file: str | os.PathLike[str] | IO[bytes], fields: bool = True) -> None:
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to a file .npz or, with
-        h5py, .h5. It appears whole or not at all, and replaces no other kind of file. Tables with commas are those of
-        to_dataframe().to_csv."""
+        h5py, .h5 or .hdf5. It appears whole or not at all, and replaces no other kind of file. Tables with commas are
+        those of to_dataframe().to_csv."""
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
         for number, one in [(one._load, one) for one in self] or [(MODEL, self._model)]:
@@ -304,12 +310,12 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
             np.savez(file, **content)
             return
         path = os.fspath(file)
-        if not path.endswith((".npz", ".h5")):
-            if (ending := os.path.splitext(path)[1])[1:].isalpha():
+        if not path.endswith((".npz", *HDF5)):
+            if (ending := os.path.splitext(path)[1]) and not ending[1:].isdigit():
                 raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; to_dataframe().to_csv() "
                                  "writes tables with commas")
             path += ".npz"
-        with written(path, b"\x89HDF" if path.endswith(".h5") else b"PK") as opened:
+        with written(path, b"\x89HDF" if path.endswith(HDF5) else b"PK") as opened:
             if path.endswith(".npz"):
                 np.savez(opened, **content)
                 return
@@ -319,9 +325,12 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
 
 def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
-    """The results in a file of Results.save. What was not saved cannot be asked for."""
+    """The results in a file of Results.save, whose ending .npz may be left out. What was not saved cannot be asked
+    for."""
     content: dict[str, Any] = {}
-    if not hasattr(file, "read") and os.fspath(file).endswith(".h5"):
+    if not hasattr(file, "read") and not os.path.exists(file) and os.path.exists(f"{os.fspath(file)}.npz"):
+        file = f"{os.fspath(file)}.npz"
+    if not hasattr(file, "read") and os.fspath(file).endswith(HDF5):
         with need("h5py", "h5").File(file, "r") as saved:
             saved.visititems(lambda name, one: content.update({name: one[()]} if hasattr(one, "dtype") else {}))
     else:

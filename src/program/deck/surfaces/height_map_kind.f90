@@ -41,6 +41,10 @@ contains
       if (.not. allocated(error)) then
          if (values%file2%is_given) then
             call read_map(values, values%file2%text, unit, second, path2, error)
+            ! The scale of a map without a unit is none of a map whose file has units.
+            if (.not. values%file2_scale%is_given .and. &
+                (allocated(heights%length_unit) .neqv. allocated(second%length_unit))) &
+               call values%file2_scale%set_default([1.0_dp])
             if (.not. allocated(error)) &
                call make_of_two(path, path2, values, heights, second, surface, map, two_maps, error)
          else
@@ -52,9 +56,11 @@ contains
          return
       end if
       map%path = full_path(path)
-      if (values%file2%is_given .and. .not. (values%height_scale%is_given .or. values%file2_scale%is_given)) then
-         if (allocated(heights%length_unit) .and. .not. allocated(second%length_unit)) map%without_unit = path2
-         if (allocated(second%length_unit) .and. .not. allocated(heights%length_unit)) map%without_unit = path
+      if (values%file2%is_given) then
+         if (allocated(heights%length_unit) .and. .not. (allocated(second%length_unit) .or. &
+                                                         values%file2_scale%is_given)) map%without_unit = path2
+         if (allocated(second%length_unit) .and. .not. (allocated(heights%length_unit) .or. &
+                                                        values%height_scale%is_given)) map%without_unit = path
       end if
       map%lacks_missing_value = values%missing_value%is_given .and. &
                                 .not. (heights%has_missing_value .or. second%has_missing_value)
