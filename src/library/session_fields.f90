@@ -5,7 +5,7 @@
 !> numbers of points and coordinates that are out of range or not finite; exit_file_trouble if there is not enough
 !> memory.
 module wavycon_session_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
@@ -16,6 +16,7 @@ module wavycon_session_fields
    use wavycon_key_table, only: key_index
    use wavycon_kinds, only: dp
    use wavycon_plain_text, only: integer_text
+   use wavycon_results, only: not_a_number
    use wavycon_scene_groups, only: stress_group
    use wavycon_stress_group, only: lateral_of, list_stress_keys
    use wavycon_system, only: has_memory_for
@@ -60,7 +61,7 @@ contains
             call solved%fields%at(angles(1), angles(2), values(1), values(2), values(3))
             values = [session%scale%p_star, session%scale%amplitude, session%scale%amplitude]*values
          end if
-         if (is_beyond(session, [x(i), y(i)]/session%scale%sides)) values = [0.0_dp, no_surface(), no_surface()]
+         if (is_beyond(session, [x(i), y(i)]/session%scale%sides)) values = [0.0_dp, not_a_number(), not_a_number()]
          if (present(pressure)) pressure(i) = values(1)
          if (present(displacement)) displacement(i) = values(2)
          if (present(gap)) gap(i) = values(3)
@@ -92,12 +93,12 @@ contains
          u = g
          p = g + solved%mean_pressure
       end if
-      do l = 1, points(2)
+      do l = 1, merge(0, points(2), session%scale%repeats)
          do k = 1, points(1)
             if (.not. is_beyond(session, ([k, l] - 1 + first)/points)) cycle
             p(k, l) = 0.0_dp
-            u(k, l) = no_surface()
-            g(k, l) = no_surface()
+            u(k, l) = not_a_number()
+            g(k, l) = not_a_number()
          end do
       end do
       if (present(pressure)) pressure = p
@@ -116,11 +117,6 @@ contains
          is_beyond = .not. session%scale%repeats .and. any(abs(place(:n) - 0.5_dp) > 0.5_dp + rounding)
       end associate
    end function is_beyond
-
-   !> The gap and the displacement where there is no surface: NaN.
-   pure real(dp) function no_surface()
-      no_surface = ieee_value(no_surface, ieee_quiet_nan)
-   end function no_surface
 
    !> The grid on which the load was solved, as arguments of fields_on_grid: there the fields are the numbers that the
    !> solver has computed. Zeros if the solver has no grid.

@@ -70,7 +70,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     try:
         with opened(os.fspath(file)) as reader:
             info = choose([one for one in reader.channels if one.unit is None or isinstance(one.unit, str)], channel)
-            known = info.physical_sizes is not None
+            known, are_lines = info.physical_sizes is not None, reader.format() == "asc"
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
             if unit and topography.unit:
                 topography = topography.to_unit(unit)
@@ -80,7 +80,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
-    if not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
+    if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         raise ValueError(f"{file}: its lines have three numbers, as those of points x, y, z with missing ones have: "
                          "wavycon.file(file=...) reads them")
     # Of one name, so that length_unit="um" is that of the surface.
