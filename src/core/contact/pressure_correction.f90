@@ -8,8 +8,8 @@ module wavycon_pressure_correction
    use wavycon_assertion, only: assert
    use wavycon_compliance_operator, only: compliance_operator
    use wavycon_contact_region, only: longest_chunk
-   use wavycon_contact_tuning, only: blocked_part, first_step, least_foreseen, overlap_part, plate_order, &
-      plate_overlap, stencil_fraction, whole_step
+   use wavycon_contact_tuning, only: believed_overlap, blocked_part, first_step, least_foreseen, overlap_part, &
+      plate_order, stencil_fraction, wandering_growth, whole_step
    use wavycon_correction_state, only: correction_state
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp, sp
@@ -65,12 +65,13 @@ contains
       state%allowance = real(overlap_part*part, sp)
       expected_step = real(first_step, sp)
       is_plate = half_space%steepest_order < plate_order
-      if (is_plate) state%part_of_free_gap = real(plate_overlap, sp)
+      if (is_plate) state%part_of_free_gap = real(believed_overlap, sp)
       iterations = 0
       do while (state%residual > part*state%scale .and. iterations < most_iterations)
          if (present(progress)) grid%interrupted = progress%shall_stop(iterations, state%residual)
          if (grid%interrupted) return
          iterations = iterations + 1
+         if (state%residual > wandering_growth*state%scale) state%part_of_free_gap = real(believed_overlap, sp)
          call precondition(extension, stencil, half_space, state, field)                      ! (C4): field = z
          call state%exclude_blocked(field, blocked)                                  ! (C4d)
          if (blocked > blocked_part*state%contact_points) &
