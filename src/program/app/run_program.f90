@@ -16,7 +16,8 @@ module wavycon_run_program
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: error_text, full_path, prepare_process, print_trouble, remove_leftovers, say, stack_limit
+   use wavycon_system, only: error_text, full_path, note_kept, prepare_process, print_trouble, remove_leftovers, say, &
+      stack_limit
    use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -263,7 +264,10 @@ contains
                deallocate (scenes(begun)%scene)
             end do
             if (has_ended(i)) exit
+            call note_kept(integer_text(count(has_ended(1:)))//' of '//integer_text(size(scenes))// &
+                           ' decks are done'//c_null_char)
             has_ended(await_job()) = .true.
+            call note_kept(c_null_char)
             running = running - 1
          end do
          status = show_job(i)
