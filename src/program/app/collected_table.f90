@@ -135,8 +135,8 @@ contains
    end function word_of
 
    !> Writes the table. A key has a column if the command line sets the key, or if a deck gives it and its value differs
-   !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. The unit of a
-   !> column is that of the summaries if it is the same in all of them, otherwise a general name such as 'length'.
+   !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. The unit of
+   !> a column is that of the summaries if it is the same in all of them, otherwise a general name such as 'length'.
    !>
    !> A file whose name ends in '.csv' has one line of names, with their units in brackets, and commas between words.
    !>
