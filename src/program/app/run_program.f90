@@ -204,6 +204,7 @@ contains
             call take_job(i, status(i))
          end if
       end do
+      call note_kept(c_null_char)
       worst = max(worst, maxval(status))
       scenes%is_written = status == exit_fine .or. status == exit_not_converged
       if (allocated(error)) deallocate (error)
@@ -247,6 +248,8 @@ contains
          integer :: side   ! result of begin_job: whether this is the new process
 
          do
+            call note_kept(integer_text(count(has_ended(1:)))//' of '//integer_text(size(scenes))// &
+                           ' decks are done'//c_null_char)
             do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
                begun = begun + 1
                if (.not. allocated(scenes(begun)%stem)) cycle
@@ -264,10 +267,7 @@ contains
                deallocate (scenes(begun)%scene)
             end do
             if (has_ended(i)) exit
-            call note_kept(integer_text(count(has_ended(1:)))//' of '//integer_text(size(scenes))// &
-                           ' decks are done'//c_null_char)
             has_ended(await_job()) = .true.
-            call note_kept(c_null_char)
             running = running - 1
          end do
          status = show_job(i)
