@@ -168,7 +168,8 @@ def fortran_page():
         constants = re.findall(r"(?:^ *!>.*\n)*^ *(?:integer|real).*, parameter, public ::.*\n", text, re.MULTILINE)
         page += fortran_code("".join(constants)) if constants and not names else ""
         for name in re.findall(r"\w+", names or " ".join(re.findall(r"^   public :: (.*)$", text, re.MULTILINE))):
-            page += fortran_entry(text, name, "###")
+            entry = fortran_entry(text, name, "###")
+            page += entry if entry not in page else ""   # constants of one declaration stand together
     return page
 
 
@@ -181,19 +182,25 @@ def fortran_code(lines):
     return "\n```fortran\n" + re.sub(rf"^ {{{indent}}}", "", lines, flags=re.MULTILINE) + "```\n"
 
 
-def fortran_entry(text, name, level):
-    """A procedure with its arguments, or a type with its public components and procedures, below its comment."""
+def fortran_entry(text, name, level, called=None):
+    """A constant, a procedure with its arguments, or a type with its public components and procedures, below its
+    comment. called: the name by which a type has the procedure; None for its own."""
     found = re.search(r"((?:^ *!>.*\n)*)(^ *(?:[\w()]+ )*"
                       rf"(?:function|subroutine|type(?:, [\w()]+)* ::) {name}\b(?:.*&\n)*.*\n)((?:.*\n)*?)"
                       r"^ *end (type|function|subroutine)", text, re.MULTILINE)
     if not found:
-        return ""
+        constants = re.search(r"((?:^ *!>.*\n)*)(^ *[^\n!]*, parameter, public ::(?:[^\n]*&\n)*[^\n]*"
+                              rf"\b{name}(?:\(\*\))? *=(?:.*&\n)*.*\n)", text, re.MULTILINE)
+        if not constants:
+            return ""
+        names = ", ".join(re.findall(r"(\w+)(?:\(\*\))? = ", constants[2]))
+        return f"\n{level} {names}\n\n{fortran_comment(constants[1])}\n" + fortran_code(constants[2])
     comment, head, body, kind = found.groups()
     shown, bound = "", []
     components, _, procedures = body.partition("   contains\n")
     if kind == "type":
         shown = "".join(line for line in components.splitlines(True) if "private" not in line)
-        bound = [end or start or first for start, first, end in
+        bound = [(end or start or first, first) for start, first, end in
                  re.findall(r"^ *procedure(?:\((\w+)\))?(?:, (?!private)\w+)* :: (\w+)(?: => (\w+))?", procedures,
                             re.MULTILINE)]
     else:
@@ -202,8 +209,8 @@ def fortran_entry(text, name, level):
                 shown += line
             elif (shown or line.strip()) and not re.match(r"\s*(?:use|implicit|import)\b", line):
                 break
-    page = f"\n{level} {name}\n\n{fortran_comment(comment)}\n" + fortran_code(head + shown)
-    return page + "".join(fortran_entry(text, one, "####") for one in bound)
+    page = f"\n{level} {called or name}\n\n{fortran_comment(comment)}\n" + fortran_code(head + shown)
+    return page + "".join(fortran_entry(text, *one) for one in ((of, "####", name) for of, name in bound))
 
 
 def faults_of(folder):

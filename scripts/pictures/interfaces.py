@@ -5,7 +5,7 @@ import sys
 from axes import Axis, chosen, label_of_unit
 from fields import cells, closed
 from picture import APPROACH, AREA, MOST_CURVES, MOST_PANELS, P_BAR, P_STAR, RIGHT, SLIP, TRACTION, CannotBeDrawn, \
-    Load, Quantity, entry, mean_pressure_axis, shown
+    Load, Quantity, entry, mean_pressure_axis, shown, wanted_places
 from table import Block
 
 
@@ -76,9 +76,8 @@ def tangential_loads(picture, most):
     """The blocks to be shown, one for each load and tangential load: at most so many of the loads that are wanted,
     evenly spread. What is left out is said."""
     table, wanted, slip = picture.table, picture.choice.loads, picture.beside.get("partial_slip")
-    places = [place for place, block in enumerate(table.blocks) if wanted is None or block.load in wanted]
-    if not places:
-        raise CannotBeDrawn(f"it has none of the loads {', '.join(map(str, wanted))}")
+    numbers = [block.load for block in table.blocks]
+    places = list(range(len(numbers))) if wanted is None else wanted_places(table, numbers, wanted, "loads")
     kept = [places[k] for k in chosen(len(places), most)]
     if len(kept) < len(places):
         print(f"plot: {table.path}: {len(kept)} of its {len(places)} loads and tangential loads are shown; choose "

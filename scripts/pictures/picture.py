@@ -96,14 +96,27 @@ def fitted(case, title, width):
     return (words if len(words) <= most else words[:most - 1].rstrip() + "…"), size
 
 
+def wanted_places(table, numbers, wanted, kind):
+    """The places of the numbers of loads or depths that are wanted. Those that are not there are said."""
+    places = [place for place, number in enumerate(numbers) if number in wanted]
+    missing = ", ".join(str(number) for number in wanted if number not in numbers)
+    first, last = min(numbers), max(numbers)
+    there_are = ", ".join(map(str, sorted(set(numbers))))
+    if last > first + 1 and set(range(first, last)) <= set(numbers):
+        there_are = f"{first} to {last}"
+    words = f"it has none of the {kind} {missing}; there are {there_are}"
+    if not places:
+        raise CannotBeDrawn(words)
+    if missing:
+        print(f"plot: {table.path}: {words}", file=sys.stderr)
+    return places
+
+
 def shown(table, numbers, most, wanted, kind):
     """The places to be shown of loads or depths of these numbers: those that are wanted, otherwise at most so many,
     evenly spread. What is left out is said."""
     if wanted is not None:
-        places = [place for place, number in enumerate(numbers) if number in wanted]
-        if not places:
-            raise CannotBeDrawn(f"it has none of the {kind} {', '.join(map(str, wanted))}")
-        return places
+        return wanted_places(table, numbers, wanted, kind)
     places = chosen(len(numbers), most)
     if len(places) < len(numbers):
         print(f"plot: {table.path}: {len(places)} of its {len(numbers)} {kind} are shown, --{kind} "

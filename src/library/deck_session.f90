@@ -333,7 +333,9 @@ contains
       if (index(writer%file, 'stress_') > 0 .and. .not. allocated(self%results%scene%stress_setting)) then
          trouble = 'it needs a group &stress in the deck'
       else if (writer%group == 'interface' .and. .not. writer%is_requested(self%results%scene)) then
-         trouble = 'the deck has no group &interface that asks for it'
+         trouble = 'it needs a group &interface in the deck'
+         if (writer%key//writer%asked_by(1) /= '') &
+            trouble = trouble//' with '//trim(writer%key)//trim(writer%asked_by(1))
       else if (writer%group == 'load' .and. solved%loads_by /= by_percolation) then
          trouble = "it needs a load that percolates finds, such as percolates = 'gap'"
       else if ((writer%group == 'stress' .or. writer%needs_fields) .and. .not. self%results%keeps_fields) then

@@ -336,9 +336,13 @@ class Plot(ProgramTest):
         self.assertIn("--compare needs", self.plot("--compare", "auto.lines.dat", status=1)[1])
 
     def test_many_loads(self):
-        said, complaints = self.plot("--format", "svg", "sweep.lines.dat")
+        _, complaints = self.plot("--format", "svg", "sweep.lines.dat")
         self.assertIn("8 of its 19 loads", complaints)
-        self.assertIn("none of the loads 99", self.plot("--loads", "99", "sweep.lines.dat", status=3)[1])
+        self.assertIn("none of the loads 99; there are 1 to 19",
+                      self.plot("--loads", "99", "sweep.lines.dat", status=3)[1])
+        said, complaints = self.plot("--format", "svg", "--loads", "2,99", "sweep.lines.dat")
+        self.assertEqual("plot: sweep.lines.dat: it has none of the loads 99; there are 1 to 19\n", complaints)
+        self.assertTrue(said)
         self.assertIn("--loads: needs numbers", self.plot("--loads", "a", "sweep.lines.dat", status=1)[1])
 
     def test_stresses(self):
@@ -468,6 +472,31 @@ class Plot(ProgramTest):
 
     def test_command_line(self):
         self.assertIn("--compare", self.plot("--help")[0])
+        for words in ("--help",), ("auto.summary.dat",):
+            reader, writer = os.pipe()
+            os.close(reader)
+            done = subprocess.run([ROOT/"scripts"/"plot", *words], cwd=self.folder, stdout=writer,
+                                  stderr=subprocess.PIPE, check=False)
+            os.close(writer)
+            self.assertEqual((3, b""), (done.returncode, done.stderr))
+        (self.folder/"mine").write_text("#!/bin/sh\necho mine \"$2\"\n")
+        (self.folder/"mine").chmod(0o755)
+        done = self.run_plot("auto.summary.dat", variables={**os.environ, "PYTHON": "./mine"})
+        self.assertEqual("mine auto.summary.dat\n", done.stdout)
+
+    def test_options_without_effect_are_said(self):
+        for words in ("--loads", "1"), ("--depths", "1"), ("--body", "2"):
+            self.assertEqual(f"plot: auto.summary.dat: {words[0]} has no effect on this picture\n",
+                             self.plot("--format", "svg", *words, "auto.summary.dat")[1])
+        self.assertIn("--depths has no", self.plot("--format", "svg", "--depths", "1", "stress.stress_line.dat")[1])
+
+    def test_a_variable_has_a_picture_of_its_own(self):
+        for variable in (), ("--variable", "stress_xz"):
+            name = "stress.stress_section" + ".".join(("", *variable[1:])) + ".svg"
+            self.assertEqual(f"picture: {name}\n",
+                             self.plot("--format", "svg", *variable, "stress.stress_section.dat")[0])
+
+    def test_words_of_the_command_line(self):
         for words in ((), ("--format", "gif", "a"), ("--format",), ("--what", "a")):
             self.assertIn("usage: scripts/plot", self.plot(*words, status=1)[1])
 

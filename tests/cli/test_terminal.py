@@ -90,6 +90,20 @@ class Terminal(ProgramTest):
         done = subprocess.run([*command, "--resume"], cwd=self.folder, capture_output=True, text=True, check=True)
         self.assertIn(f"resumed: {found[1]} of 4 loads", done.stdout)
 
+    def test_interrupted_jobs_say_how_to_go_on(self):
+        command = [self.program, "a place/deck.nml", "--sweep", "surface.seed=1,2,3,4", "--jobs", "2", "--output", "jobs"]
+        process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True)
+        begun = time.monotonic()
+        while process.poll() is None and time.monotonic() < begun + PATIENCE and \
+                not list(self.folder.glob("jobs/*.checkpoint")):
+            time.sleep(0.005)
+        os.killpg(process.pid, signal.SIGINT)   # as Ctrl-C on a terminal
+        _, said = process.communicate(timeout=PATIENCE)
+        self.assertEqual(-signal.SIGINT, process.returncode)
+        self.assertRegex(said, r"^\nwavycon: interrupted: [0-3] of 4 decks are done; "
+                               r"the same command with --resume goes on\n$")
+
 
 if __name__ == "__main__":
     main()

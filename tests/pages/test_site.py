@@ -32,10 +32,33 @@ class Parts(ProgramTest):
 
     def test_names_of_fortran(self):
         page = make_site.fortran_page()
-        for words in ("### fitted_contact", "#### solve_load", "function westergaard_pressure_over_pstar",
-                      "integer, parameter, public :: converged"):
+        for words in ("### fitted_contact", "#### solve_load", "#### open\n",
+                      "function westergaard_pressure_over_pstar", "integer, parameter, public :: converged"):
             self.assertIn(words, page)
         self.assertNotIn(", private", page)
+        # All names that are listed, and procedures of types by the names by which they are called.
+        umbrella = re.sub(r"&\n\s*", "", (ROOT/"src/library/wavycon.f90").read_text(encoding="utf-8"))
+        listed = set(re.findall(r"\w+", " ".join(re.findall(r", only: (.*)", umbrella))))
+        headings = set(re.findall(r"\w+", " ".join(re.findall(r"^####? (.*)$", page, re.MULTILINE))))
+        self.assertEqual({"revision", "version"}, listed - headings)   # the file is made by CMake
+        self.assertLessEqual({"open", "solve_partial_contact", "grid_solved", "shall_stop"}, headings)
+        self.assertEqual(1, page.count("symmetry_diagonal = 1"))
+
+    def test_calls_of_the_page(self):
+        """The arguments that the page of the library tells are those of the procedures."""
+        text = (ROOT/"src/library/README.md").read_text(encoding="utf-8")
+        calls = re.findall(r"`(?:session%)?(\w+)\((.*?)\)`", text[text.index("## In Fortran"):text.index("## In C\n")] +
+                           text[text.index("A solver can be **stopped**"):])
+        self.assertGreater(len(calls), 14)
+        sources = "".join(file.read_text(encoding="utf-8") for name in ("library", "program/run", "core/contact")
+                          for file in sorted((ROOT/"src"/name).glob("*.f90")))
+        for name, arguments in calls:
+            said = re.findall(r"\w+", arguments)
+            of_type = {"open": "open_session"}.get(name, name)
+            there = re.findall(rf"^ +(?:subroutine|logical function) {of_type}\((.*?)\)", sources,
+                               re.MULTILINE | re.DOTALL)
+            self.assertIn([word for word in said if word != "self"],
+                          [[word for word in re.findall(r"\w+", one) if word != "self"] for one in there], name)
 
     def test_columns(self):
         page = make_site.columns_page()

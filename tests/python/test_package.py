@@ -205,7 +205,7 @@ class Digits(PackageTest):
         self.assertAlmostEqual(0.1, lines["pbar_over_pstar"][0], 9)
         # Next to the edge there is tension.
         self.assertLess(lines["pressure"].min(), -0.1)
-        with self.assertRaisesRegex(ValueError, "no group &interface that asks for it"):
+        with self.assertRaisesRegex(ValueError, "needs a group &interface in the deck with slip_loop"):
             results.table("slip_loop")
 
     def test_fields_are_those_of_the_map(self):

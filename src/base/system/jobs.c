@@ -11,8 +11,9 @@
 #include <sys/prctl.h>
 #endif
 
-/* Defined in written_file.c. */
+/* Defined in written_file.c and system.c. */
 void wavycon_print(const char *text);
+void wavycon_note_kept(const char *words);
 
 /* Elements of the array of jobs, more than most_waiting of run_program.f90: a job has an element until it is shown. And
    the number of output streams of a process. */
@@ -35,9 +36,16 @@ int wavycon_begin_job(int number)
     for (int i = 0; i < streams; i++)
         if ((job->files[i] = tmpfile()) == NULL)
             return -1;
+    /* Signals wait until a new process has its own output and says nothing of the jobs. */
+    sigset_t all, before;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
     job->process = fork();
-    if (job->process != 0)
+    if (job->process != 0) {
+        sigprocmask(SIG_SETMASK, &before, NULL);
         return job->process > 0 ? 0 : -1;
+    }
+    wavycon_note_kept("");
 #ifdef __linux__
     /* The job shall end when the process that started it ends, whatever signal ended that process, and also if that
        process ignores SIGTERM. */
@@ -47,6 +55,7 @@ int wavycon_begin_job(int number)
     if (getppid() != parent || dup2(fileno(job->files[0]), STDOUT_FILENO) < 0 ||
         dup2(fileno(job->files[1]), STDERR_FILENO) < 0)
         _exit(3);
+    sigprocmask(SIG_SETMASK, &before, NULL);
     return 1;
 }
 

@@ -76,18 +76,11 @@ static void note(char *text, size_t size, const char *words)
     sigprocmask(SIG_SETMASK, &before, NULL);
 }
 
-/* Sets the words that tell a user what is kept. */
-void wavycon_note_kept(const char *words)
-{
-    note(kept, sizeof kept, words);
-}
-
-/* From now on a signal that interrupts the program removes this file, until the file is renamed or removed. Only the
-   file of the last call is removed. Signals that the process ignores (nohup) stay ignored. */
-void wavycon_remove_when_interrupted(const char *path)
+/* Installs the handler for the signals that interrupt the program. Signals that the process ignores (nohup) stay
+   ignored. */
+static void handle_signals(void)
 {
     static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
-    note(unfinished, sizeof unfinished, path);
     for (size_t i = 0; i < sizeof numbers/sizeof numbers[0]; i++) {
         struct sigaction action;
         if (sigaction(numbers[i], NULL, &action) != 0 || action.sa_handler != SIG_DFL)
@@ -95,6 +88,21 @@ void wavycon_remove_when_interrupted(const char *path)
         action.sa_handler = remove_unfinished;
         sigaction(numbers[i], &action, NULL);
     }
+}
+
+/* Sets the words that tell a user what is kept. */
+void wavycon_note_kept(const char *words)
+{
+    note(kept, sizeof kept, words);
+    handle_signals();
+}
+
+/* From now on a signal that interrupts the program removes this file, until the file is renamed or removed. Only the
+   file of the last call is removed. */
+void wavycon_remove_when_interrupted(const char *path)
+{
+    note(unfinished, sizeof unfinished, path);
+    handle_signals();
 }
 
 /* Renames a file. Returns 0 on success, else errno. */

@@ -33,7 +33,7 @@ contains
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards
       logical, intent(in) :: quiet                            !! whether to write nothing
 
-      character(:), allocatable :: least, most, reason, words
+      character(:), allocatable :: alone, least, most, reason, words
       integer :: solutions   ! of a load
       type(results_type) :: results
       type(run_log) :: logger
@@ -64,7 +64,11 @@ contains
          most = least
          if (any(results%traits%coarsest_grid < results%traits%finest_grid)) most = time_on(results%traits%finest_grid)
          if (most /= least) words = words//least//' on coarse grids, '
-         call logger%say('time: '//words//most//' if all loads need that grid, by its transforms as measured now')
+         alone = ''
+         if (allocated(results%scene%stress_setting) .or. allocated(results%scene%interface_setting)) &
+            alone = ', without stresses and what &interface asks for'
+         call logger%say('time: '//words//most//' if all loads need that grid, by its transforms as measured now'// &
+                         alone)
       end if
       words = ''
       if (results%scene%output%csv%is_true) words = ', also with commas,'

@@ -135,8 +135,8 @@ contains
    end function word_of
 
    !> Writes the table. A key has a column if the command line sets the key, or if a deck gives it and its value differs
-   !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. Units are
-   !> those of the summaries if all summaries have the same units, otherwise general names such as 'length'.
+   !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. The unit of
+   !> a column is that of the summaries if it is the same in all of them, otherwise a general name such as 'length'.
    !>
    !> A file whose name ends in '.csv' has one line of names, with their units in brackets, and commas between words.
    !>
@@ -173,13 +173,10 @@ contains
       associate (summary => column_list(summary_columns()))
          do k = 1, size(summary)
             names = names//' '//trim(summary(k)%name)
-            units = units//' ['//trim(summary(k)%unit)//']'
+            units = units//' '//common_unit(solved, k, '['//trim(summary(k)%unit)//']')
          end do
       end associate
-      if (size(solved) > 0) then
-         names = solved(1)%names
-         if (all([(solved(d)%units == solved(1)%units, d=1, size(solved))])) units = solved(1)%units
-      end if
+      if (size(solved) > 0) names = solved(1)%names
       if (has_commas(path)) then
          blank = blank_mark
          call file%open(comma_path=path)
@@ -228,6 +225,29 @@ contains
       end function cell
 
    end subroutine write_collected_table
+
+   !> The unit of a column in all summaries; where they differ a general name.
+   pure function common_unit(decks, column, general) result(unit)
+      type(collected_deck), intent(in) :: decks(:)   !! with their lines of units
+      integer, intent(in) :: column                  !! number of the column in the summary
+      character(*), intent(in) :: general            !! general name of its unit, in brackets
+      character(:), allocatable :: unit
+
+      character(:), allocatable :: rest
+      integer :: d, k
+
+      unit = general
+      do d = 1, size(decks)
+         rest = adjustl(decks(d)%units)
+         do k = 2, column
+            rest = adjustl(rest(index(rest, ' '):))
+         end do
+         rest = rest(:index(rest//' ', ' ') - 1)
+         if (d == 1) unit = rest
+         if (rest /= unit) unit = general
+         if (rest /= unit) return
+      end do
+   end function common_unit
 
    !> Whether the name of a table asks for commas.
    pure logical function has_commas(path)

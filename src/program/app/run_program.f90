@@ -16,7 +16,8 @@ module wavycon_run_program
    use wavycon_results, only: results_type
    use wavycon_run_scene, only: run_scene
    use wavycon_scene, only: scene_type
-   use wavycon_system, only: error_text, full_path, prepare_process, print_trouble, remove_leftovers, say, stack_limit
+   use wavycon_system, only: error_text, full_path, note_kept, prepare_process, print_trouble, remove_leftovers, say, &
+      stack_limit
    use wavycon_threads, only: set_threads
    use wavycon_version, only: revision, version
    implicit none (type, external)
@@ -203,6 +204,7 @@ contains
             call take_job(i, status(i))
          end if
       end do
+      call note_kept(c_null_char)
       worst = max(worst, maxval(status))
       scenes%is_written = status == exit_fine .or. status == exit_not_converged
       if (allocated(error)) deallocate (error)
@@ -246,6 +248,8 @@ contains
          integer :: side   ! result of begin_job: whether this is the new process
 
          do
+            call note_kept(integer_text(count(has_ended(1:)))//' of '//integer_text(size(scenes))// &
+                           ' decks are done'//c_null_char)
             do while (running < jobs .and. begun < min(size(scenes), i + most_waiting))
                begun = begun + 1
                if (.not. allocated(scenes(begun)%stem)) cycle

@@ -48,7 +48,7 @@ contains
       end do
       call keys%add(values%csv, key_type(logical_value, 'csv', '.false.', '', &
          'whether each table is also written as <case>.<table>.csv, with commas and one line of names and units, '// &
-         'for spreadsheets; not what numpy reads.'))
+         "for spreadsheets. Maps and planes in numpy's format are not: map_format = 'text' makes them texts."))
       call keys%add(values%line_points, key_type(integer_value, 'line_points', "128, or the grid's", '', &
          'intervals of the lines along a side of the cell; both ends are points. The default is the larger number '// &
          'of points of the grid, if it is given, or of the file, multiplied to be at least 128.', 8, most_points))

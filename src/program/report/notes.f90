@@ -4,12 +4,13 @@ module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
    use wavycon_constants, only: pi
-   use wavycon_contact_status, only: converged, not_found, status_name, unresolved
+   use wavycon_contact_status, only: converged, not_accurate, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp
    use wavycon_map_statistics, only: map_statistics
+   use wavycon_methods, only: solvers_for
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
    use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, last_before, &
       main_quantities, mean_gap, peak_pressure, percolation
@@ -17,7 +18,7 @@ module wavycon_notes
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
       target_words
-   use wavycon_solution_record, only: by_beale, by_series, solution_record, solver_names
+   use wavycon_solution_record, only: by_beale, by_grid, by_series, solution_record, solver_names
    implicit none (type, external)
    private
 
@@ -369,6 +370,7 @@ contains
       associate (scene => results%scene, surface => results%solver%surface)
          of_loads = ' of '//integer_text(size(loads))//' loads'
          call note_unresolved()
+         call note_inaccurate()
          is_series = loads%solver == by_beale .or. loads%solver == by_series
          if (any(is_series)) call logger%note( &
             "the errors of the paper's truncated series are not estimated: with the paper's harmonics and points "// &
@@ -471,6 +473,27 @@ contains
          call logger%note('the grid is too coarse for '//listed(pack(values, coarse > 0), ' and ')//of_loads// &
                       ': the error is as large as the value, or unknown. Give an accuracy, or more grid_points')
       end subroutine note_unresolved
+
+      !> Notes how many loads have errors above the accuracy, the largest of these, and what helps.
+      subroutine note_inaccurate()
+         character(:), allocatable :: better, remedy   ! better: solvers with smaller errors
+         integer :: i
+         real(dp) :: worst(size(loads))   ! largest known error of each load
+
+         worst = [(maxval(loads(i)%error(main_quantities), is_known(loads(i)%error(main_quantities))), &
+                   i=1, size(loads))]
+         associate (accuracy => results%scene%method%accuracy)
+            where (loads%status /= not_accurate .or. .not. worst > accuracy%number) worst = 0.0_dp
+            if (.not. accuracy%in_effect) return
+         end associate
+         better = ''
+         remedy = 'a larger accuracy takes less time'
+         ! Only 'fitted' has details.
+         if (results%traits%solver == by_grid) better = solvers_for(results%solver%surface, 'details')
+         if (better /= '') remedy = "solver = 'auto' has smaller ones on this surface"
+         call note_some(count(worst > 0.0_dp), 'errors are above the accuracy, up to '// &
+                        short_number(maxval(worst))//'; '//remedy)
+      end subroutine note_inaccurate
 
    end subroutine note_loads
 

@@ -94,12 +94,12 @@ contains
       columns = 'load[#] pbar_over_pstar[-] mean_gap_over_amplitude[-] approach_over_amplitude[-] '// &
          'contact_area_fraction[-] peak_pressure_over_pstar[-] min_pressure_over_pstar[-] '// &
          'mean_gap_over_amplitude_error[-] contact_area_fraction_error[-] peak_pressure_over_pstar_error[-] '// &
-         'area_at_hardness_fraction[-] load_at_hardness_fraction[-] area_at_hardness_fraction_error[-] '// &
-         'load_at_hardness_fraction_error[-] contact_area_counted_fraction[-] contact_area_corrected_fraction[-] '// &
-         'linear_area_fraction[-] mean_pressure[pressure] force[force] mean_gap[length] approach[length] '// &
-         'approach_error[length] contact_area[area] contact_area_error[area] peak_pressure[pressure] '// &
-         'peak_pressure_error[pressure] '//listed_columns('summary')//'active_constraints[#] iterations[#] '// &
-         'residual[-] solver[word] status_code[#] status[word]'
+         'percolation_over_pstar_error[-] area_at_hardness_fraction[-] load_at_hardness_fraction[-] '// &
+         'area_at_hardness_fraction_error[-] load_at_hardness_fraction_error[-] contact_area_counted_fraction[-] '// &
+         'contact_area_corrected_fraction[-] linear_area_fraction[-] mean_pressure[pressure] force[force] '// &
+         'mean_gap[length] approach[length] approach_error[length] contact_area[area] contact_area_error[area] '// &
+         'peak_pressure[pressure] peak_pressure_error[pressure] '//listed_columns('summary')// &
+         'active_constraints[#] iterations[#] residual[-] solver[word] status_code[#] status[word]'
    end function summary_columns
 
    !> Writes the block of a load: the Fourier coefficients of its pressure.

@@ -4,7 +4,7 @@
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_adhesive_contact, only: at_approach, at_load, point_names
+   use wavycon_adhesive_contact, only: at_approach, at_load, closed, point_names, separated
    use wavycon_adhesive_curve, only: add_load, find_adhesive_solution, follow_curve
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
@@ -244,8 +244,9 @@ contains
       type(results_type), intent(inout) :: results   !! gets `adhesion` and `adhesive_loads`
       type(run_log), intent(inout) :: logger
 
+      integer, parameter :: without_edge(*) = [separated, closed]
       character(:), allocatable :: words   ! load and area of a critical point; with free edges the load is a force
-      integer :: bad, given, i   ! given: which value of a point on the curve the loads give
+      integer :: bad, given, i, number   ! given: which value of a point on the curve the loads give
       real(dp) :: mean_pressure
       logical :: is_followed
       real(dp), allocatable :: loads(:)
@@ -280,6 +281,11 @@ contains
          bad = count(.not. is_good_status(curve%at_loads%status))
          if (bad > 0) call logger%note('adhesion is NOT solved as requested at '//integer_text(bad)//' of '// &
             integer_text(size(curve%at_loads))//' contacts of the loads, see the status in adhesion')
+         do i = 1, size(without_edge)
+            number = count(curve%at_loads%kind == without_edge(i))
+            if (number > 0) call logger%say('adhesion: '//trim(point_names(without_edge(i)))//' at '// &
+               integer_text(number)//' of '//integer_text(size(loads))//' loads')
+         end do
          do i = 1, size(curve%critical)
             associate (point => curve%critical(i))
                mean_pressure = results%scene%p_star*point%value(at_load)
