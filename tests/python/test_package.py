@@ -21,6 +21,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 import unittest
 import unittest.mock
 import warnings
@@ -278,6 +279,9 @@ class Digits(PackageTest):
             self.assertAlmostEqual(4e-6*factor, results.length_x, delta=1e-12*factor)
             numpy.testing.assert_allclose(results[0].gap, gap*factor, atol=4e-7*factor*numpy.abs(h).max())
         self.refuse("no channel 'Height'", wc.read, "map.gsf", "Height")
+        for name in "empty.gsf", "empty.npy", "empty.txt":
+            pathlib.Path(name).touch()
+            self.refuse(f"{name}: the file is empty", wc.solve, wc.file(file=name), pbar_over_pstar=0)
         self.refuse("leave out length_x", wc.solve, wc.read("map.gsf", length_x=1), pbar_over_pstar=0)
 
     def test_grids_of_esri(self):
@@ -539,6 +543,17 @@ class Notes(PackageTest):
         self.assertEqual((notes, []), (solved.notes, self.warned(wc.load, "noted.npz")[1]))
         self.assertEqual(notes, wc.load("noted.npz").notes)
 
+    def test_a_map_that_is_filled(self):
+        h = numpy.random.default_rng(1).normal(size=(32, 32))
+        notes = []
+        for missing in 2, 16:
+            h[:, :missing] = numpy.nan
+            results, found = self.warned(wc.solve, wc.heights(h, fill_missing="harmonic", edges="mirror"), pbar_over_pstar=0.1)
+            self.assertEqual(results.notes, found)
+            notes.append([note for note in found if "are missing and filled" in note])
+        self.assertEqual([0, 1], [len(found) for found in notes])
+        self.assertIn("50 % of the heights are missing and filled", notes[1][0])
+
     def test_what_has_nothing_to_note(self):
         results, notes = self.warned(wc.solve, wc.wave_2d(), pbar_over_pstar=[0.1, 0.5])
         self.assertEqual(([], []), (results.notes, notes))
@@ -743,6 +758,42 @@ class Files(PackageTest):
             # gsf has single precision.
             self.assertAlmostEqual(wc.solve(wc.heights(h), pbar_over_pstar=0.2)[0].contact_area_fraction, found,
                                    delta=0 if name == "scan.npy" else 1e-6)
+
+    def test_empty_files(self):
+        for name in "empty.opd", "empty.txt", "empty.npy", "empty.gsf":
+            pathlib.Path(name).touch()
+            self.refuse(f"{name}: the file is empty", wc.read, name)
+
+    def test_points_are_no_map(self):
+        """SurfaceTopography takes lines of x, y, z for a map of three columns where a point is missing."""
+        points = [(x, y, x*y % 3) for y in range(5) for x in range(5)]
+        numpy.savetxt("points.txt", points[:7] + points[8:])
+        self.refuse("points.txt: its lines have three numbers, .* wavycon.file", wc.read, "points.txt")
+
+    def test_channels_that_have_no_heights(self):
+        def channel(name, unit, data_unit=None, **more):
+            return types.SimpleNamespace(name=name, unit=unit, data_unit=data_unit, **more)
+
+        height, phase = channel("Height", "m", "m"), channel("Phase", "m", "deg")
+        mixed = [phase, height, channel("Error", ("nm", "V")), channel("Raw", "m", None, is_height_channel=False),
+                 channel("Zsensor", "µm"), channel("Lateral", "px"), channel("Phase", None)]
+        self.assertIs(height, files.choose(mixed, None))
+        # Numbers are those of the file, and of one name that which has heights is taken.
+        self.assertEqual(["Height", "Zsensor", "Zsensor"], [files.choose(mixed, one).name for one in (1, 4, "Zsensor")])
+        self.assertIs(mixed[6], files.choose(mixed, "Phase"))
+        heights = "which is no length; channels of heights: 1 'Height', 4 'Zsensor', 6 'Phase'"
+        for wanted, unit in {0: "0 'Phase' is in 'deg'", "Error": "2 'Error' is in 'V'", 5: "5 'Lateral' is in 'px'"}.items():
+            self.refuse(f"the channel {unit}, {heights}", files.choose, mixed, wanted, error=files.NoHeights)
+        for wanted in 7, "Friction":
+            self.refuse(f"no channel {wanted!r}; channels of heights: 1 'Height'", files.choose, mixed, wanted,
+                        error=files.NoHeights)
+        self.refuse("the channel 0 'Phase' is in 'deg', which is no length; channels of heights: none", files.choose,
+                    [phase], None, error=files.NoHeights)
+        self.refuse("no channel None; channels of heights: none", files.choose, [], None, error=files.NoHeights)
+        pathlib.Path("scan.ibw").write_text("of an instrument")
+        with unittest.mock.patch("SurfaceTopography.open_topography") as opened:
+            opened.return_value.__enter__.return_value.channels = mixed
+            self.refuse("^scan.ibw: the channel 0 'Phase' is in 'deg', which is no length", wc.read, "scan.ibw", 0)
 
     def test_micrometres_have_one_name(self):
         (self.folder/"um.txt").write_text("# Width: 4 \u00b5m\n# Height: 3 \u00b5m\n# Value units: \u00b5m\n"

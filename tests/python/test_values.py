@@ -130,6 +130,30 @@ class Names(ValuesTest):
         self.refuse("must end in .npz or .h5, not in .csv; to_dataframe", results.save, "run.csv")
         self.refuse("'mean_pres'; did you mean 'mean_pressure'", results.plot, x="mean_pres")
 
+    def test_what_is_meant_comes_first(self):
+        wave = wc.wave_2d()
+        for name, words in {"pressure": "'mean_pressure'", "gap": "'mean_gap'", "area": "'contact_area'", "E1": "'e1'",
+                            "lenght_unit": "'length_unit'", "units": "'length_unit'", "young": "'e1', 'e2' or 'base_e'",
+                            "youngs_modulus": "'e1', 'e2' or 'base_e'", "poisson_ratio": "'nu1', 'nu2' or 'layer_nu'",
+                            "yiield": "'yield'"}.items():
+            self.refuse(rf"no key '{name}'; did you mean {words}\?", wc.solve, wave, **{name: 1})
+        self.refuse("no key 'tolerance'$", wc.solve, wave, tolerance=1)
+        self.refuse("several groups have a key 'nu': .*, or nu1, or nu2", wc.solve, wave, nu=0.3)
+        self.refuse("did you mean 'length_unit', an option of solve", wc.heights, numpy.eye(8), lenght_unit="m")
+        self.refuse("no key 'length_unit': it is an option of solve", wc.wave_2d, length_unit="m")
+        self.refuse("wave_2d: there is no key 'wave_length'; did you mean 'wavelength'", wc.wave_2d, wave_length=1)
+        results = self.solve_rough()
+        for name, meant in {"mean_gap_error": "mean_gap_over_amplitude_error", "aera": "contact_area",
+                            "peak": "peak_pressure", "meangap": "mean_gap"}.items():
+            for thing in results, results[0]:
+                self.refuse(rf"'{name}'; did you mean '{meant}'\?", getattr, thing, name, error=AttributeError)
+        self.refuse("no attribute 'temperature'$", getattr, results, "temperature", error=AttributeError)
+
+    def test_docstrings_stand_alone(self):
+        self.assertIn("gap amplitude (1 - cos(2 pi x/wavelength) cos(2 pi y/wavelength_y))", wc.wave_2d.__doc__)
+        for kind in wc.keys()["surface"]["kind"]["choices"]:
+            self.assertNotRegex(getattr(wc, {"sum": "wave_sum"}.get(kind, kind)).__doc__, r"\b(phi|theta)\b")
+
     def test_a_package_that_is_not_there(self):
         with unittest.mock.patch.dict(sys.modules, {"pandas": None, "matplotlib.pyplot": None, "xarray": None,
                                                     "h5py": None}):
@@ -203,6 +227,20 @@ class Values(ValuesTest):
         results[1:].save("part.npz")
         self.assertEqual([2, 3], wc.load("part.npz").load.tolist())
 
+    def test_lists_and_masks_are_results(self):
+        results = self.solve_rough()
+        heavy = results[results.pbar_over_pstar > 0.07]
+        self.assertIsInstance(heavy, wc.Results)
+        for chosen, loads in ((heavy, [2, 3]), (results[[2, 0]], [3, 1]), (results[numpy.array([-1])], [3]),
+                              (results[[True, False, False]], [1]), (results[[]], []),
+                              (results[results.mean_gap < 0], [])):
+            self.assertEqual(loads, chosen.load.tolist())
+        self.assertEqual(2, results[numpy.int64(1)].load)
+        for bad in [True, False], [3], ["mean_gap"], [0.5]:
+            self.refuse("", results.__getitem__, bad, error=IndexError)
+        heavy.save("heavy.npz")
+        self.assertEqual([2, 3], wc.load("heavy.npz").load.tolist())
+
     def test_a_slice_of_no_loads(self):
         results = self.solve_rough()
         results[3:].surface
@@ -245,8 +283,102 @@ class Values(ValuesTest):
         profile = wc.solve(wc.wave_1d(amplitude=2, wavelength=3), pbar_over_pstar=0.1).surface
         self.assertAlmostEqual(4*numpy.pi/3/2**0.5, profile.rms_slope, delta=1e-12)
         self.assertIn("spectrum_1d", profile.spectrum.dtype.names)
+        ball = wc.solve(wc.ball(radius=1.0, length_x=0.2, points=16), force=1e-6).surface
         with self.assertRaisesRegex(ValueError, "free edges"):
-            wc.solve(wc.ball(radius=1.0), force=1e-6).surface
+            ball.rms_slope
+        self.assertEqual(("Roughness(no spectrum)", (16, 16)), (repr(ball), ball.heights.shape))
+
+    def test_heights_that_were_solved(self):
+        h = numpy.random.default_rng(1).normal(size=(16, 24))
+        results = wc.solve(wc.heights(h, length_x=3), pbar_over_pstar=[0, 0.1])
+        numpy.testing.assert_allclose(results.surface.heights, h - h.mean(), atol=1e-14)
+        # At first touch the gap is what is between the highest point and the heights.
+        numpy.testing.assert_allclose(results[0].gap, h.max() - h, atol=1e-12)
+        self.refuse("read-only", results.surface.heights.__setitem__, 0, 1)
+        wave = wc.solve(wc.wave_2d(amplitude=2), pbar_over_pstar=0.1)
+        self.assertEqual(wave[0].gap.shape, wave.surface.heights.shape)
+        self.assertAlmostEqual(2, wave.surface.heights.max(), delta=1e-12)
+        self.assertEqual((1, 24), wc.solve(wc.heights(h[0]), pbar_over_pstar=0.1).surface.heights.shape)
+
+    def test_copies_have_the_surface(self):
+        results = self.solve_rough()
+        for has_heights in False, True:
+            if has_heights:
+                results.surface.heights
+            results.save("surface.npz", fields=has_heights)
+            for again in wc.load("surface.npz"), pickle.loads(pickle.dumps(results)), copy.deepcopy(results):
+                self.assertEqual(repr(results.surface), repr(again.surface))
+                if has_heights:
+                    numpy.testing.assert_array_equal(results.surface.heights, again.surface.heights)
+                else:
+                    self.refuse("'height' was not saved.*solve it by wavycon.run", getattr, again.surface, "heights")
+                self.refuse("'fields_at' was not saved: .* has no solver", again[0].fields_at, 0, 0)
+
+    def test_the_deck_of_heights_in_memory(self):
+        h = numpy.random.default_rng(1).normal(size=(16, 24))
+        results = wc.solve(wc.heights(h), pbar_over_pstar=0.1)
+        self.assertIn("\n! The heights were in memory: to run this deck write them to a file", results.deck)
+        numpy.save("heights.npy", h)
+        deck = self.folder/"again.nml"
+        deck.write_text(results.deck.replace("file = 'heights'", "file = 'heights.npy'"))
+        again = wc.run(deck)
+        self.assertEqual(results.mean_gap.tolist(), again.mean_gap.tolist())
+        for other in again, self.solve_rough():
+            self.assertNotIn("in memory", other.deck)
+
+    def test_two_bodies(self):
+        """The sum of two maps is what the program makes of two files, each with its own treatment."""
+        first, second = numpy.random.default_rng(1).normal(size=(2, 16, 24)) + 0.3*numpy.arange(24)
+        second[3, 5] = numpy.nan
+        numpy.save("first.npy", first)
+        numpy.save("second.npy", second)
+        both = {"length_x": 3, "fill_missing": "harmonic", "edges": "mirror"}
+        files = wc.file(file="first.npy", file2="second.npy", detrend="plane", file2_detrend="mean", height_scale=2,
+                        file2_scale=1, **both)
+        surface = (wc.heights(first, detrend="plane", height_scale=2, **both)
+                   + wc.heights(second, detrend="mean", **both).flipped())
+        one, two = (wc.solve(each, pbar_over_pstar=0.2) for each in (files, surface))
+        # Means of maps that are turned differ by rounding.
+        numpy.testing.assert_allclose(one.surface.heights, two.surface.heights, atol=1e-13)
+        numpy.testing.assert_allclose(one.mean_gap, two.mean_gap, rtol=1e-9)
+        frame = wc.sweep([surface, surface], pbar_over_pstar=0.2)
+        numpy.testing.assert_allclose(frame.mean_gap, [two.mean_gap[0]]*2, rtol=DIGITS)
+        # The sides of the first one are taken, as in the program.
+        self.assertEqual(2, (wc.heights(first, length_x=2) + wc.heights(first, length_x=2.04)).keys["length_x"])
+        # The second map has no trend subtracted unless its own keys say so.
+        plain = wc.heights(first, detrend="plane", **both) + wc.heights(second, **both)
+        self.assertEqual("none", plain.keys["file2_detrend"])
+        numpy.testing.assert_array_equal(second[:, ::-1], wc.heights(second).flipped().heights)
+        expected = wc.solve(wc.heights(first[0] + first[1][::-1], length_x=3), pbar_over_pstar=0.2).mean_gap
+        for shape in (24,), (1, 24), (24, 1):
+            profile = (wc.heights(first[0].reshape(shape), length_x=3, length_unit="um")
+                       + wc.heights(first[1].reshape(shape)).flipped())
+            found = wc.solve(profile, pbar_over_pstar=0.2)
+            self.assertEqual("um", found.length_unit)
+            numpy.testing.assert_allclose(found.mean_gap, expected, rtol=1e-9)
+
+    def test_two_bodies_that_do_not_fit(self):
+        one, h = wc.heights(numpy.eye(8), length_x=2, length_unit="um"), numpy.eye(8)
+        for words, other in {"same points, got the shapes .8, 8. and .8, 9.": wc.heights(numpy.eye(8, 9)),
+                             "same length_unit, got 'um' and 'm'": wc.heights(h, length_unit="m"),
+                             "same length_x, got 2 and 2.13": wc.heights(h, length_x=2.13),
+                             "same edges, got None and 'mirror'": wc.heights(h, edges="mirror"),
+                             "file2=...": wc.wave_2d()}.items():
+            self.refuse(words, one.__add__, other)
+        self.refuse("unsupported operand", lambda: one + 1, error=TypeError)
+        self.refuse("file2=.*turns the map", wc.file(file="a.gsf").flipped)
+
+    def test_units_in_a_head(self):
+        results = wc.solve(wc.wave_2d(), e_star=2, mean_pressure=0.1, pressure_unit="MPa", length_unit="um")
+        results.to_dataframe(units=True).to_csv("units.csv", index=False)
+        head, row = (self.folder/"units.csv").read_text().splitlines()
+        names = head.split(",")
+        self.assertEqual(["load", "pbar_over_pstar"], names[:2])
+        for name in "mean_gap [um]", "peak_pressure [MPa]", "contact_area [um^2]", "status":
+            self.assertIn(name, names)
+        self.assertEqual(results.mean_gap[0], float(row.split(",")[names.index("mean_gap [um]")]))
+        self.assertEqual("um", results.to_dataframe(units=True).attrs["units"]["mean_gap [um]"])
+        self.assertEqual(list(results.table().dtype.names), list(results.to_dataframe()))
 
     def test_a_table_for_notebooks(self):
         text = self.solve_rough(pressure_unit="<MPa>")._repr_html_()
@@ -265,8 +397,13 @@ class Values(ValuesTest):
         again = wc.load("run.h5")
         self.assert_same(results, again)
         numpy.testing.assert_array_equal(results.table("spots"), again.table("spots"))
-        (self.folder/"other.h5").write_text("a text")
-        self.refuse("is not replaced", results.save, "other.h5", error=OSError)
+        for name in "other.h5", "other.hdf5":
+            (self.folder/name).write_text("a text")
+            self.refuse("is not replaced", results.save, name, error=OSError)
+        results.save("run.hdf5")
+        self.assertEqual(b"\x89HDF", (self.folder/"run.hdf5").read_bytes()[:4])
+        self.assert_same(results, wc.load("run.hdf5"))
+        self.assertFalse((self.folder/"run.hdf5.npz").exists())
 
     @unittest.skipUnless(importlib.util.find_spec("xarray"), "xarray is not installed")
     def test_xarray(self):

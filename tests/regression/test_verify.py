@@ -130,6 +130,35 @@ class Verify(ProgramTest):
         self.assertIn("--solve needs the program wavycon, and the table wave_2d or hexagonal", self.verify(
             "surface,pbar_over_pstar,compliance\nwave_2d,0.123,1\n", "interface", "--solve", status=1))
 
+    def test_rows_of_other_surfaces(self):
+        """A collected table of wavycon has rows of any surface: those of others are not compared, nor solved."""
+        row = self.rows[0]
+        load, area = row["pbar_over_pstar"], row["contact_area_fraction"]
+        text = (f"surface_kind,pbar_over_pstar,contact_area_fraction\nwave_2d,{load},{area}\n"
+                f"hexagonal,{load},0.5\nhexagonal,0.123,0.5\n")
+        for options in [], ["--solve"]:
+            found = self.verify(text, "wave_2d", *options)
+            self.assertIn(f"rows in both (1): {load}\n", found)
+            self.assertIn(f"rows not in the reference (2): {load} (line 3), 0.123 (line 4)\n", found)
+            self.assertNotIn("solved now", found)
+
+    def test_rows_of_adhesion(self):
+        """Rows without contact have no branch, and are not in the reference; those of the curve are found by their area."""
+        names = "surface", "w_over_pstar_amplitude", "branch", "point", "contact_area_fraction", "pbar_over_pstar"
+        record = next(record for record in Table(REFERENCE / "adhesion.dat").records() if record["branch"] == "spots")
+        words = [record[name] for name in names]
+        curve, separated = [*words[:3], "stable", *words[4:]], [*words[:2], "none", "separated", "0", "0"]
+
+        def text(*rows):
+            return "\n".join(map(",".join, (names, *rows))) + "\n"
+
+        found = self.verify(text(curve, separated), "adhesion")
+        self.assertIn(f"rows in both (1): {'/'.join([*words[:3], words[4]])}\n", found)
+        self.assertIn("rows not in the reference (1): ", found)
+        # In other columns of words there is no such row.
+        self.assertIn("mine.csv:3: 'none' in the column 'surface' is none of wave_2d, hexagonal",
+                      self.verify(text(curve, ["none", *separated[1:]]), "adhesion", status=1))
+
     def test_decimal_commas(self):
         text = self.areas().replace(",", ";").replace(".", ",")
         self.assertIn(",", text)

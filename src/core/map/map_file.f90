@@ -58,6 +58,7 @@ contains
          call note_input(path//c_null_char)
       end if
       if (present(in_slabs)) file%in_slabs = in_slabs
+      if (file%bytes == 0 .and. .not. allocated(error)) call file%refuse('the file is empty', error)
       call share_error(error)
       if (.not. allocated(error)) then
          map%format = given_format

@@ -10,7 +10,7 @@ module wavycon_deck_groups
    use wavycon_load_group, only: list_load_keys
    use wavycon_material_group, only: list_material_keys
    use wavycon_methods, only: list_method_keys
-   use wavycon_nearest_name, only: did_you_mean, nearest_name
+   use wavycon_nearest_name, only: did_you_mean, nearest_name, nearest_slip
    use wavycon_output_group, only: list_output_keys
    use wavycon_plain_text, only: excerpt, in_quotes, integer_text, listed, lower_case, newline, quoted, replaced
    use wavycon_problems, only: problem_list_type
@@ -349,7 +349,8 @@ contains
       type(key_list), intent(in) :: list, lists(:)   !! keys of the group; keys of all groups
       character(:), allocatable :: words
 
-      integer :: bracket, i
+      character(:), allocatable :: otherwise   ! words for a key that is near to none of the group
+      integer :: bracket, i, slip
       logical :: has_key(size(lists)), is_given(size(list%keys))
 
       bracket = index(key//'(', '(')
@@ -364,8 +365,14 @@ contains
       else if (key_index(list%rows, key(:bracket - 1)) > 0) then
          words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
       else
+         otherwise = related_keys(key, list%rows)
+         do i = size(lists), 1, -1
+            slip = nearest_slip(key, lists(i)%rows%name)
+            if (slip > 0) otherwise = "; did you mean '"//trim(lists(i)%rows(slip)%name)//"' of &"// &
+                                      trim(lists(i)%name)//'?'
+         end do
          words = "there is no key '"//excerpt(key)//"' in &"//trim(list%name)// &
-                 did_you_mean(key, list%rows%name, "'", "'", related_keys(key, list%rows), is_given)
+                 did_you_mean(key, list%rows%name, "'", "'", otherwise, is_given)
       end if
    end function unknown_key
 

@@ -256,6 +256,10 @@ contains
       integer :: i
 
       text = '! '//escaped(scene%deck_path)//' with the value in effect of every key that applies.'
+      if (allocated(scene%map) .and. scene%surface_values%kind%text == 'file') then
+         if (scene%map%path == '') text = text//newline//'! The heights were in memory: to run this deck write '// &
+            'them to a file, as numpy.save does, and give its name.'
+      end if
       do i = 1, size(lists)
          ! A group &load, &stress or &interface that the deck does not have is left out: the group alone would ask for
          ! computations.

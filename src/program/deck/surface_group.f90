@@ -34,13 +34,14 @@ contains
       type(surface_group), intent(in), target :: values   !! the record of the group, to which the list points
       type(key_list), intent(out) :: keys
 
+      character(*), parameter :: trends = 'none mean plane quadratic lines'
       character(*), parameter :: on_a_ball = "a ball that the map or the surface lies on, with edges = 'free'."
 
       keys = key_list('surface', 'which waves or heights the bodies carry', values%key_group, required=.true., &
                       selector='kind')
       call keys%add(values%kind, key_type(choice_value, 'kind', '', '', &
-         "'wave_1d': gap amplitude (1 - cos phi), phi = 2 pi x/wavelength. 'wave_2d': amplitude (1 - cos phi "// &
-         "cos theta), theta = 2 pi y/wavelength_y. 'crossed_1d': a wave on each of two blocks. 'hexagonal': "// &
+         "'wave_1d': gap amplitude (1 - cos(2 pi x/wavelength)). 'wave_2d': gap amplitude (1 - cos(2 pi "// &
+         "x/wavelength) cos(2 pi y/wavelength_y)). 'crossed_1d': a wave on each of two blocks. 'hexagonal': "// &
          "three equal waves at 60 degrees to each other. 'sum': any waves. 'file': a height map. 'self_affine': "// &
          "a random rough surface, made from its spectrum. 'ball': a ball on a half-space, not repeated.", &
          choices='wave_1d wave_2d crossed_1d hexagonal sum file self_affine ball', required=.true.))
@@ -95,6 +96,10 @@ contains
       call keys%add(values%file2_flip, key_type(logical_value, 'file2_flip', '.true.', '', &
          'whether the second map is turned over about the y axis, as its body is when it is laid on the first: '// &
          'the last point along x becomes the first.', needs='file2'))
+      call keys%add(values%file2_missing_value, key_type(real_value, 'file2_missing_value', 'missing_value', '-', &
+         'missing_value of the second map.', needs='file2'))
+      call keys%add(values%file2_detrend, key_type(choice_value, 'file2_detrend', 'detrend', '', &
+         'what is subtracted from the second map, as `detrend` from the first.', choices=trends, needs='file2'))
       call keys%add(values%file_format, key_type(choice_value, 'file_format', "'auto'", '', &
          "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
          "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if "// &
@@ -113,7 +118,7 @@ contains
       call keys%add(values%detrend, key_type(choice_value, 'detrend', "'none'", '', &
          "what is subtracted first, fitted to the heights that are there by least squares: 'mean', 'plane' "// &
          "or 'quadratic', a polynomial of the second degree; 'lines', from each row along x its median.", &
-         choices='none mean plane quadratic lines'))
+         choices=trends))
       call keys%add(values%fill_missing, key_type(choice_value, 'fill_missing', "'none'", '', &
          "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
          "smooth surface of Laplace's equation.", choices='none harmonic'))
@@ -185,7 +190,12 @@ contains
 
       select case (values%kind%text)
       case ('file')
-         if (values%file2%is_given) call values%file2_scale%set_default([values%height_scale%number])
+         if (values%file2%is_given) then
+            call values%file2_scale%set_default([values%height_scale%number])
+            call values%file2_detrend%set_default(text=values%detrend%text)
+            if (values%missing_value%is_given) &
+               call values%file2_missing_value%set_default([values%missing_value%number])
+         end if
          if (values%file2%is_given .and. values%crop_missing%is_true) call values%complain(values%crop_missing, &
             'crop_missing is for one map: borders cut off one of two maps would displace it against the other')
          values%filter%in_effect = values%short_wavelength%is_given .or. values%long_wavelength%is_given

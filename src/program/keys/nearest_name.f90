@@ -3,7 +3,7 @@ module wavycon_nearest_name
    implicit none (type, external)
    private
 
-   public :: nearest_name, did_you_mean
+   public :: nearest_name, nearest_slip, did_you_mean
 
    !> Most letters of a misspelt name that is compared. The limit bounds the time.
    integer, parameter :: longest = 40
@@ -24,19 +24,26 @@ contains
       character(*), intent(in) :: known(:)  !! lower case, padded with blanks
       logical, intent(in), optional :: is_given(:)   !! whether a known name stands beside this one; absent: none does
 
+      nearest = nearest_slip(name, known, is_given)
+      if (nearest > 0 .or. len(name) < shortest_part .or. len(name) > longest) return
+      nearest = findloc(index(known, name), 1, dim=1)
+      if (nearest == 0) nearest = findloc(index(known, name) > 1, .true., dim=1)
+   end function nearest_name
+
+   !> The number of the known name that is near to a misspelt name by its letters alone; 0 if none is.
+   pure integer function nearest_slip(name, known, is_given) result(nearest)
+      character(*), intent(in) :: name, known(:)         !! as for nearest_name
+      logical, intent(in), optional :: is_given(:)       !! as for nearest_name
+
       integer :: distance(size(known)), i
 
       nearest = 0
       if (len(name) == 0 .or. len(name) > longest .or. size(known) == 0) return
       distance = [(edit_distance(name, trim(known(i))), i=1, size(known))]
-      if (minval(distance) <= change*max(1, len(name)/3)) then
-         if (present(is_given)) distance = 2*distance + merge(1, 0, is_given)
-         nearest = minloc(distance, dim=1)
-      else if (len(name) >= shortest_part) then
-         nearest = findloc(index(known, name), 1, dim=1)
-         if (nearest == 0) nearest = findloc(index(known, name) > 1, .true., dim=1)
-      end if
-   end function nearest_name
+      if (minval(distance) > change*max(1, len(name)/3)) return
+      if (present(is_given)) distance = 2*distance + merge(1, 0, is_given)
+      nearest = minloc(distance, dim=1)
+   end function nearest_slip
 
    !> Words that end a message: "; did you mean 'x'?" if a known name is near, else `otherwise` or nothing.
    pure function did_you_mean(name, known, before, after, otherwise, is_given) result(words)

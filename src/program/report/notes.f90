@@ -118,13 +118,20 @@ contains
       !> Least rms height over that of the waves that a filter removed.
       real(dp), parameter :: least_left = 1e-3_dp
       character(:), allocatable :: remedies
-      integer :: direction
+      integer :: direction, i
 
       if (scene%has_units .and. index(map%assumed_sides, 'length_x') == 1) call logger%note( &
          'the side length_x = 1 ['//scene%length_unit//'] is assumed: neither the deck nor the file gives it')
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
       if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other '// &
          'map does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')
+      if (allocated(scene%two_maps)) then
+         do i = 1, size(scene%two_maps)
+            call note_filled(scene%two_maps(i), ' of body '//integer_text(i))
+         end do
+      else
+         call note_filled(map, '')
+      end if
       if (map%spikes > 0) call logger%note(integer_text(map%spikes)//' of the heights are far from all '// &
          'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
          'surface does not. Remedy: despike = .true.')
@@ -149,6 +156,24 @@ contains
                    ', by differences of neighbours only '//short_number(map%slope_by_differences)// &
                    ': much of it is in waves of two or three points. If these are noise, smooth the map: '// &
                    'they make contact areas smaller')
+
+   contains
+
+      !> Notes that much of a map was not measured.
+      subroutine note_filled(map, which)
+         type(map_statistics), intent(in) :: map
+         character(*), intent(in) :: which   !! ' of body 1' or 2; empty if there is one map
+
+         !> Least part of the heights that is noted. Less is usual: the steep flanks that an instrument does not see.
+         real(dp), parameter :: least_filled = 0.1_dp
+         real(dp) :: filled
+
+         filled = real(map%changes%filled, dp)/product(real(map%points, dp))
+         if (filled > least_filled) call logger%note(percent(filled)//' of the heights'//which//' are missing and '// &
+            'filled by a smooth surface, which no instrument has seen: areas, gaps and pressures there are a '// &
+            'guess, and error estimates do not count this')
+      end subroutine note_filled
+
    end subroutine note_map
 
    !> Writes a row for each load: mean gap, area and peak pressure, each followed by its error estimate; mean and peak

@@ -21,7 +21,7 @@ module wavycon_scene_groups
       character(:), allocatable :: deck_unit
       type(key_value) :: kind, amplitude, wavelength, wavelength_y, amplitude1, wavelength1, amplitude2, wavelength2
       type(key_value) :: length_x, length_y, amplitudes, waves_x, waves_y, phases
-      type(key_value) :: file2, file2_scale, file2_flip
+      type(key_value) :: file2, file2_scale, file2_flip, file2_missing_value, file2_detrend
       type(key_value) :: file, file_format, missing_value, height_scale, crop_missing, despike, detrend, fill_missing
       type(key_value) :: edges, window_width, short_wavelength, filter, form_radius, form_radius_x, form_radius_y
       type(key_value) :: hurst, anisotropy, rms_height, rms_slope, spectral_density, long_wavelength, rolloff_wavelength

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import names
 from .library import keys, reals
-from .surfaces import Surface, unknown
+from .surfaces import Surface, meanings, slips, unknown
 
 
 def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
@@ -38,8 +38,11 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
             continue
         owners = [group for group, known in others.items() if name in known]
         if len(owners) != 1:
-            raise ValueError(f"several groups have a key '{name}': give one of {', '.join(owners)}={{...}}" if owners
-                             else unknown("key", name, [key for known in others.values() for key in known]))
+            known_keys = [key for known in others.values() for key in known]
+            if not owners:
+                raise ValueError(unknown("key", name, known_keys, meanings(others)))
+            near = "".join(f", or {key}" for key in slips(name, [key for key in known_keys if key != name]))
+            raise ValueError(f"several groups have a key '{name}': give one of {', '.join(owners)}={{...}}{near}")
         if value is not None:
             groups.setdefault(owners[0], {})[name] = value
     return groups

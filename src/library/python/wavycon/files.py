@@ -7,7 +7,7 @@ import os
 import re
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any, cast
 
@@ -32,7 +32,8 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
          **keys_of_maps: names.Unpack[names.Map]) -> Surface:
     """A surface from a file of any format that SurfaceTopography opens, with the sides and the unit of the file.
 
-    channel: name or number, from 0, of one of several in the file. length_unit: to which the file's lengths are
+    channel: name, or number in the file, from 0, of one of several; without it the first one of heights. Channels in
+    degrees, volts and other units that are no lengths are refused. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
     and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
     profile of unequal steps is resampled to equal ones, with a warning. Files .gsf, grids of ESRI and numbers with a
@@ -67,9 +68,11 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     opened = need("SurfaceTopography", "files").open_topography
     if not os.path.isfile(file):
         raise FileNotFoundError(f"{file}: there is no such file")
+    if not os.path.getsize(file):
+        raise ValueError(f"{file}: the file is empty")
     try:
         with opened(os.fspath(file)) as reader:
-            info = choose([one for one in reader.channels if one.unit is None or isinstance(one.unit, str)], channel)
+            info = choose(reader.channels, channel)
             known, are_lines = info.physical_sizes is not None, reader.format() == "asc"
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
             if unit and topography.unit:
@@ -77,6 +80,8 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             x = None if topography.is_uniform else np.asarray(topography.positions())
             sides = map(float, topography.physical_sizes if known else ())
+    except NoHeights as error:
+        raise ValueError(f"{file}: {error}") from None
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
@@ -107,14 +112,44 @@ def reason(error: Exception) -> str:
             "wavycon.file(file=...) reads numbers with commas or semicolons, also below a head in words")
 
 
-def choose(channels: list[Any], channel: str | int | None) -> Any:
-    """One of the channels, by its name or number; the first one of a name, and of all if none is given."""
-    found = {one.name: one for one in reversed(channels)} | dict(enumerate(channels))
-    wanted = 0 if channel is None else channel
-    if wanted in found:
-        return found[wanted]
-    there_are = ", ".join(f"{place} {one.name!r}" for place, one in enumerate(channels))
-    raise ValueError(f"there is no channel {wanted!r}; there are {there_are or 'none of heights'}")
+class NoHeights(Exception):
+    """There is no such channel, or it has no heights."""
+
+
+def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
+    """One of the channels of a file, by its name or number; the first one of a name, and the first one of heights if
+    none is given. Errors: NoHeights."""
+    heights = {place: one for place, one in enumerate(channels) if has_heights(one)}
+    there_are = ", ".join(f"{place} {one.name!r}" for place, one in heights.items()) or "none"
+    if channel is None and heights:
+        return next(iter(heights.values()))
+    named = {place: one for place, one in enumerate(channels) if channel in (None, place, one.name)}
+    if chosen := [one for place, one in named.items() if place in heights]:
+        return chosen[0]
+    if named:
+        words = ", ".join(f"the channel {place} {one.name!r} is in {unit_of(one)!r}" for place, one in named.items())
+        raise NoHeights(f"{words}, which is no length; channels of heights: {there_are}")
+    raise NoHeights(f"there is no channel {channel!r}; channels of heights: {there_are}")
+
+
+def unit_of(channel: Any) -> str | None:
+    """The unit of the values of a channel; None if the file does not tell it."""
+    told = getattr(channel, "data_unit", None) or channel.unit
+    # Some readers tell the units of places and values together.
+    unit: str | None = told[-1] if isinstance(told, tuple) else told
+    return unit
+
+
+def has_heights(channel: Any) -> bool:
+    """Whether the values of a channel, and its sides, are lengths as far as its file tells."""
+    conversion = need("SurfaceTopography.Support.UnitConversion", "files").get_unit_conversion_factor
+    try:
+        for unit in unit_of(channel), channel.unit:
+            if unit and conversion(unit, "m") is None:
+                return False
+    except (TypeError, ValueError):
+        return False
+    return bool(getattr(channel, "is_height_channel", True))
 
 
 @contextlib.contextmanager

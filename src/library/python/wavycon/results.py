@@ -8,7 +8,7 @@ import json
 import os
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import IO, TYPE_CHECKING, Any, NamedTuple, overload
+from typing import IO, TYPE_CHECKING, Any, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -41,7 +41,9 @@ class Named:
     if not TYPE_CHECKING:   # otherwise checkers of types take every name for known
         def __getattr__(self, name: str) -> Any:
             for kind, owner in (Result, "one load has it, such as results[0]"), (Results, "all loads together have it"):
-                if name[0] != "_" and name in [*dir(kind), *getattr(kind, "__dataclass_fields__", ())]:
+                if name[0] == "_":   # which other packages look for
+                    raise AttributeError(f"there is no attribute {name!r}")
+                if name in [*dir(kind), *getattr(kind, "__dataclass_fields__", ())]:
                     raise AttributeError(f"there is no attribute {name!r} here: {owner}")
             raise AttributeError(unknown("attribute", name, (one for one in dir(self) if not one.startswith("_"))))
 
@@ -123,8 +125,9 @@ class Result(Named, Columns[float, str]):
 
     def _live(self, what: str) -> Handle:
         if self._solution is None:
-            raise ValueError(f"'{what}' was not saved: a copy or a file has the tables that were asked for before, and "
-                             "the fields if they were kept")
+            raise ValueError(f"'{what}' was not saved: a copy or a file has no solver, but the tables that were asked "
+                             "for before, and pressure, gap and displacement at x and y if fields were kept. For more "
+                             "write results.deck to a file and solve it by wavycon.run")
         return self._solution
 
     @cached_property
@@ -168,7 +171,7 @@ class Result(Named, Columns[float, str]):
     def fields_at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> dict[str, Array]:
         """Pressure [pressure], gap and displacement [length] at points x, y [length], arrays of one shape. Beyond free
         edges the pressure is 0, and there is no surface: gap and displacement are NaN."""
-        solution, (x, y) = self._live("fields"), same_shape(x, y)
+        solution, (x, y) = self._live("fields_at"), same_shape(x, y)
         fields = {name: np.empty(x.shape) for name in FIELDS}
         call("get_fields", solution, x.size, address(x), address(y), *map(address, fields.values()))
         return fields
@@ -180,7 +183,7 @@ class Result(Named, Columns[float, str]):
         Depths are 0 or more and point into the body, tension is positive. lateral: as the key of &stress. The answer
         has stress, with six components xx, yy, zz, xy, xz, yz along a last axis, stress_error, the estimate of its
         largest error, von_mises, largest_shear, and principal, three along a last axis, the largest first."""
-        solution, places = self._live("stresses"), same_shape(x, y, depth)
+        solution, places = self._live("stresses_at"), same_shape(x, y, depth)
         components: dict[str, tuple[int, ...]] = {"stress": (6,), "stress_error": (), "von_mises": (),
                                                   "largest_shear": (), "principal": (3,)}
         parts = {name: np.empty(places[0].shape + axis) for name, axis in components.items()}
@@ -194,26 +197,63 @@ class Result(Named, Columns[float, str]):
     plot_stress_section = pictures.plot_stress_section
 
 
-class Roughness(NamedTuple):
-    """The surface that was solved: root mean squares, and the table 'spectrum'."""
+class Roughness:
+    """The surface that was solved: its heights, root mean squares, and the table 'spectrum'. Errors: ValueError for
+    what follows from the spectrum with free edges."""
 
-    rms_height: float      # [length]
-    rms_slope: float       # of the size of the gradient
-    rms_curvature: float   # of half the Laplacian [1/length]
-    spectrum: Rows
+    def __init__(self, model: Result) -> None:
+        self._model = model
+
+    @property
+    def spectrum(self) -> Rows:
+        """The table 'spectrum'."""
+        rows = self._model.table("spectrum")
+        if not rows.size:
+            raise ValueError("a surface with free edges has no spectrum, and no roughness by it: nothing repeats it")
+        return rows
+
+    def _of_all_waves(self, name: str) -> float:
+        rows = self.spectrum
+        return float(rows[rows["direction"] == rows["direction"][0]][-1][f"rms_{name}_up_to"])
+
+    @property
+    def rms_height(self) -> float:
+        """[length] Root mean square height over the mean."""
+        return self._of_all_waves("height")
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square of the size of the gradient."""
+        return self._of_all_waves("slope")
+
+    @property
+    def rms_curvature(self) -> float:
+        """[1/length] Root mean square of half the Laplacian."""
+        return self._of_all_waves("curvature")
+
+    @cached_property
+    def heights(self) -> Array:
+        """[length] Heights over their mean that were solved, of two maps their sum, shape (y, x): of a map at its own
+        points, of other surfaces at those of pressure. A saved result has them if they were asked for before."""
+        rows = self._model.table("height")
+        return locked(rows["height"].reshape(-1, np.count_nonzero(rows["y"] == rows["y"][0])).copy())
 
     def __repr__(self) -> str:
-        return (f"Roughness(rms_height={self.rms_height:g}, rms_slope={self.rms_slope:g}, "
-                f"rms_curvature={self.rms_curvature:g}, spectrum: {len(self.spectrum)} rows)")
+        names = "rms_height", "rms_slope", "rms_curvature"
+        with contextlib.suppress(ValueError):
+            return f"Roughness({', '.join(f'{name}={getattr(self, name):g}' for name in names)})"
+        return "Roughness(no spectrum)"
 
 
 class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Result]):
     """The solved loads, in the order in which they were given. Columns of the summary table are arrays over the loads,
-    such as results.contact_area_fraction or results["contact_area_fraction"]; slices are Results. Facts of the scene:
-    e_star, p_star [pressure], amplitude (Delta), length_x, length_y [length], points_x, points_y, dimension, method,
-    why_chosen, pressure_unit, length_unit, deck, the text of the deck that the program runs to the same numbers, units,
-    those of the columns, and notes, a list of what the program's log notes of the surface, the loads and the tables;
-    each was also a warning, wavycon.Note. A copy, also by pickle, has the tables that were asked for and the fields."""
+    such as results.contact_area_fraction or results["contact_area_fraction"]; slices, lists of numbers and masks, such
+    as results[results.mean_gap > 0], choose Results. Facts of the scene: e_star, p_star [pressure], amplitude (Delta),
+    length_x, length_y [length], points_x, points_y, dimension, method, why_chosen, pressure_unit, length_unit, deck,
+    the text of the deck that the program runs to the same numbers (heights in memory must be written to a file first),
+    units, those of the columns, and notes, a list of what the program's log notes of the surface, the loads and the
+    tables; each was also a warning, wavycon.Note. A copy, also by pickle, has the tables that were asked for and the
+    fields."""
 
     def __init__(self, loads: Sequence[Result], facts: Facts, model: Result) -> None:
         """model: a load that has the columns of the tables, where there is none here."""
@@ -226,16 +266,21 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     @overload
     def __getitem__(self, load: int) -> Result: ...
     @overload
-    def __getitem__(self, load: slice) -> Results: ...
+    def __getitem__(self, load: slice | list[int] | list[bool] | npt.NDArray[Any]) -> Results: ...
     @overload
     def __getitem__(self, load: str) -> Rows: ...
 
-    def __getitem__(self, load: int | slice | str) -> Result | Results | Rows:
+    def __getitem__(self, load: int | slice | str | list[int] | list[bool] | npt.NDArray[Any],
+                    ) -> Result | Results | Rows:
         if isinstance(load, str):
             return column(self.table(), load)
         if isinstance(load, slice):
             return Results(self._loads[load], self._facts, self._model)
-        return self._loads[load]
+        if np.ndim(load):
+            # Masks and numbers, as numpy takes them.
+            chosen = np.arange(len(self))[np.asarray(load, dtype=None if np.size(load) else int)]
+            return Results([self._loads[place] for place in chosen], self._facts, self._model)
+        return self._loads[cast(int, load)]
 
     def __contains__(self, one: object) -> bool:
         """Whether there is a column of this name, or this load."""
@@ -267,19 +312,26 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
 
     @cached_property
     def surface(self) -> Roughness:
-        """Root mean square height, slope and curvature of the surface that was solved, and its spectrum.
-        Errors: ValueError with free edges."""
-        rows = self._model.table("spectrum")
-        if not rows.size:
-            raise ValueError("a surface with free edges has no spectrum: nothing repeats it")
-        last = rows[rows["direction"] == rows["direction"][0]][-1]
-        height, slope, curvature = (float(last[f"rms_{name}_up_to"]) for name in ("height", "slope", "curvature"))
-        return Roughness(height, slope, curvature, rows)
+        """The surface that was solved: heights, rms_height, rms_slope, rms_curvature, spectrum."""
+        return Roughness(self._model)
 
-    def to_dataframe(self, table: str = "summary") -> Any:
-        """A table of all loads as a frame of pandas. The units of its columns are in frame.attrs['units']."""
+    def __getstate__(self) -> dict[str, Any]:
+        self._keep_spectrum()
+        return self.__dict__
+
+    def _keep_spectrum(self) -> None:
+        """Makes what copies and files need for `surface`."""
+        with contextlib.suppress(ValueError):   # a copy itself
+            self._model.table("spectrum")
+
+    def to_dataframe(self, table: str = "summary", units: bool = False) -> Any:
+        """A table of all loads as a frame of pandas. The units of its columns are in frame.attrs['units']. units: True
+        for names of columns with their units, such as 'mean_gap [m]', which to_dataframe(units=True).to_csv(file)
+        writes too."""
         frame = need("pandas", "frames").DataFrame(self.table(table))
-        frame.attrs["units"] = {column: self.units[column] for column in frame}
+        if units:
+            frame.columns = [f"{name} [{unit}]" if (unit := self.unit(name)) else name for name in frame]
+        frame.attrs["units"] = dict(zip(frame, map(self.units.__getitem__, self.table(table).dtype.names or ())))
         return frame
 
     def to_xarray(self) -> Any:
@@ -300,7 +352,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     def save(self, file: str | os.PathLike[str] | IO[bytes], fields: bool = True) -> None:
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to a file .npz or, with
         h5py, .h5 or .hdf5. It appears whole or not at all, and replaces no other kind of file. Tables with commas are
-        those of to_dataframe().to_csv."""
+        those of to_dataframe(units=True).to_csv."""
+        self._keep_spectrum()
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
         for number, one in [(one._load, one) for one in self] or [(MODEL, self._model)]:
@@ -312,8 +365,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         path = os.fspath(file)
         if not path.endswith((".npz", *HDF5)):
             if (ending := os.path.splitext(path)[1]) and not ending[1:].isdigit():
-                raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; to_dataframe().to_csv() "
-                                 "writes tables with commas")
+                raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; "
+                                 "to_dataframe(units=True).to_csv() writes tables with commas")
             path += ".npz"
         with written(path, b"\x89HDF" if path.endswith(HDF5) else b"PK") as opened:
             if path.endswith(".npz"):

@@ -5,6 +5,7 @@ module wavycon_height_map_kind
    use wavycon_formula_kinds, only: radii_of
    use wavycon_grid_slab, only: grid_slab
    use wavycon_height_map, only: surface_of_map
+   use wavycon_key_group, only: key_value
    use wavycon_kinds, only: dp
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
@@ -37,10 +38,10 @@ contains
       character(:), allocatable :: path, path2, unit
 
       unit = values%deck_unit
-      call read_map(values, values%file%text, unit, heights, path, error)
+      call read_map(values, values%file%text, values%missing_value, unit, heights, path, error)
       if (.not. allocated(error)) then
          if (values%file2%is_given) then
-            call read_map(values, values%file2%text, unit, second, path2, error)
+            call read_map(values, values%file2%text, values%file2_missing_value, unit, second, path2, error)
             ! The scale of a map without a unit is none of a map whose file has units.
             if (.not. values%file2_scale%is_given .and. &
                 (allocated(heights%length_unit) .neqv. allocated(second%length_unit))) &
@@ -62,16 +63,20 @@ contains
          if (allocated(second%length_unit) .and. .not. (allocated(heights%length_unit) .or. &
                                                         values%height_scale%is_given)) map%without_unit = path
       end if
-      map%lacks_missing_value = values%missing_value%is_given .and. &
-                                .not. (heights%has_missing_value .or. second%has_missing_value)
+      associate (own => values%file2_missing_value%is_given)
+         map%lacks_missing_value = (own .and. .not. second%has_missing_value) .or. &
+                                   (values%missing_value%is_given .and. &
+                                    .not. (heights%has_missing_value .or. (second%has_missing_value .and. .not. own)))
+      end associate
       if (unit /= '' .and. (allocated(heights%length_unit) .or. allocated(second%length_unit))) map%length_unit = unit
    end subroutine surface_of_file
 
    !> Reads the height map of a file, which is beside the deck or, if not, in the directory where the program was
    !> started. Errors: those of read_height_map and convert_lengths.
-   subroutine read_map(values, file, unit, heights, path, error)
+   subroutine read_map(values, file, missing, unit, heights, path, error)
       type(surface_group), intent(in) :: values            !! the values of &surface
       character(*), intent(in) :: file                     !! name of the file as the deck gives it
+      type(key_value), intent(in) :: missing               !! the height that stands for a missing one, if in effect
       !> The deck's unit of lengths; empty if it is unknown. It is then the unit of the file on exit, if that names one.
       character(:), allocatable, intent(inout) :: unit
       type(measured_map), intent(out) :: heights
@@ -85,7 +90,7 @@ contains
       if (path_kind(path) == path_absent) then
          if (path_kind(file) /= path_absent) path = file
       end if
-      if (values%missing_value%is_given) missing_value = values%missing_value%number
+      if (missing%in_effect) missing_value = missing%number
       ! To fill holes, to crop borders and to find spikes each rank needs the whole map; otherwise the map is read in
       ! slabs, one for each rank.
       call read_height_map(path, values%file_format%text, heights, error, missing_value, &
@@ -165,7 +170,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: assumed_sides, unused
-      type(map_preparation) :: preparation, preparation_of_sum
+      type(map_preparation) :: preparation, preparation2, preparation_of_sum
       real(dp) :: sides(2, 2)
       integer :: points(2, 2)
       type(grid_slab) :: slab
@@ -190,12 +195,14 @@ contains
          return
       end if
       preparation = preparation_of(values)
+      preparation2 = preparation
+      preparation2%detrend = values%file2_detrend%text
       allocate (two_maps(2))
       call surface_of_map(source, preparation, values%height_scale%number, sides(:, 1), first, statistics=map, &
                           error=error)
       if (allocated(error)) return
       two_maps(1) = map
-      call surface_of_map(source2, preparation, values%file2_scale%number, sides(:, 1), second, statistics=map, &
+      call surface_of_map(source2, preparation2, values%file2_scale%number, sides(:, 1), second, statistics=map, &
                           error=error)
       if (allocated(error)) return
       two_maps(2) = map
@@ -210,6 +217,8 @@ contains
       if (allocated(error)) return
       map%assumed_sides = assumed_sides
       map%changes%map_preparation = preparation
+      ! A remedy of the sum's borders is the trend of the map that still has one.
+      if (all(preparation2%detrend /= ['plane    ', 'quadratic'])) map%changes%detrend = preparation2%detrend
       if (preparation%despike) map%spikes = 0
 
    contains
