@@ -15,6 +15,8 @@ FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even fil
           "mirrored file": 1e-2}
 FINEST_OF_OTHERS = 3e-3
 COARSEST = 1e-1
+# Loads about the one at which spots merge, P.
+MERGING = {"wave_2d": (0.22, 0.24), "hexagonal": (0.28, 0.34)}
 # Maps with a hardness, and what they have besides VALUES.
 LOAD_OVER_HARDNESS = (0.05, 0.95)
 OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
@@ -46,6 +48,15 @@ def grid_case(stream, kind):
 
 def fitted_case(stream, kind):
     return random_case(stream, kind, "fitted")
+
+
+def merging_case(stream, kind):
+    """The files of a lattice next to the load at which its spots merge, on grids, and by 'fitted'."""
+    accuracy = 10.0**stream.uniform(-4.0, -3.0)
+    loads = [stream.uniform(*MERGING[kind]) for _ in range(20)]
+    return [{"deck.nml": f"&surface kind = '{kind}' /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
+                         f"&method {method} /\n"}
+            for method in (f"solver = 'grid', accuracy = {accuracy!r}", "solver = 'fitted', accuracy = 1e-8")]
 
 
 def map_case(stream, kind):
@@ -162,12 +173,14 @@ def ratios_of(row, truth, names):
 
 
 def campaign(settings, work):
-    """Scenes of each kind with each solver for it, maps with a hardness, and surfaces with free edges."""
+    """Scenes of each kind with each solver for it, lattices next to merging, maps with a hardness, and surfaces with
+    free edges."""
     part = settings.part("error estimates")
     kinds, scenes, rare = settings.amount((KINDS, 5, 300), (QUICK, 1, 6))
     for solver, case, kinds_of_it, number, values in (
             ("grid", grid_case, kinds, scenes, VALUES),
             ("fitted", fitted_case, [kind for kind in kinds if kind in FITTED], scenes, VALUES),
+            ("grid next to merging", merging_case, tuple(MERGING), scenes, VALUES),
             ("grid of a map's points", map_case, ("elastic",), rare, VALUES),
             ("grid with a hardness", map_case, ("hard",), rare, VALUES + OF_HARDNESS),
             ("grid with free edges", free_case, ("free edges", "patch"), rare, OF_FREE_EDGES),

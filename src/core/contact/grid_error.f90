@@ -2,8 +2,8 @@
 !>
 !> Each estimate is the largest of three: that from the changes over the last three grids (C14); that from features
 !> which the grid does not resolve, as their error does not show in the changes (C15), (C16); and, for mean gap and peak
-!> pressure, that from the error of the area (C17). README.md in this directory has the equations and tells how many of
-!> the estimates hold. None is a bound.
+!> pressure, that from the error of the area (C17), (C17a). README.md in this directory has the equations and tells how
+!> many of the estimates hold. None is a bound.
 module wavycon_grid_error
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
@@ -32,18 +32,25 @@ module wavycon_grid_error
 contains
 
    !> Estimates the errors of mean gap [Delta], contact area fraction and peak pressure [p*] on the last grid.
-   function estimate_errors(history, surface, edge, bend) result(errors)
+   function estimate_errors(history, surface, mean_pressure, edge, bend) result(errors)
       type(change_history), intent(in) :: history   !! values on the grids up to the last one
       type(surface_type), intent(in) :: surface
+      real(dp), intent(in) :: mean_pressure      !! P, > 0
       type(grid_edge), intent(in) :: edge        !! pressures and gaps on the last grid
       real(dp), intent(in) :: bend               !! bend of (C16) [p*], from grid_peak_pressure
       real(dp) :: errors(3)
+
+      real(dp) :: displacement   ! 2 l P/E* of (C17a) [Delta]
 
       errors = max(history%errors(), unresolved_errors(surface, edge, bend))
       if (surface%has_free_edges) then
          errors = max(errors, least_of_area*errors(2)/max(history%values(2), tiny(1.0_dp))*history%values)
       else
-         errors = max(errors, implied_errors(surface%dimension, history%values, errors(2)))
+         ! Only the saddles of even waves lie alike in all grids.
+         displacement = 0.0_dp
+         if (edge%even .and. .not. (surface%is_height_map() .or. surface%kernel%has_layer())) &
+            displacement = mean_pressure/minval(edge%stiffness(:surface%dimension))
+         errors = max(errors, implied_errors(surface%dimension, history%values, errors(2), displacement))
       end if
    end function estimate_errors
 
@@ -138,12 +145,13 @@ contains
       peak = hertz_peak(surface%dimension)*unresolved_width*maxval(step)*surface%stiffness*surface%crest_curvature
    end function unresolved_peak
 
-   !> The least errors that mean gap and peak pressure can have, from the error of the area (C17). The changes of both
-   !> may be small by chance.
-   pure function implied_errors(dimension, values, area_error) result(errors)
+   !> The least errors that mean gap and peak pressure can have, from the error of the area (C17), (C17a). The changes
+   !> of both may be small by chance, and next to merging those of several grids are small at the same loads.
+   pure function implied_errors(dimension, values, area_error, displacement) result(errors)
       integer, intent(in) :: dimension       !! 1 or 2
       real(dp), intent(in) :: values(3)      !! mean gap [Delta], contact area fraction, peak pressure [p*]
       real(dp), intent(in) :: area_error     !! error estimate of the area
+      real(dp), intent(in) :: displacement   !! 2 l P/E* of the longer step l [Delta]
       real(dp) :: errors(3)                  !! errors of the same values; zero for the area
 
       !> Near full contact the mean gap is proportional to this power of the open part, in 1-D and 2-D: eqs. (20), (30)
@@ -156,6 +164,7 @@ contains
       associate (gap => values(1), area => values(2), peak => values(3))
          if (.not. min(area, open_part) > 0.0_dp) return
          errors = least_of_area*area_error*[min(gap, 1.0_dp - gap)/min(area, open_part), 0.0_dp, peak/area]
+         errors(1) = max(errors(1), open_part*displacement/area*area_error/area)
          ! If only a few points are open the true gap may be much larger than on the grid, where it may even be zero.
          if (area_error >= open_part) errors(1) = max(errors(1), area_error**2, &
             gap*((1.0_dp + area_error/open_part)**closing_power(dimension) - 1.0_dp))

@@ -205,7 +205,7 @@ contains
    end function energy_of
 
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
-   !> estimates (C14) to (C17). With a hardness the area is at least P/H, the smallest area that carries the load; its
+   !> estimates (C14) to (C17a). With a hardness the area is at least P/H, the smallest area that carries the load; its
    !> error is estimated before this bound is applied, because the bound would hide changes. The area's error is unknown
    !> where (C12) gives no area although there is contact. The area at which p = H is measured in the same way. On
    !> return answer%state%gap is not allocated: answer%edge has taken over its memory.
@@ -246,7 +246,7 @@ contains
       answer%value(peak_pressure) = min(answer%value(peak_pressure), surface%hardness)
       call answer%history%push(answer%main_values(surface))
       errors = unknown
-      if (estimated) errors = estimate_errors(answer%history, surface, answer%edge, bend)
+      if (estimated) errors = estimate_errors(answer%history, surface, mean_pressure, answer%edge, bend)
       associate (p => answer%edge%pressure_or_gap)
          has_corners = ends_at_corners(surface, p)
          if (surface%has_steps) then
