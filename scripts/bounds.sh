@@ -44,7 +44,7 @@ set xlabel 'time [s]'
 # Decades that hold the times of this machine, at least these.
 set xrange [*<1e-3:1<*]
 set yrange [1e-10:1]
-set multiplot layout 1, 2 margins 0.1, 0.985, 0.16, 0.9 spacing 0.1
+set multiplot layout 1, 2 margins 0.1, 0.965, 0.16, 0.9 spacing 0.1
 do for [deck in 'bounds bounds_rough'] {
    table = 'outputs/bounds/'.deck.'.width.dat'
    set title deck eq 'bounds' ? 'wave, '.p_bar.' = 0.2 '.p_star : 'rough, '.p_bar.' = 0.02 '.p_star

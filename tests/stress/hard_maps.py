@@ -2,7 +2,7 @@
 from common import rough_map
 from random_scenes import Scene
 
-KINDS = ("spike", "plateaus", "equal crests", "nearly equal crests", "step", "checkerboard", "noise", "raw profile")
+KINDS = ("spike", "plateaus", "equal crests", "nearly equal crests", "step", "checkerboard", "noise")
 QUICK = ("spike", "plateaus", "checkerboard")  # for the short form
 # Rows and columns: even, odd, of unlike sides, and profiles. The check sums over all pairs of points.
 SIZES = ((48, 40), (37, 51), (32, 32), (33, 48), (16, 64), (1, 100), (1, 49))
@@ -13,8 +13,6 @@ def hard_scene(stream, kind):
     """A random map of a kind."""
     rows, columns = stream.choice(SIZES)
     length = stream.uniform(0.5, 2.0)
-    if kind == "raw profile":
-        rows, columns = 1, 4000
     heights = MAPS[kind](stream, rows, columns)
     if rows > 1 and stream.random() < 0.5:
         heights = [list(column) for column in zip(*heights)]
@@ -96,13 +94,5 @@ def noise(stream, rows, columns):
     return [[value + part*stream.gauss(0.0, 1.0) for value in row] for row in waves(stream, rows, columns)]
 
 
-def raw_profile(stream, rows, columns):
-    """A random walk that ends where it began: long waves, and each point at a height of its own."""
-    walk = [0.0]
-    for _ in range(columns):
-        walk.append(0.9999*walk[-1] + stream.gauss(0.0, 1.0))
-    return [[walk[i] - walk[-1]*i/columns + stream.gauss(0.0, 1.0) for i in range(columns)] for _ in range(rows)]
-
-
 MAPS = {"spike": spike, "plateaus": plateaus, "equal crests": equal_crests, "nearly equal crests": nearly_equal_crests,
-        "step": step, "checkerboard": checkerboard, "noise": noise, "raw profile": raw_profile}
+        "step": step, "checkerboard": checkerboard, "noise": noise}

@@ -1,6 +1,6 @@
 !> Solves random quadratic programmes with known solutions by Beale's method, by the dual method, and by passing from
-!> the programme of Beale's method to the random one, and checks the results. Prints a line for each case, of the last
-!> way.
+!> the programme of Beale's method to the random one, and checks the results. Prints a line for each case: the verdict
+!> on Beale's method, and verdict and numbers of the last way.
 !>
 !> N.B. Beale's method starts at x = 0, so that it needs b <= 0. It gets min(b, 0): another programme, whose solution is
 !> not known but checked all the same.
@@ -44,7 +44,7 @@ contains
       type(qp_solution) :: solution
       type(random_stream) :: stream
       type(recipe_type) :: recipe
-      character(7) :: verdict
+      character(7) :: verdict, verdict_of_beale
       integer :: way
       logical :: is_known
       real(dp) :: error, seconds
@@ -58,8 +58,8 @@ contains
          if (recipe%kind == nearly_parallel) recipe%twist_bits = max(8, recipe%twist_bits - 1)
       end do
 
-      verdict = 'passed'
       do way = by_beale, by_passing
+         verdict = 'passed'
          problem = programme%problem
          if (way == by_beale) problem%bounds = min(problem%bounds, 0.0_dp)
          call solve(problem, way, solution, seconds)
@@ -73,10 +73,11 @@ contains
          else if (kkt%worst() > promised_residual) then
             verdict = 'wrong'
          end if
-         if (verdict /= 'passed') exit
+         if (way == by_beale) verdict_of_beale = verdict
+         if (way /= by_beale .and. verdict /= 'passed') exit
       end do
-      write (*, '(i0, "|", a, 4("|", i0), 2("|", a), 7("|", es10.2e3), "|", i0, "|", f0.3)') case, &
-         trim(kind_names(recipe%kind)), recipe%n, recipe%m, recipe%pushing, recipe%twist_bits, &
+      write (*, '(i0, "|", a, 4("|", i0), 3("|", a), 7("|", es10.2e3), "|", i0, "|", f0.3)') case, &
+         trim(kind_names(recipe%kind)), recipe%n, recipe%m, recipe%pushing, recipe%twist_bits, trim(verdict_of_beale), &
          trim(status_name(status_of_programme(solution%status))), trim(verdict), programme%condition, &
          kkt%stationarity, kkt%feasibility, kkt%sign, kkt%complementarity, error, solution%kkt_residual, &
          solution%pivots, seconds

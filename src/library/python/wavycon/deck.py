@@ -41,7 +41,7 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
             known_keys = [key for known in others.values() for key in known]
             if not owners:
                 raise ValueError(unknown("key", name, known_keys, meanings(others)))
-            near = "".join(f", or {key}" for key in slips(name, [key for key in known_keys if key != name]))
+            near = "".join(f", or {key}" for key in sorted(slips(name, [key for key in known_keys if key != name])))
             raise ValueError(f"several groups have a key '{name}': give one of {', '.join(owners)}={{...}}{near}")
         if value is not None:
             groups.setdefault(owners[0], {})[name] = value

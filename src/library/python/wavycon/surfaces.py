@@ -2,9 +2,9 @@
 from __future__ import annotations
 
 import dataclasses
+import difflib
 import functools
 import inspect
-import itertools
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -18,7 +18,7 @@ from .library import keys
 
 FEW = 30          # names that a message lists
 MOST = 3          # names that a message proposes
-LONGEST = 40      # letters of a name that is compared with others: more would take long
+CLOSE = 0.75      # least similarity of names, by difflib, that differ by slips
 SHORTEST = 3, 4   # letters of a part of a name, and of a word of a meaning, that is looked for
 # Keys that each of two maps has for itself: the key of the second one, and its value if none is given.
 OF_SECOND = {"height_scale": ("file2_scale", 1.0), "detrend": ("file2_detrend", "none")}
@@ -130,7 +130,7 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
     beginning; those whose meanings have its rarest word."""
     low = name.lower()
     words = [word for word in low.split("_") if word]
-    if not words or len(name) > LONGEST:
+    if not words:
         return []
 
     def with_words(is_same: Callable[[str, str], bool]) -> list[str]:
@@ -140,8 +140,8 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
         return sorted(have, key=lambda one: (not is_same(words[-1], split[one][-1]), len(one)))[:1]
 
     is_long = len(low) >= SHORTEST[0]
-    if near := (with_words(str.__eq__) if is_long else []) or slips(name, names) or with_words(
-            lambda word, part: distance(word, part) <= len(word)//4):
+    if near := (with_words(str.__eq__) if is_long else []) or slips(name, names)[:1] or with_words(
+            lambda word, part: bool(slips(word, [part]))):
         return near[:MOST]
     if is_long and (parts := [one for one in names if low in one.lower()]):
         return [min(parts, key=lambda one: (not one.lower().startswith(low), len(one)))]
@@ -152,27 +152,6 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
 
 
 def slips(name: str, names: Iterable[str]) -> list[str]:
-    """The nearest of the names, if at most a quarter of the letters are wrong, but one letter always may be."""
-    if not 0 < len(name) <= LONGEST:
-        return []
-    far = {one: distance(name.lower(), one.lower()) for one in names if abs(len(one) - len(name)) <= len(name)//4 + 2}
-    least = min(far.values(), default=np.inf)
-    return [one for one, number in far.items() if number == least <= max(1, len(name)//4) and least < len(one)]
-
-
-def distance(one: str, other: str) -> float:
-    """The least number of letters to insert, to leave out, to change or to swap with the next one that makes one name
-    of another; an underscore to insert or to leave out counts half."""
-    far = [[0.0]*(len(other) + 1) for _ in range(len(one) + 1)]
-    for i, j in itertools.product(range(len(one) + 1), range(len(other) + 1)):
-        steps = []
-        if i:
-            steps.append(far[i - 1][j] + (0.5 if one[i - 1] == "_" else 1))
-        if j:
-            steps.append(far[i][j - 1] + (0.5 if other[j - 1] == "_" else 1))
-        if i and j:
-            steps.append(far[i - 1][j - 1] + (one[i - 1] != other[j - 1]))
-        if i > 1 and j > 1 and one[i - 2:i] == other[j - 2:j][::-1]:
-            steps.append(far[i - 2][j - 2] + 1)
-        far[i][j] = min(steps, default=0.0)
-    return far[-1][-1]
+    """The names, nearest first, of which few letters are wrong or swapped."""
+    low = {one.lower(): one for one in names}
+    return [low[one] for one in difflib.get_close_matches(name.lower(), low, MOST, CLOSE)]
