@@ -14,6 +14,7 @@
 /* Defined in written_file.c and system.c. */
 void wavycon_print(const char *text);
 void wavycon_note_kept(const char *words);
+void wavycon_handle_signals(void);
 
 /* Elements of the array of jobs, more than most_waiting of run_program.f90: a job has an element until it is shown. And
    the number of output streams of a process. */
@@ -36,6 +37,7 @@ int wavycon_begin_job(int number)
     for (int i = 0; i < streams; i++)
         if ((job->files[i] = tmpfile()) == NULL)
             return -1;
+    wavycon_handle_signals();
     /* Signals wait until a new process has its own output and says nothing of the jobs. */
     sigset_t all, before;
     sigfillset(&all);

@@ -78,7 +78,7 @@ static void note(char *text, size_t size, const char *words)
 
 /* Installs the handler for the signals that interrupt the program. Signals that the process ignores (nohup) stay
    ignored. */
-static void handle_signals(void)
+void wavycon_handle_signals(void)
 {
     static const int numbers[] = {SIGHUP, SIGINT, SIGTERM};
     for (size_t i = 0; i < sizeof numbers/sizeof numbers[0]; i++) {
@@ -90,11 +90,11 @@ static void handle_signals(void)
     }
 }
 
-/* Sets the words that tell a user what is kept. */
+/* Sets the words that tell a user what is kept, from the first file or job on. Without these a rank that is ended, because
+   another one failed, has nothing to tell. */
 void wavycon_note_kept(const char *words)
 {
     note(kept, sizeof kept, words);
-    handle_signals();
 }
 
 /* From now on a signal that interrupts the program removes this file, until the file is renamed or removed. Only the
@@ -102,7 +102,7 @@ void wavycon_note_kept(const char *words)
 void wavycon_remove_when_interrupted(const char *path)
 {
     note(unfinished, sizeof unfinished, path);
-    handle_signals();
+    wavycon_handle_signals();
 }
 
 /* Renames a file. Returns 0 on success, else errno. */
