@@ -90,8 +90,8 @@ void wavycon_handle_signals(void)
     }
 }
 
-/* Sets the words that tell a user what is kept, from the first file or job on. Without these a rank that is ended, because
-   another one failed, has nothing to tell. */
+/* Sets the words that tell a user what is kept, from the first file or job on. A rank without either, which is ended
+   because another one failed, has nothing to tell. */
 void wavycon_note_kept(const char *words)
 {
     note(kept, sizeof kept, words);
