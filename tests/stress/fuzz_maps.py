@@ -21,7 +21,7 @@ LARGE_SECONDS = 30.0  # limit for a map of a hundred megabytes, which takes 3 s 
 LARGEST = 1e90
 LOG_TOLERANCE = 1e-5  # of the numbers of the log, which have six digits
 # Errors of a file or of a map as a whole, which have no line.
-WITHOUT_LINE = re.compile(r"there are no numbers|a map of \d+ x \d+ points|the heights over their mean"
+WITHOUT_LINE = re.compile(r"there are no numbers|the file is empty|a map of \d+ x \d+ points|the heights over their mean"
                           r"|there is no such file|this is a (directory|pipe)|cannot be (opened|read)"
                           r"|there is not (?:the|enough) memory|this is no text|(\d+ of \d+|all) heights are missing|the grid of these points"
                           r"|by its name this is an? (compressed file|picture|file of|archive|spreadsheet)")
