@@ -15,7 +15,7 @@ EACH_REFUSED = 5000
 # solved 16 of these.
 EACH_REFUSED_BY_BEALE = 500
 # Below this load Beale's method may end without a minimum if all harmonics are free, which the status tells. Of 2,196
-# loads these were three of 1e-12 p*.
+# loads these were two or three of 1e-12 p*, as the processor rounds.
 LIGHT = 1e-11
 FIELDS = ("case", "kind", "n", "m", "pushing", "twist_bits", "beale", "status", "verdict", "condition",
           "stationarity", "feasibility", "sign", "complementarity", "error", "own_residual", "pivots", "seconds")

@@ -7,7 +7,7 @@ module wavycon_collected_table
    use wavycon_file_bytes, only: read_file
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
-   use wavycon_memory_table, only: column_list
+   use wavycon_memory_table, only: column_list, column_type, longest_column
    use wavycon_output_file, only: blank_mark, output_file, table_mark
    use wavycon_plain_text, only: escaped, lower_case, newline, replaced
    use wavycon_scene, only: scene_type
@@ -149,7 +149,9 @@ contains
 
       character :: blank   ! stands for the blanks within words
       character(:), allocatable :: line, names, units
+      character(longest_column), allocatable :: general(:)   ! units of the summary's columns by their general names
       integer, allocatable :: columns(:), width(:)
+      type(column_type), allocatable :: common(:), own(:)    ! columns with the units of all summaries; of one
       type(collected_deck), allocatable :: solved(:)   ! the decks that have a summary
       type(output_file) :: file
       integer :: d, k
@@ -170,12 +172,18 @@ contains
       end do
       names = ''
       units = ''
-      associate (summary => column_list(summary_columns()))
-         do k = 1, size(summary)
-            names = names//' '//trim(summary(k)%name)
-            units = units//' '//common_unit(solved, k, '['//trim(summary(k)%unit)//']')
-         end do
-      end associate
+      common = column_list(summary_columns())
+      general = common%unit
+      do d = 1, size(solved)
+         own = column_list(solved(d)%units)
+         if (size(own) /= size(common)) cycle   ! of another version, which --resume has kept
+         if (d == 1) common%unit = own%unit
+         where (own%unit /= common%unit) common%unit = general
+      end do
+      do k = 1, size(common)
+         names = names//' '//trim(common(k)%name)
+         units = units//' ['//trim(common(k)%unit)//']'
+      end do
       if (size(solved) > 0) names = solved(1)%names
       if (has_commas(path)) then
          blank = blank_mark
@@ -225,29 +233,6 @@ contains
       end function cell
 
    end subroutine write_collected_table
-
-   !> The unit of a column in all summaries; where they differ a general name.
-   pure function common_unit(decks, column, general) result(unit)
-      type(collected_deck), intent(in) :: decks(:)   !! with their lines of units
-      integer, intent(in) :: column                  !! number of the column in the summary
-      character(*), intent(in) :: general            !! general name of its unit, in brackets
-      character(:), allocatable :: unit
-
-      character(:), allocatable :: rest
-      integer :: d, k
-
-      unit = general
-      do d = 1, size(decks)
-         rest = adjustl(decks(d)%units)
-         do k = 2, column
-            rest = adjustl(rest(index(rest, ' '):))
-         end do
-         rest = rest(:index(rest//' ', ' ') - 1)
-         if (d == 1) unit = rest
-         if (rest /= unit) unit = general
-         if (rest /= unit) return
-      end do
-   end function common_unit
 
    !> Whether the name of a table asks for commas.
    pure logical function has_commas(path)
