@@ -51,3 +51,8 @@ build_all() {
       : >"$no_mpi"
    fi
 }
+
+# python_with_numpy: prints the name of a Python with NumPy, which is installed into build/peers if necessary.
+python_with_numpy() {
+   python3 "$root/tests/bench/peer_install.py" "$build/peers"
+}
