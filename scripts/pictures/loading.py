@@ -132,7 +132,7 @@ def with_errors(picture, shown, runs, entries, beside, joined=True, also=lambda 
     entries += [entry("points ls 41", "not solved")]*any(code > NOT_ACCURATE for code in codes)
     # Heights of title and key in points: the names of several runs may need two rows.
     title_high, key_high = (28, 24*(len(entries) > 0)) if picture.alone else (0, 40)
-    picture.grid(180, 195, len(panels), gaps=(80, 0), room=(70, 10, 67, title_high + key_high + 10))
+    picture.grid(180, 195, len(panels), gaps=(80, 0), room=(70, 16, 67, title_high + key_high + 10))
     for n, (found, y, rows) in enumerate(panels):
         curves = list(beside(n, load, x, found))
 
@@ -187,7 +187,9 @@ def theory(picture):
         most, up_to = (2.0, None) if column.startswith("peak") else (1.0, 1.0)
         numbers = [0.0] + [number for form in found for number in table.column(form) if 0 <= number <= most]
         y = Axis.of(numbers, label, may_be_wide=x.wide and "gap" not in column, up_to=up_to)
-        drawn = [(f"lines ls {k}", table, form, FORMS[form]) for k, form in enumerate(found, 31)]
+        # Between few loads a line is no closed form: marks show where its numbers are.
+        look = "lines ls {}" if len(loads) > MANY else "linespoints ls {} pt 7 ps 0.4*mark"
+        drawn = [(look.format(k), table, form, FORMS[form]) for k, form in enumerate(found, 31)]
         if solved:
             drawn.append(("lines ls 36 lw 2.5" if len(loads) > MANY else "points ls 11", solved, column, "solved"))
         picture.panel(n, x, y, [
