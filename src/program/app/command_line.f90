@@ -68,8 +68,8 @@ contains
       call keys%add(options%keep_going, key_type(logical_value, '--keep-going', '.false.', '', &
          'a bad deck does not keep the others from being run'))
       call keys%add(options%resume, key_type(logical_value, '--resume', '.false.', '', &
-         'continue an interrupted run, to the same tables. Loads that were solved on grids are read from '// &
-         '<case>.checkpoint; loads of the other solvers are fast and are solved again'))
+         'continue an interrupted run, to the same tables. Decks that are done are kept. Loads that were solved on '// &
+         'grids are read from <case>.checkpoint; loads of the other solvers are fast and are solved again'))
       call keys%add(options%jobs, key_type(integer_value, '--jobs', '1', 'N', &
          'run N decks at a time, each in a process of its own; 1 if not given', 1, most_processes))
       call keys%add(options%threads, key_type(integer_value, '--threads', '1', 'N', &

@@ -5,6 +5,7 @@ module wavycon_run_program
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
    use, intrinsic :: iso_fortran_env, only: error_unit, int64
    use wavycon_check_scene, only: check_scene
+   use wavycon_checkpoint, only: remove_done
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, make_help, read_command_line
    use wavycon_deck_text, only: deck_text_type, read_deck_text
@@ -213,6 +214,11 @@ contains
       call share_error(error)
       if (allocated(error)) worst = max(worst, error%status)
       call show(error)
+      if (.not. allocated(error) .and. size(scenes) > 1 .and. is_first_rank()) then
+         do i = 1, size(scenes)
+            if (scenes(i)%is_written) call remove_done(scenes(i)%stem)
+         end do
+      end if
       if (.not. keep_going .or. quiet) return
       call separate(size(scenes) + 1, quiet)
       call say(integer_text(size(scenes))//' decks: '// &
@@ -230,11 +236,16 @@ contains
          type(results_type) :: results
 
          call separate(i, quiet)
-         call run_scene(scenes(i)%scene, quiet, command_line%options%resume%is_true, results, status, error)
+         call run_scene(scenes(i)%scene, quiet, command_line%options%resume%is_true, size(scenes) > 1, results, &
+                        status, error)
          if (allocated(error)) status = error%status
          ! Without --quiet the log says so.
-         if (status == exit_not_converged .and. quiet .and. is_first_rank()) &
+         if (status /= exit_not_converged .or. .not. quiet .or. .not. is_first_rank()) return
+         if (allocated(results%loads)) then
             write (error_unit, '(a)') 'wavycon: '//outcome(results)
+         else
+            write (error_unit, '(a)') 'wavycon: '//scenes(i)%case//': done before, with loads NOT solved as requested'
+         end if
       end subroutine run_one
 
       !> Waits for the job of a scene, a process of its own, and prints its output. Meanwhile jobs of the following

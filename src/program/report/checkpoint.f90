@@ -1,9 +1,10 @@
-!> <case>.checkpoint: the loads solved so far, for --resume. The file is removed when the tables are written.
+!> <case>.checkpoint: the loads solved so far, for --resume. The file is removed when the tables are written. Where the
+!> deck is one of several, a checkpoint that says that this deck is done stays until the run ends.
 !>
 !> Only solutions that take long are written (contact_solution%is_kept); the others are fast to solve again. The file
 !> begins with a mark and a line feed. Records follow, each as the number of its 8-byte words, the words and their
-!> checksum. The first record is a text that describes what is solved, each further one is a solution. A last record
-!> that an interruption cut short is ignored.
+!> checksum. The first record is a text that describes what is solved, each further one is a solution, or 0 and the
+!> exit status of a deck that is done. A last record that an interruption cut short is ignored.
 !>
 !> Two runs of the same case do not mix their records: each run writes to a file of its own, which a later run replaces
 !> as a whole.
@@ -28,10 +29,11 @@ module wavycon_checkpoint
    implicit none (type, external)
    private
 
-   public :: checkpoint_file, checkpoint_name, read_checkpoints
+   public :: checkpoint_file, checkpoint_name, read_checkpoints, remove_done
 
    !> In place of the number of a rank: the run's work is not shared, and the checkpoint's name has no number.
    integer, parameter :: alone = -1
+   character(*), parameter :: ending = '.checkpoint'
    character(*), parameter :: mark = 'wavycon checkpoint 10'//newline
    integer, parameter :: bytes_of_word = 8
    !> The end of all messages about a checkpoint that cannot be used.
@@ -48,7 +50,7 @@ module wavycon_checkpoint
    contains
       procedure :: create
       procedure :: add
-      procedure :: remove
+      procedure :: finish
    end type checkpoint_file
 
 contains
@@ -65,7 +67,7 @@ contains
       owner = alone
       if (results%sharing%is_shared) owner = results%sharing%rank
       if (present(number)) owner = number
-      name = results%scene%directory//'/'//results%scene%case//'.checkpoint'
+      name = results%scene%directory//'/'//results%scene%case//ending
       if (owner /= alone) name = name//'.'//integer_text(owner)
    end function checkpoint_name
 
@@ -133,15 +135,37 @@ contains
       end if
    end subroutine add
 
-   !> Removes the checkpoint after the tables are written. If the file has another size than this run has written,
-   !> another run has replaced it meanwhile, and it stays.
-   subroutine remove(self)
+   !> Ends the checkpoint after the tables are written: removes it, or replaces it by one that says that the deck is
+   !> done. If the file has another size than this run has written, another run has replaced it meanwhile, and it stays.
+   subroutine finish(self, results, status, says_done)
       class(checkpoint_file), intent(inout) :: self
+      type(results_type), intent(in) :: results
+      integer, intent(in) :: status      !! exit status of the deck
+      logical, intent(in) :: says_done   !! whether a checkpoint that says so stays, until remove_done
 
-      call note_kept(c_null_char)
+      integer(int64) :: bytes
+
+      bytes = self%bytes
       call close_file(self)
-      if (file_size(self%name) == self%bytes) call remove_file(self%name)
-   end subroutine remove
+      if (file_size(self%name) == bytes) then
+         if (says_done .and. results%sharing%is_first) then
+            call self%create(results, spread(.false., 1, size(results%loads)))
+            call put(self, [0_int64, int(status, int64)])
+            call close_file(self)
+         else
+            call remove_file(self%name)
+         end if
+      end if
+      call note_kept(c_null_char)
+   end subroutine finish
+
+   !> Removes the checkpoint that says that a deck is done.
+   subroutine remove_done(stem)
+      character(*), intent(in) :: stem   !! <directory>/<case>
+
+      call remove_file(stem//ending)
+      call remove_file(stem//ending//'.0')
+   end subroutine remove_done
 
    !> Closes the file. Nothing is written to it afterwards.
    subroutine close_file(self)
@@ -202,10 +226,11 @@ contains
 
    !> Reads the solutions of an interrupted run, which may have had another number of ranks, from all its checkpoints.
    !> Errors: exit_bad_input for a damaged checkpoint and for the checkpoint of another run, exit_file_trouble.
-   subroutine read_checkpoints(results, known, first_name, error)
+   subroutine read_checkpoints(results, known, status, first_name, error)
       !> `loads` has an element for each load and takes the solutions.
       type(results_type), intent(inout) :: results
       logical, intent(out) :: known(:)   !! whether the solution of each load was read; .false. for loads of other ranks
+      integer, intent(out) :: status     !! exit status of a deck that is done; -1 if it is not
       character(:), allocatable, intent(out) :: first_name   !! path of the first checkpoint; not allocated without one
       type(error_type), allocatable, intent(out) :: error
 
@@ -213,13 +238,14 @@ contains
       integer :: load, number
 
       known = .false.
+      status = -1
       now = description(results)
       number = alone
       do while (.not. allocated(error))
          name = checkpoint_name(results, number)
          if (path_kind(name) /= path_absent) then
             if (.not. allocated(first_name)) first_name = name
-            call read_checkpoint(name, now, results, known, error)
+            call read_checkpoint(name, now, results, known, status, error)
          else if (number >= results%sharing%ranks) then
             exit
          end if
@@ -231,12 +257,13 @@ contains
       end do
    end subroutine read_checkpoints
 
-   !> Reads one checkpoint. Results, `known` and errors are those of read_checkpoints.
-   subroutine read_checkpoint(name, now, results, known, error)
+   !> Reads one checkpoint. Results, `known`, `done` and errors are those of read_checkpoints.
+   subroutine read_checkpoint(name, now, results, known, done, error)
       character(*), intent(in) :: name               !! path of the checkpoint
       character(*), intent(in) :: now                !! description of this run
       type(results_type), intent(inout) :: results
       logical, intent(inout) :: known(:)
+      integer, intent(inout) :: done                 !! the `status` of read_checkpoints
       type(error_type), allocatable, intent(out) :: error
 
       character(len(mark)) :: start
@@ -261,6 +288,8 @@ contains
             trouble = 'the checkpoint is damaged'
          else if (record == 1) then
             trouble = difference(trim(transfer(words, repeat(' ', bytes_of_word*size(words)))), now)
+         else if (words(1) == 0) then
+            done = int(words(2))
          else
             load = int(words(1))
             if (.not. known(load) .and. results%sharing%is_own_load(load)) call results%loads(load)%unpack( &

@@ -31,11 +31,14 @@ contains
    !> Runs a scene: starts its solver, decides how the ranks share the work, solves the loads and writes the tables. If
    !> one rank has an error all ranks return it. Errors: exit_bad_input for a checkpoint that is damaged or of another
    !> deck; exit_file_trouble for a file that cannot be read or written.
-   subroutine run_scene(scene, quiet, resume, results, status, error)
+   subroutine run_scene(scene, quiet, resume, is_one_of_many, results, status, error)
       type(scene_type), allocatable, intent(inout) :: scene   !! not allocated afterwards: the results own it
       logical, intent(in) :: quiet     !! whether to write no log; it must be .true. on all ranks but the first
       logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
-      type(results_type), intent(out) :: results   !! complete on the first rank if there is no error
+      !> Whether a checkpoint is to say that this deck is done, until remove_done removes it.
+      logical, intent(in) :: is_one_of_many
+      !> Complete on the first rank if there is no error; its loads are not allocated if the interrupted run had done all.
+      type(results_type), intent(out) :: results
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
@@ -50,10 +53,11 @@ contains
       if (results%sharing%kind == distributed_grids) call collect(results, tables, error)
       if (allocated(error)) return
       if (results%sharing%is_shared) then
-         call solve_and_write(results, tables, resume, logger, status, error)
+         call solve_and_write(results, tables, resume, is_one_of_many, logger, status, error)
       else
          call results%sharing%work_alone(.true.)
-         if (results%sharing%is_first) call solve_and_write(results, tables, resume, logger, status, error)
+         if (results%sharing%is_first) &
+            call solve_and_write(results, tables, resume, is_one_of_many, logger, status, error)
          call results%sharing%work_alone(.false.)
          call results%sharing%share_error(error)
          status_of_all = status
@@ -85,28 +89,34 @@ contains
       status = exit_fine
       allocate (scene)
       call read_deck(path, scene, error, settings)
-      if (.not. allocated(error)) call run_scene(scene, quiet, .false., results, status, error)
+      if (.not. allocated(error)) call run_scene(scene, quiet, .false., .false., results, status, error)
       if (allocated(error)) status = error%status
    end subroutine run_deck
 
    !> Solves the loads of a scene and writes its tables. Errors: those of run_scene.
-   subroutine solve_and_write(results, tables, resume, logger, status, error)
+   subroutine solve_and_write(results, tables, resume, is_one_of_many, logger, status, error)
       type(results_type), intent(inout) :: results        !! with the started solver; gets the solutions
       type(table_type), intent(in) :: tables(:)           !! the tables to write
-      logical, intent(in) :: resume                       !! as in run_scene
+      logical, intent(in) :: resume, is_one_of_many       !! as in run_scene
       type(run_log), intent(inout), target :: logger
       integer, intent(out) :: status
       type(error_type), allocatable, intent(out) :: error
 
       type(checkpoint_file) :: checkpoint
       logical :: known(size(results%scene%target))   ! whether the solution of each load was in the checkpoint
+      integer :: status_before   ! exit status of the interrupted run if it had done this deck, else -1
 
-      status = exit_fine
+      status_before = -1
       allocate (results%loads(size(known)))
       known = .false.
       call order_loads(results)
-      if (resume) call take_checkpoint(results, known, logger, error)
+      if (resume) call take_checkpoint(results, known, status_before, logger, error)
+      status = max(status_before, exit_fine)
       if (allocated(error)) return
+      if (status_before >= 0) then
+         deallocate (results%loads)
+         return
+      end if
       if (results%sharing%is_first) call prepare_directory(results%scene, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
@@ -119,9 +129,9 @@ contains
       call show_loads(results, logger)
       call write_results(results, tables, logger, error)
       if (allocated(error)) return
-      call checkpoint%remove()
       call logger%say_timed('tables written')
       call sum_up(results, logger, status)
+      call checkpoint%finish(results, status, is_one_of_many)
    end subroutine solve_and_write
 
    !> Finds the largest stresses and writes the tables. If grids are distributed over the ranks, all ranks together
@@ -216,16 +226,17 @@ contains
    end subroutine start_results
 
    !> Reads the solutions in the checkpoint, if there is one. Errors: those of read_checkpoints.
-   subroutine take_checkpoint(results, known, logger, error)
+   subroutine take_checkpoint(results, known, status, logger, error)
       type(results_type), intent(inout) :: results   !! gets the solutions
       logical, intent(out) :: known(:)               !! whether each load need not be solved again
+      integer, intent(out) :: status                 !! exit status of a deck that is done; -1 if it is not
       type(run_log), intent(inout) :: logger
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: name
       integer(int64) :: ranks_that_know(size(known))
 
-      call read_checkpoints(results, known, name, error)
+      call read_checkpoints(results, known, status, name, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
       ranks_that_know = 0
@@ -237,7 +248,11 @@ contains
          ranks_that_know = ranks_that_know/results%sharing%ranks
          known = ranks_that_know > 0
       end if
-      if (allocated(name)) then
+      if (status == exit_fine) then
+         call logger%say('resumed: this deck is done')
+      else if (status > exit_fine) then
+         call logger%say('resumed: this deck is done, with loads NOT solved as requested')
+      else if (allocated(name)) then
          call logger%say('resumed: '//integer_text(count(ranks_that_know > 0))//' of '//integer_text(size(known))// &
                          ' loads are in '//escaped(name))
       else
