@@ -31,6 +31,9 @@ contains
          this%made => new_handle('scene')
          if (present(heights) .and. min(points_x, points_y) < 1) then
             call fatal_error(this%trouble, exit_bad_input, 'points_x and points_y must be 1 or more')
+         else if (.not. present(heights) .and. max(points_x, points_y) > 0) then
+            call fatal_error(this%trouble, exit_bad_input, &
+                             'heights is NULL: without heights points_x and points_y must be 0')
          else
             call this%made%scene%open(text_at(deck), text_at(path), keep_fields /= 0, this%trouble, heights)
          end if

@@ -35,6 +35,8 @@ module wavycon_deck_session
 
    public :: check_ready, deck_session, pick_number, solved_load
 
+   integer, parameter :: few = 12   ! names that a message lists
+
    !> In C programs other threads may call the library while one solves a load, but not with the same session: c_lock.c.
    interface
       !> 0, or 1 if this thread solves with the session already, whose progress callback it is then in.
@@ -382,12 +384,16 @@ contains
       real(dp), intent(inout) :: number            !! unchanged in case of an error
       type(error_type), allocatable, intent(out) :: error
 
+      character(:), allocatable :: there
       integer :: i
 
       i = findloc(names == name, .true., dim=1)
       if (i > 0) number = numbers(i)
-      if (i == 0) call fatal_error(error, exit_bad_input, "there is no number '"//name//"'"// &
-                                   did_you_mean(name, names, "'", "'"))
+      if (i > 0) return
+      there = ''
+      if (size(names) <= few) there = '; there are '//listed(names)
+      call fatal_error(error, exit_bad_input, "there is no number '"//name//"'"// &
+                       did_you_mean(name, names, "'", "'", there))
    end subroutine pick_number
 
    !> A text by its name, of a solved load or of the session. Errors: exit_bad_input for a name that does not exist.

@@ -70,7 +70,7 @@ int wavycon_set_threads(wavycon_error error, int number);
    keep_fields: nonzero if fields, edges or stresses of solutions will be needed.
    heights: NULL, or an array heights[points_y][points_x] in place of the heights of the file of kind = 'file'. Heights
    are upwards to the other body, in the unit that the key height_scale gives, and NaN where they are missing. For a
-   profile points_y or points_x is 1. */
+   profile points_y or points_x is 1. With NULL both are 0. */
 wavycon_scene wavycon_new_scene(wavycon_error error, const char *deck, const char *path, int keep_fields, int points_x,
                                 int points_y, const double *heights);
 

@@ -77,6 +77,7 @@ static void decks(void)
     for (size_t i = 0; i < COUNT(bad); i++)
         NOTHING(scene_of(bad[i]));
     NOTHING(wavycon_new_scene(error, wave, NULL, 1, 0, 0, NULL));
+    NOTHING(wavycon_new_scene(error, wave, "misuse", 1, 16, 16, NULL));
     int status;
     REFUSED(wavycon_run_deck(error, NULL, "", 1, &status));
     REFUSED(wavycon_run_deck(error, "there is no such deck.nml", NULL, 1, &status));
