@@ -15,6 +15,7 @@ module wavycon_adhesive_curve
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: unknown
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -134,10 +135,10 @@ contains
       do
          part = pi*radius**2/cell_area
          if (pools) part = 1.0_dp - part
-         call curve%problem%find_point(pools, part, point, start)
          ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
-         if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
-             (contradicts() .or. abs(point%value(2 + at_approach)) <= point%slope_error(at_approach))) then
+         call curve%problem%find_point(pools, part, point, start, merge(finer%accuracy, curve%problem%accuracy, &
+                                                                        ratio > ratio_of_extremes))
+         if (contradicts() .and. maxval(point%error) > finer%accuracy) then
             start = point%answer
             call finer%find_point(pools, part, point, start)
          end if
@@ -517,6 +518,12 @@ contains
          point%error = point%error + abs(change)*point%area_error
          point%energy = point%energy + energy_slope*step
          point%energy_error = point%energy_error + abs(energy_slope)*point%area_error
+         ! Next to merging the slope may have no error estimate.
+         if (point%area_error >= 1.0_dp) then
+            point%area_error = unknown
+            point%error = unknown
+            point%energy_error = unknown
+         end if
       end subroutine step_to_extreme
 
    end subroutine find_zero
