@@ -108,6 +108,7 @@ contains
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
+      integer :: n
       logical :: starts_late   ! whether the point would be the first one, and is past the first extreme
       !> `past`: the newest point past the last extreme that is not accurate enough, if there is any.
       type(adhesive_point) :: past, point
@@ -158,11 +159,15 @@ contains
             end associate
             ratio = start%merging_ratio
             if (ratio > ratio_of_extremes) then
-               associate (newest => curve%points(size(curve%points) - 2:))
-                  next = interpolated(newest%area, newest%value(2 + at_approach))
-               end associate
-               if (pools) next = 1.0_dp - next
-               next = sqrt(max(next, 0.0_dp)*cell_area/pi)
+               ! From three slopes or, where these lead back, from the last two.
+               do n = 2, 1, -1
+                  associate (newest => curve%points(size(curve%points) - n:))
+                     next = interpolated(newest%area, newest%value(2 + at_approach))
+                  end associate
+                  if (pools) next = 1.0_dp - next
+                  next = sqrt(max(next, 0.0_dp)*cell_area/pi)
+                  if (next > radius) exit
+               end do
                if (next > radius) &
                   step = min(step, max(beyond_extreme*(next - radius), 0.1_dp*least_step*full_step))
             end if
