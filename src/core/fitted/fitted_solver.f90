@@ -211,8 +211,8 @@ contains
             end if
             if (history%best_meets(accuracy)) then
                answer%status = fitted_solved
-               ! A slope of unsure sign is of little use. At the solution itself it costs one more linearisation. That is
-               ! worth it where the error falls to less than half.
+               ! A slope of unsure sign is of little use. At the solution itself it takes one more linearisation,
+               ! which is done where the error falls to less than half.
                if (now%work > 0.0_dp .and. history%newest_is_best .and. slope_decay(1) > 2*history%decay(1) .and. &
                    .not. all(abs(answer%area_slopes) > answer%area_slope_errors)) then
                   call equations%linearise(lattice, now)
