@@ -16,7 +16,8 @@ module wavycon_adhesive_contact
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
-   use wavycon_quantities, only: approach, contact_area, elastic_energy, is_known, mean_gap, or_nan, unknown
+   use wavycon_quantities, only: approach, contact_area, elastic_energy, is_known, mean_gap, or_nan, &
+      scaled, unknown
    use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -48,7 +49,7 @@ module wavycon_adhesive_contact
       real(dp) :: area = 0.0_dp               !! contact area fraction
       real(dp) :: area_error = 0.0_dp         !! error estimate of the area fraction
       real(dp) :: value(4) = unknown          !! P, approach, dP/dA, d approach/dA [p*, Delta]
-      real(dp) :: slope_error(2) = 0.0_dp     !! error estimates of the two derivatives
+      real(dp) :: slope_error(2) = 0.0_dp     !! error estimates of the two derivatives; unknown if there is none
       real(dp) :: error(2) = unknown          !! error estimates of P [p*] and approach [Delta]
       real(dp) :: energy = unknown            !! elastic energy [p* Delta]: the mean of p u/2
       real(dp) :: energy_error = unknown      !! error estimate of the energy [p* Delta]
@@ -89,12 +90,13 @@ contains
    end subroutine start_adhesive_problem
 
    !> Finds the point of a branch with a given contact area. point%exists is .false. if no solution was found.
-   subroutine find_point(self, pools, area, point, start)
+   subroutine find_point(self, pools, area, point, start, finest)
       class(adhesive_problem), intent(in) :: self
       logical, intent(in) :: pools                          !! the branch: true of pools, false of spots
       real(dp), intent(in) :: area                          !! contact area fraction, 0 < area < 1
       type(adhesive_point), intent(out) :: point
       type(fitted_answer), intent(in), optional :: start    !! solution of another area of the branch, to start from
+      real(dp), intent(in), optional :: finest              !! as of solve_adhesive
 
       point%pools = pools
       point%area = area
@@ -103,7 +105,7 @@ contains
       else if (self%surface%dimension == 1) then
          call find_point_of_line_wave(self, point)
       else
-         call find_point_of_lattice(self, point, start)
+         call find_point_of_lattice(self, point, start, finest)
       end if
       if (.not. point%exists) return
       if (point%value(approach_slope) > 0.0_dp) point%kind = approach_stable
@@ -158,10 +160,11 @@ contains
 
    !> The contact of a wave on a lattice, by fitted functions with a singular edge: src/core/fitted/README.md, section
    !> 15.
-   subroutine find_point_of_lattice(self, point, start)
+   subroutine find_point_of_lattice(self, point, start, finest)
       class(adhesive_problem), intent(in) :: self
       type(adhesive_point), intent(inout) :: point          !! on entry with its area and branch
       type(fitted_answer), intent(in), optional :: start    !! as of find_point
+      real(dp), intent(in), optional :: finest              !! as of find_point
 
       !> The area of the cell of one spot; of one pool minus this, as contact shrinks where a pool grows. The area of
       !> the spot or pool. Both in the lattice's units.
@@ -177,11 +180,12 @@ contains
             area = point%area*cell
          end if
          ! Less accurate points, which may be on the wrong side of an extreme, would be of no use to a curve.
-         call solve_adhesive(lattice, point%pools, self%work/unit, area, min(self%accuracy, 1e-2_dp), answer, start)
+         call solve_adhesive(lattice, point%pools, self%work/unit, area, min(self%accuracy, 1e-2_dp), answer, start, &
+                             finest)
          if (answer%status > fitted_less_exact) return
          point%exists = .true.
          point%value = [unit*answer%pbar_over_pstar, answer%value(approach), cell*[unit, 1.0_dp]*answer%area_slopes]
-         point%slope_error = abs(cell)*[unit, 1.0_dp]*answer%area_slope_errors
+         point%slope_error = scaled(answer%area_slope_errors, abs(cell)*[unit, 1.0_dp])
          point%error = [unit*answer%load_error, answer%error(mean_gap)]
          point%energy = answer%value(elastic_energy)*unit/lattice%area
          point%energy_error = answer%error(elastic_energy)*unit/lattice%area

@@ -15,6 +15,7 @@ module wavycon_adhesive_curve
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp
+   use wavycon_quantities, only: unknown
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -107,6 +108,7 @@ contains
       !> `cell_area`: area of the lattice that belongs to one spot or pool. `cell_radius`: radius of a circle of this
       !> area. `part`: of the cell that is in contact. `ratio`: merging ratio of the last point; 0 if there is none yet.
       real(dp) :: cell_area, cell_radius, full_step, next, part, radius, ratio, step
+      integer :: n
       logical :: starts_late   ! whether the point would be the first one, and is past the first extreme
       !> `past`: the newest point past the last extreme that is not accurate enough, if there is any.
       type(adhesive_point) :: past, point
@@ -134,10 +136,10 @@ contains
       do
          part = pi*radius**2/cell_area
          if (pools) part = 1.0_dp - part
-         call curve%problem%find_point(pools, part, point, start)
          ! The sign of a slope decides where the branch ends, and between which points an extreme lies.
-         if (point%answer%merging_ratio > ratio_of_extremes .and. maxval(point%error) > finer%accuracy .and. &
-             (contradicts() .or. abs(point%value(2 + at_approach)) <= point%slope_error(at_approach))) then
+         call curve%problem%find_point(pools, part, point, start, merge(finer%accuracy, curve%problem%accuracy, &
+                                                                        ratio > ratio_of_extremes))
+         if (contradicts() .and. maxval(point%error) > finer%accuracy) then
             start = point%answer
             call finer%find_point(pools, part, point, start)
          end if
@@ -157,11 +159,15 @@ contains
             end associate
             ratio = start%merging_ratio
             if (ratio > ratio_of_extremes) then
-               associate (newest => curve%points(size(curve%points) - 2:))
-                  next = interpolated(newest%area, newest%value(2 + at_approach))
-               end associate
-               if (pools) next = 1.0_dp - next
-               next = sqrt(max(next, 0.0_dp)*cell_area/pi)
+               ! From three slopes or, where these lead back, from the last two.
+               do n = 2, 1, -1
+                  associate (newest => curve%points(size(curve%points) - n:))
+                     next = interpolated(newest%area, newest%value(2 + at_approach))
+                  end associate
+                  if (pools) next = 1.0_dp - next
+                  next = sqrt(max(next, 0.0_dp)*cell_area/pi)
+                  if (next > radius) exit
+               end do
                if (next > radius) &
                   step = min(step, max(beyond_extreme*(next - radius), 0.1_dp*least_step*full_step))
             end if
@@ -517,6 +523,12 @@ contains
          point%error = point%error + abs(change)*point%area_error
          point%energy = point%energy + energy_slope*step
          point%energy_error = point%energy_error + abs(energy_slope)*point%area_error
+         ! Next to merging the slope may have no error estimate.
+         if (point%area_error >= 1.0_dp) then
+            point%area_error = unknown
+            point%error = unknown
+            point%energy_error = unknown
+         end if
       end subroutine step_to_extreme
 
    end subroutine find_zero

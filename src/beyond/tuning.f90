@@ -20,7 +20,7 @@ module wavycon_beyond_tuning
    real(dp), parameter, public :: least_step = 0.02_dp
    !> Largest error of a point over the accuracy. Near the end of a branch points are less accurate than asked for.
    real(dp), parameter, public :: worst_error = 10.0_dp
-   !> Factor on the accuracy of a point that is solved again, as the sign of its slope is not sure.
+   !> Factor on the accuracy of a point at which the sign of the slope is not sure.
    real(dp), parameter, public :: finer_by = 0.2_dp
    !> Step towards the last extreme of the approach, over the distance that is extrapolated from the last slopes.
    real(dp), parameter, public :: beyond_extreme = 1.3_dp

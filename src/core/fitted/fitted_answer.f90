@@ -32,7 +32,7 @@ module wavycon_fitted_answer
       real(dp) :: load_error = 0.0_dp                 !! error estimate of a load that is found
       real(dp) :: area_slopes(2) = 0.0_dp
          !! with adhesion: derivatives of P and approach by the spot's or pool's area [pi E* Delta/s^3, Delta/s^2]
-      real(dp) :: area_slope_errors(2) = 0.0_dp       !! error estimates of these two derivatives
+      real(dp) :: area_slope_errors(2) = 0.0_dp       !! estimates of their errors; unknown where there is none
       real(dp), allocatable :: area_change(:)         !! derivatives of all unknowns by the area, README.md (F70)
       real(dp) :: residual = huge(1.0_dp)             !! largest residual [Delta], for a pool [pi E* Delta/s]
       real(dp) :: misfit_decay(2) = 1.0_dp            !! chi_n and chi_(n-1) of README.md (F43)

@@ -1,5 +1,6 @@
 !> Solves the contact of a wave on a lattice to a given accuracy, by collocation fitted to the edge of contact.
 module wavycon_fitted_solver
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: degree_history, error_estimate
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
@@ -13,7 +14,7 @@ module wavycon_fitted_solver
    use wavycon_kinds, only: dp
    use wavycon_load_continuation, only: is_start, start_at_area, start_at_load
    use wavycon_quantities, only: approach, contact_area, elastic_energy, mean_gap, peak_pressure, perimeter, &
-      polynomial_degree
+      polynomial_degree, unknown
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -94,7 +95,7 @@ contains
       if (present(fields)) required = merge(centre_measure, load_measure, fields .and. pool)
       call start_at_load(lattice, answer%pbar_over_pstar, pool, now, degree, answer%iterations, valid, merged, start)
       if (merged) answer%status = fitted_merged
-      if (valid) call raise_degree(lattice, accuracy, now, degree, required, answer)
+      if (valid) call raise_degree(lattice, accuracy, accuracy, now, degree, required, answer)
    end subroutine solve_regime
 
    !> Solves the contact with adhesion of a spot or a pool of a given area. The load is part of the solution.
@@ -103,7 +104,7 @@ contains
    !> larger, for the peak pressure. Near merging the gap is a tenth of Delta: errors relative to the gap would take
    !> higher degrees for digits that a curve does not show. Status: fitted_solved, fitted_less_exact, fitted_merged if
    !> the shape touches its neighbours, or fitted_failed.
-   subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start)
+   subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start, finest)
       type(wave_lattice), intent(in) :: lattice
       logical, intent(in) :: pool            !! true: an open pool; false: a contact spot
       real(dp), intent(in) :: work           !! work of adhesion W > 0 [pi E* Delta^2/s]
@@ -112,21 +113,29 @@ contains
       type(fitted_answer), intent(out) :: answer
       type(fitted_answer), intent(in), optional :: start
          !! solution of another area of the same lattice and work, which saves time; not the variable `answer`
+      real(dp), intent(in), optional :: finest
+         !! accuracy to which the degree is raised further while the sign of the approach's slope is not sure,
+         !! 0 < finest <= accuracy; the accuracy if absent
 
       type(fitted_function) :: now
+      real(dp) :: least
       integer :: degree
       logical :: valid
 
       answer%pool = pool
       call start_at_area(lattice, pool, work, area, now, degree, answer%iterations, valid, start)
-      if (valid) call raise_degree(lattice, accuracy, now, degree, load_measure, answer)
+      if (.not. valid) return
+      least = accuracy
+      if (present(finest)) least = finest
+      call raise_degree(lattice, accuracy, least, now, degree, load_measure, answer)
    end subroutine solve_adhesive
 
    !> Solves at rising degrees, from an approximation on, until the estimated errors are within the accuracy. The answer
    !> is the solution with the least estimated errors.
-   subroutine raise_degree(lattice, accuracy, now, first, required, answer)
+   subroutine raise_degree(lattice, accuracy, finest, now, first, required, answer)
       type(wave_lattice), intent(in) :: lattice
       real(dp), intent(in) :: accuracy               !! largest allowed relative error
+      real(dp), intent(in) :: finest                 !! as of solve_adhesive; without adhesion the accuracy
       type(fitted_function), intent(inout) :: now    !! on entry the approximation, on exit the last solution
       integer, intent(in) :: first                   !! degree to start with
       integer, intent(in) :: required                !! the measures 1 to `required` have to be so accurate
@@ -136,9 +145,9 @@ contains
       type(degree_history) :: history
       type(newton_steps) :: newton
       real(dp), allocatable :: area_change(:)
-      !> Derivatives by the area of the newest solutions, the newest first, and the decay of their errors (F70a).
-      !> `changes`: the last step's change of the shape at this degree and at the one before.
-      real(dp) :: area_slopes(2, 0:most_previous), changes(2), slope_decay(2)
+      !> Derivatives of load, approach and b_0 by the area of the newest solutions, the newest first, and the decay of
+      !> their errors (F70a). `changes`: the last step's change of the shape at this degree and at the one before.
+      real(dp) :: area_slopes(3, 0:most_previous), changes(2), slope_decay(2)
       real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
       integer :: degree, failed, k
       logical :: merged
@@ -191,24 +200,32 @@ contains
             call history%push(now, measures, reference, newton%misfit, newton%remaining)
             if (now%work > 0.0_dp) then
                area_slopes(:, 1:) = area_slopes(:, :most_previous - 1)
-               area_change = [(0.0_dp, k=1, equations%unknowns)]
-               call change_with_area(equations, now, area_change)
-               area_slopes(:, 0) = slopes_of(equations, lattice, now, area_change)
+               call find_slopes()
                changes = [newton%change, changes(1)]
                slope_decay = [max(history%decay(1), min(changes(1)/max(changes(2), tiny(changes)), 1.0_dp)), &
                               slope_decay(1)]
             end if
             if (history%newest_is_best) then
                call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
-               answer%area_slopes = area_slopes(:, 0)
-               if (now%work > 0.0_dp) answer%area_slope_errors = error_estimate( &
-                  area_slopes(:, :min(history%solutions - 1, most_previous)), slope_decay, &
-                  [lattice%closing_pressure, 1.0_dp]/lattice%area)
-               answer%area_change = area_change
+               if (now%work > 0.0_dp) call set_slopes()
             end if
             if (history%best_meets(accuracy)) then
                answer%status = fitted_solved
-               exit
+               ! A slope of unsure sign is of little use. At the solution itself it takes one more linearisation,
+               ! which is done where the error falls to less than half.
+               if (now%work > 0.0_dp .and. history%newest_is_best .and. slope_decay(1) > 2*history%decay(1) .and. &
+                   .not. all(abs(answer%area_slopes) > answer%area_slope_errors)) then
+                  call equations%linearise(lattice, now)
+                  ! The map may fold at the edge: there is no next step then.
+                  if (.not. all(ieee_is_finite(equations%residual))) exit
+                  changes(1) = 0.0_dp
+                  slope_decay(1) = history%decay(1)
+                  call find_slopes()
+                  call set_slopes()
+               end if
+               if (history%best_meets(finest)) exit
+               if (abs(answer%area_slopes(2)) > answer%area_slope_errors(2)) exit
+               tolerance = max(0.1_dp*finest, 1e-13_dp)
             end if
          end if
          if (degree >= last_degree .or. failed == merge(1, most_failed_degrees, now%work > 0.0_dp)) exit
@@ -217,7 +234,26 @@ contains
       answer%iterations = answer%iterations + newton%iterations
       ! On the square lattice a solution of a lower degree, which is nearly right, is kept if a higher degree has
       ! merged.
-      if (merged .and. (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
+      if (merged .and. answer%status /= fitted_solved .and. &
+          (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
+
+   contains
+
+      !> Sets the newest slopes from the equations as they are linearised.
+      subroutine find_slopes()
+         area_change = [(0.0_dp, k=1, equations%unknowns)]
+         call change_with_area(equations, now, area_change)
+         area_slopes(:, 0) = [slopes_of(equations, lattice, now, area_change), area_change(equations%before_shape + 1)]
+      end subroutine find_slopes
+
+      !> Gives the answer the newest slopes and their errors.
+      subroutine set_slopes()
+         answer%area_change = area_change
+         answer%area_slopes = area_slopes(:2, 0)
+         answer%area_slope_errors = slope_errors(area_slopes(:, :min(history%solutions - 1, most_previous)), &
+                                                 slope_decay, [lattice%closing_pressure, 1.0_dp]/lattice%area)
+      end subroutine set_slopes
+
    end subroutine raise_degree
 
    !> The derivatives of load and approach by the area, from those of all unknowns: README.md (F70).
@@ -234,6 +270,26 @@ contains
          if (now%pool) slopes = [of_unknown, -lattice%troughs*of_integral]
       end associate
    end function slopes_of
+
+   !> Estimates of the errors of the slopes of load and approach: README.md (F70a), (F70b). Unknown if there is none.
+   pure function slope_errors(slopes, decay, reference) result(errors)
+      real(dp), intent(in) :: slopes(:, 0:)   !! those of load, approach and b_0 at 2 or 3 degrees, shape (3, 0:.)
+      real(dp), intent(in) :: decay(2)        !! (F70a) of the last two degrees
+      real(dp), intent(in) :: reference(2)    !! what errors of load and approach are relative to, > 0
+      real(dp) :: errors(2)
+
+      !> Distance of the area from its largest value, up to a factor, and its relative error.
+      real(dp) :: distance(1, 0:ubound(slopes, 2)), part(1)
+
+      errors = error_estimate(slopes(:2, :), decay, reference)
+      distance(1, :) = 1.0_dp/max(slopes(3, :)**2, tiny(slopes))
+      part = error_estimate(distance, decay, distance(:, 0))/distance(:, 0)
+      if (part(1) < 1.0_dp) then
+         errors = 2*errors/(1.0_dp - part(1) + sqrt(1.0_dp - part(1)))
+      else
+         errors = unknown
+      end if
+   end function slope_errors
 
    !> Sets the answer to the newest solution, which is the best one so far.
    subroutine set_answer(answer, lattice, history, now, residual, ratio, images_tolerance)
