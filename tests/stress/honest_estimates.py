@@ -15,8 +15,9 @@ FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even fil
           "mirrored file": 1e-2}
 FINEST_OF_OTHERS = 3e-3
 COARSEST = 1e-1
-# Loads about the one at which spots merge, P.
-MERGING = {"wave_2d": (0.22, 0.24), "hexagonal": (0.28, 0.34)}
+# Lattices, and loads about those at which their spots merge, P.
+MERGING = {"wave_2d": (0.22, 0.24), "hexagonal": (0.28, 0.34), "wave_2d, 1.5:1": (0.15, 0.35),
+           "wave_2d, 2:1": (0.15, 0.35), "wave_2d, 3:1": (0.15, 0.35)}
 # Maps with a hardness, and what they have besides VALUES.
 LOAD_OVER_HARDNESS = (0.05, 0.95)
 OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
@@ -54,7 +55,9 @@ def merging_case(stream, kind):
     """The files of a lattice next to the load at which its spots merge, on grids, and by 'fitted'."""
     accuracy = 10.0**stream.uniform(-4.0, -3.0)
     loads = [stream.uniform(*MERGING[kind]) for _ in range(20)]
-    return [{"deck.nml": f"&surface kind = '{kind}' /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
+    name, _, ratio = kind.partition(", ")
+    surface = f"kind = '{name}'" + (f", wavelength = {ratio[:-2]}, wavelength_y = 1" if ratio else "")
+    return [{"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
                          f"&method {method} /\n"}
             for method in (f"solver = 'grid', accuracy = {accuracy!r}", "solver = 'fitted', accuracy = 1e-8")]
 

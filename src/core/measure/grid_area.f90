@@ -14,8 +14,8 @@ module wavycon_grid_area
    implicit none (type, external)
    private
 
-   public :: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area, grid_strip_edges, &
-      load_concentration
+   public :: corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, grid_contact_area, &
+      grid_strip_edges, load_concentration
 
    !> The coefficient c_p of (C26): the area, in grid cells, by which the counted area is too large for each pair of
    !> neighbouring points of which one is in contact and the other is not.
@@ -147,6 +147,45 @@ contains
       end do
       crossings = edge%slab%total_count(crossings)
    end function edge_crossings
+
+   !> The sum of (C17b) over the pairs of neighbours that `edge_crossings` counts, of (s(1 - s) - 1/6)/(E*/(2 l)) with the
+   !> place s of the edge (C11), in the unit of gap over pressure. Along an edge in any direction the terms have the mean
+   !> zero. Where the edge runs along a line of the grid they are alike and add up.
+   real(dp) function edge_spread(edge) result(spread)
+      type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
+
+      real(dp), allocatable :: sums(:, :)
+      real(dp), dimension(0:edge%slab%points(1) + 1) :: here, next
+      real(dp) :: total(1)
+      integer :: j, m
+
+      m = edge%slab%points(1)
+      allocate (sums(1, edge%slab%columns()), source=0.0_dp)
+      do j = edge%slab%first, edge%slab%last
+         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
+         here = edge%column(j)
+         next = edge%column(j + 1)
+         sums(1, j - edge%slab%first + 1) = sum(term(here(1:m), here(2:), edge%stiffness(1))) &
+                                            + sum(term(here(1:m), next(1:m), edge%stiffness(2)))
+      end do
+      total = edge%slab%column_totals(sums)
+      spread = total(1)
+
+   contains
+
+      !> Of two neighbours, with pressures or minus their gaps; 0 if the edge does not lie between them.
+      elemental real(dp) function term(one, other, stiffness)
+         real(dp), intent(in) :: one, other, stiffness
+
+         real(dp) :: place
+
+         term = 0.0_dp
+         if (one > 0.0_dp .eqv. other > 0.0_dp) return
+         place = max(one, other)/(max(one, other) - edge%rule%aligned_weight*stiffness*min(one, other))
+         term = (place*(1.0_dp - place) - 1.0_dp/6)/stiffness
+      end function term
+
+   end function edge_spread
 
    !> How concentrated the load is in the periodic cell: the smaller of |mean of exp(i X)| and |mean of exp(i Y)|, with
    !> the pressure as the weight of the means. The result is 1 if all load is at one point and 0 if the load is uniform.
