@@ -157,32 +157,37 @@ contains
       real(dp), allocatable :: sums(:, :)
       real(dp), dimension(0:edge%slab%points(1) + 1) :: here, next
       real(dp) :: total(1)
-      integer :: j, m
+      integer :: i, j
 
-      m = edge%slab%points(1)
       allocate (sums(1, edge%slab%columns()), source=0.0_dp)
+      if (size(sums) > 0) next = edge%column(edge%slab%first)
       do j = edge%slab%first, edge%slab%last
-         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
-         here = edge%column(j)
+         here = next
          next = edge%column(j + 1)
-         sums(1, j - edge%slab%first + 1) = sum(term(here(1:m), here(2:), edge%stiffness(1))) &
-                                            + sum(term(here(1:m), next(1:m), edge%stiffness(2)))
+         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
+         associate (column_sum => sums(1, j - edge%slab%first + 1))
+            do i = 1, edge%slab%points(1)
+               if (here(i) > 0.0_dp .neqv. here(i + 1) > 0.0_dp) column_sum = column_sum + term(here(i), here(i + 1), 1)
+               if (here(i) > 0.0_dp .neqv. next(i) > 0.0_dp) column_sum = column_sum + term(here(i), next(i), 2)
+            end do
+         end associate
       end do
       total = edge%slab%column_totals(sums)
       spread = total(1)
 
    contains
 
-      !> Of two neighbours, with pressures or minus their gaps; 0 if the edge does not lie between them.
-      elemental real(dp) function term(one, other, stiffness)
-         real(dp), intent(in) :: one, other, stiffness
+      !> Of two neighbours along a direction, of one of them the pressure and of the other minus the gap.
+      pure real(dp) function term(one, other, direction)
+         real(dp), intent(in) :: one, other
+         integer, intent(in) :: direction
 
          real(dp) :: place
 
-         term = 0.0_dp
-         if (one > 0.0_dp .eqv. other > 0.0_dp) return
-         place = max(one, other)/(max(one, other) - edge%rule%aligned_weight*stiffness*min(one, other))
-         term = (place*(1.0_dp - place) - 1.0_dp/6)/stiffness
+         associate (pressure => max(one, other), gap => -min(one, other), stiffness => edge%stiffness(direction))
+            place = pressure/(pressure + edge%rule%aligned_weight*stiffness*gap)
+            term = (place*(1.0_dp - place) - 1.0_dp/6)/stiffness
+         end associate
       end function term
 
    end function edge_spread
