@@ -148,9 +148,9 @@ contains
       crossings = edge%slab%total_count(crossings)
    end function edge_crossings
 
-   !> The sum of (C17b) over the pairs of neighbours that `edge_crossings` counts, of (s(1 - s) - 1/6)/(E*/(2 l)) with the
-   !> place s of the edge (C11), in the unit of gap over pressure. Along an edge in any direction the terms have the mean
-   !> zero. Where the edge runs along a line of the grid they are alike and add up.
+   !> The sum of (C17b) over the pairs of neighbours that `edge_crossings` counts: of (s(1 - s) - 1/6)/(E*/(2 l)), with
+   !> the place s of the edge (C11), in the unit of gap over pressure. Along an edge in any direction the terms have the
+   !> mean zero. Where the edge runs along a line of the grid they are alike and add up.
    real(dp) function edge_spread(edge) result(spread)
       type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
 
