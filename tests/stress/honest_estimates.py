@@ -59,7 +59,8 @@ def merging_case(stream, kind):
     loads = [stream.uniform(*range_of_loads) for _ in range(20)]
     return [{"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
                          f"&method {method} /\n"}
-            for method in (f"solver = 'grid', accuracy = {accuracy!r}", "solver = 'fitted', accuracy = 1e-8")]
+            for method in (f"solver = 'grid', accuracy = {accuracy!r}",
+                           f"solver = 'fitted', accuracy = {accuracy/FITTED_FINER!r}")]
 
 
 def map_case(stream, kind):
