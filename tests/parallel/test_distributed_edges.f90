@@ -4,7 +4,8 @@
 !> `mpirun -n N test_distributed_edges` prints a line for each subject, and ends with status 1 if one of them fails.
 program test_distributed_edges
    use rank_checks, only: check, end_checks, report, same
-   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
+   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, &
+      grid_contact_area
    use wavycon_grid_edge, only: grid_edge, start_grid_edge
    use wavycon_grid_error, only: unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
@@ -51,6 +52,7 @@ contains
                call spread_edge%fetch_neighbours()
                call check(same([grid_contact_area(spread_edge)], [grid_contact_area(whole_edge)]))
                call check(edge_crossings(spread_edge) == edge_crossings(whole_edge))
+               call check(same([edge_spread(spread_edge)], [edge_spread(whole_edge)]))
                call check(same([counted_area_fraction(spread_edge), corrected_area_fraction(spread_edge)], &
                                [counted_area_fraction(whole_edge), corrected_area_fraction(whole_edge)]))
                call check(same(unresolved_errors(surface, spread_edge, 1.0_dp), &

@@ -15,8 +15,10 @@ FINEST = {"wave_1d": 1e-4, "profile": 1e-4, "sum": 1e-2, "file": 1e-2, "even fil
           "mirrored file": 1e-2}
 FINEST_OF_OTHERS = 3e-3
 COARSEST = 1e-1
-# Loads about the one at which spots merge, P.
-MERGING = {"wave_2d": (0.22, 0.24), "hexagonal": (0.28, 0.34)}
+# Lattices, and loads about those at which their spots merge, P.
+LONG = "kind = 'wave_2d', wavelength_y = 1, wavelength ="
+MERGING = {"wave_2d": ("kind = 'wave_2d'", 0.22, 0.24), "hexagonal": ("kind = 'hexagonal'", 0.28, 0.34),
+           **{f"wave_2d {ratio} to 1": (f"{LONG} {ratio}", 0.15, 0.35) for ratio in (1.5, 2, 3)}}
 # Maps with a hardness, and what they have besides VALUES.
 LOAD_OVER_HARDNESS = (0.05, 0.95)
 OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
@@ -53,10 +55,12 @@ def fitted_case(stream, kind):
 def merging_case(stream, kind):
     """The files of a lattice next to the load at which its spots merge, on grids, and by 'fitted'."""
     accuracy = 10.0**stream.uniform(-4.0, -3.0)
-    loads = [stream.uniform(*MERGING[kind]) for _ in range(20)]
-    return [{"deck.nml": f"&surface kind = '{kind}' /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
+    surface, *range_of_loads = MERGING[kind]
+    loads = [stream.uniform(*range_of_loads) for _ in range(20)]
+    return [{"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
                          f"&method {method} /\n"}
-            for method in (f"solver = 'grid', accuracy = {accuracy!r}", "solver = 'fitted', accuracy = 1e-8")]
+            for method in (f"solver = 'grid', accuracy = {accuracy!r}",
+                           f"solver = 'fitted', accuracy = {accuracy/FITTED_FINER!r}")]
 
 
 def map_case(stream, kind):

@@ -2,14 +2,14 @@
 !>
 !> Each estimate is the largest of three: that from the changes over the last three grids (C14); that from features
 !> which the grid does not resolve, as their error does not show in the changes (C15), (C16); and, for mean gap and peak
-!> pressure, that from the error of the area (C17), (C17a). README.md in this directory has the equations and tells how
-!> many of the estimates hold. None is a bound.
+!> pressure, that from the error of the area (C17), (C17a) and from edges along the lines of the grid (C17b). README.md
+!> in this directory has the equations and tells how many of the estimates hold. None is a bound.
 module wavycon_grid_error
    use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_constants, only: pi
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
-   use wavycon_grid_area, only: edge_crossings
+   use wavycon_grid_area, only: edge_crossings, edge_spread
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: is_known, unknown
@@ -17,7 +17,7 @@ module wavycon_grid_error
    implicit none (type, external)
    private
 
-   public :: change_history, estimate_errors, implied_errors, unresolved_errors
+   public :: aligned_errors, change_history, estimate_errors, implied_errors, unresolved_errors
 
    !> Mean gap (with free edges the approach), contact area and peak pressure on the last grid, and on the two grids
    !> before, the finer of them first. With fewer than three grids the estimates are unknown.
@@ -48,8 +48,10 @@ contains
       else
          ! Only the saddles of even waves lie alike in all grids.
          displacement = 0.0_dp
-         if (edge%even .and. .not. (surface%is_height_map() .or. surface%kernel%has_layer())) &
+         if (edge%even .and. .not. (surface%is_height_map() .or. surface%kernel%has_layer())) then
             displacement = mean_pressure/minval(edge%stiffness(:surface%dimension))
+            errors = max(errors, aligned_errors(surface%dimension, history%values, mean_pressure, edge))
+         end if
          errors = max(errors, implied_errors(surface%dimension, history%values, errors(2), displacement))
       end if
    end function estimate_errors
@@ -170,5 +172,26 @@ contains
             gap*((1.0_dp + area_error/open_part)**closing_power(dimension) - 1.0_dp))
       end associate
    end function implied_errors
+
+   !> The errors of mean gap and peak pressure from edges along lines of the grid (C17b). Where spots merge such edges
+   !> are long, and several grids may err alike.
+   function aligned_errors(dimension, values, mean_pressure, edge) result(errors)
+      integer, intent(in) :: dimension           !! 1 or 2
+      real(dp), intent(in) :: values(3)          !! mean gap [Delta], contact area fraction, peak pressure [p*]
+      real(dp), intent(in) :: mean_pressure      !! P, > 0
+      type(grid_edge), intent(in) :: edge        !! on a half-space, after `fetch_neighbours`
+      real(dp) :: errors(3)                      !! errors of the same values; zero for the area
+
+      !> c of (C17b) in 1-D and 2-D, from Hertz's contacts.
+      real(dp), parameter :: of_hertz(2) = [2/pi, 3*pi/16]
+
+      errors = 0.0_dp
+      associate (gap => values(1), area => values(2), peak => values(3))
+         if (.not. min(area, 1.0_dp - gap, 1.0_dp - mean_pressure) > 0.0_dp) return
+         errors(1) = of_hertz(dimension)*mean_pressure*(1.0_dp - mean_pressure)/area**2 &
+                     *abs(edge_spread(edge))/product(real(edge%slab%points, dp))
+         errors(3) = peak*errors(1)/(1.0_dp - gap)
+      end associate
+   end function aligned_errors
 
 end module wavycon_grid_error

@@ -14,8 +14,8 @@ module wavycon_grid_area
    implicit none (type, external)
    private
 
-   public :: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area, grid_strip_edges, &
-      load_concentration
+   public :: corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, grid_contact_area, &
+      grid_strip_edges, load_concentration
 
    !> The coefficient c_p of (C26): the area, in grid cells, by which the counted area is too large for each pair of
    !> neighbouring points of which one is in contact and the other is not.
@@ -147,6 +147,50 @@ contains
       end do
       crossings = edge%slab%total_count(crossings)
    end function edge_crossings
+
+   !> The sum of (C17b) over the pairs of neighbours that `edge_crossings` counts: of (s(1 - s) - 1/6)/(E*/(2 l)), with
+   !> the place s of the edge (C11), in the unit of gap over pressure. Along an edge in any direction the terms have the
+   !> mean zero. Where the edge runs along a line of the grid they are alike and add up.
+   real(dp) function edge_spread(edge) result(spread)
+      type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
+
+      real(dp), allocatable :: sums(:, :)
+      real(dp), dimension(0:edge%slab%points(1) + 1) :: here, next
+      real(dp) :: total(1)
+      integer :: i, j
+
+      allocate (sums(1, edge%slab%columns()), source=0.0_dp)
+      if (size(sums) > 0) next = edge%column(edge%slab%first)
+      do j = edge%slab%first, edge%slab%last
+         here = next
+         next = edge%column(j + 1)
+         if (.not. (edge%may_touch(j) .or. edge%may_touch(j + 1))) cycle
+         associate (column_sum => sums(1, j - edge%slab%first + 1))
+            do i = 1, edge%slab%points(1)
+               if (here(i) > 0.0_dp .neqv. here(i + 1) > 0.0_dp) column_sum = column_sum + term(here(i), here(i + 1), 1)
+               if (here(i) > 0.0_dp .neqv. next(i) > 0.0_dp) column_sum = column_sum + term(here(i), next(i), 2)
+            end do
+         end associate
+      end do
+      total = edge%slab%column_totals(sums)
+      spread = total(1)
+
+   contains
+
+      !> Of two neighbours along a direction, of one of them the pressure and of the other minus the gap.
+      pure real(dp) function term(one, other, direction)
+         real(dp), intent(in) :: one, other
+         integer, intent(in) :: direction
+
+         real(dp) :: place
+
+         associate (pressure => max(one, other), gap => -min(one, other), stiffness => edge%stiffness(direction))
+            place = pressure/(pressure + edge%rule%aligned_weight*stiffness*gap)
+            term = (place*(1.0_dp - place) - 1.0_dp/6)/stiffness
+         end associate
+      end function term
+
+   end function edge_spread
 
    !> How concentrated the load is in the periodic cell: the smaller of |mean of exp(i X)| and |mean of exp(i Y)|, with
    !> the pressure as the weight of the means. The result is 1 if all load is at one point and 0 if the load is uniform.
