@@ -49,6 +49,9 @@ module wavycon_contact_solver
       !> coarsest.
       integer :: level = 0
       class(solver_progress), pointer :: progress => null()   !! if associated, its procedures are called within a load
+      !> Whether the surface that is solved closes at p*: a height map does so at its points, and between them, on other
+      !> grids, a little later.
+      logical :: closes_at_pstar = .true.
    contains
       procedure :: solve
       procedure(solve_load), deferred :: solve_partial_contact
@@ -81,9 +84,10 @@ module wavycon_contact_solver
 contains
 
    !> Solves one load and measures the solution. Some loads need no solver. For P <= 0 there is no load. For P >= 1 the
-   !> contact is full, unless the surface has free edges or the largest pressure, P + full_contact_peak, exceeds the
-   !> hardness H. For P >= H and for NaN there is no solution. The status is not_found if the solver was not started on
-   !> a surface that it can solve, and interrupted if self%progress asks the solver to stop.
+   !> contact is full, unless the surface has free edges, is a height map on another grid than its points, or the
+   !> largest pressure, P + full_contact_peak, exceeds the hardness H. For P >= H and for NaN there is no solution. The
+   !> status is not_found if the solver was not started on a surface that it can solve, and interrupted if self%progress
+   !> asks the solver to stop.
    subroutine solve(self, pbar_over_pstar, solution)
       class(contact_solver), intent(inout) :: self
       real(dp), intent(in) :: pbar_over_pstar             !! P, any number; the status is not_finite for NaN
@@ -106,7 +110,7 @@ contains
             solution%error(elastic_energy) = 0.0_dp
          else if (surface%has_hardness() .and. pbar_over_pstar >= surface%hardness) then
             solution%solution_record = no_solution(pbar_over_pstar, no_solver, above_hardness)
-         else if (pbar_over_pstar >= 1.0_dp .and. .not. surface%has_free_edges .and. &
+         else if (pbar_over_pstar >= 1.0_dp .and. self%closes_at_pstar .and. .not. surface%has_free_edges .and. &
                   (.not. surface%has_hardness() .or. &
                    pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
             solution%status = full_contact

@@ -71,6 +71,7 @@ contains
          call assert(options%residual >= 0.0_dp, 'residual >= 0')
       end associate
       self%surface = surface
+      self%closes_at_pstar = .not. surface%is_height_map() .or. all(self%options%points == surface%points)
       self%is_started = surface%shape%last(1) >= 0
       self%keep_fields = keep_fields
       if (any(self%options%points > 0) .or. .not. has_smaller_cell(surface)) return
