@@ -6,7 +6,6 @@
 module wavycon_adhesive_contact
    use wavycon_ball_source, only: ball_source
    use wavycon_closed_form_contact, only: closed_form_source
-   use wavycon_constants, only: pi
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_status, only: converged, full_contact, not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
@@ -15,7 +14,7 @@ module wavycon_adhesive_contact
    use wavycon_fitted_source, only: fitted_source
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: approach, contact_area, elastic_energy, is_known, mean_gap, or_nan, unknown
    use wavycon_solution_record, only: no_solution, no_solver
    use wavycon_surface, only: surface_type

@@ -6,7 +6,6 @@
 !> memory.
 module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
    use wavycon_elastic_body, only: elastic_body, no_waves
@@ -14,9 +13,8 @@ module wavycon_session_fields
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: key_index
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64, not_a_number
    use wavycon_plain_text, only: integer_text
-   use wavycon_results, only: not_a_number
    use wavycon_scene_groups, only: stress_group
    use wavycon_stress_group, only: lateral_of, list_stress_keys
    use wavycon_system, only: has_memory_for

@@ -5,7 +5,6 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_ball_source
    use, intrinsic :: iso_c_binding, only: c_int
-   use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
@@ -18,7 +17,7 @@ module wavycon_ball_source
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_gsl, only: gsl_sf_ellint_RD, gsl_sf_ellint_RF
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
    use wavycon_round_spot_stress, only: round_spot_stress

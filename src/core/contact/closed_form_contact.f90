@@ -2,7 +2,6 @@
 !> Hertz's (`ball_source`).
 module wavycon_closed_form_contact
    use wavycon_ball_source, only: solve_ball
-   use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
@@ -11,7 +10,7 @@ module wavycon_closed_form_contact
    use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_free_edges, only: is_ball
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities

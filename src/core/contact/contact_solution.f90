@@ -4,7 +4,6 @@
 !> Callers use a solution without regard to the solver that made it. Positions of fields and edges are the angles X, Y
 !> of the surface's cell. Ranks are the processes of the parallel program.
 module wavycon_contact_solution
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_spots, find_spots, one_region
    use wavycon_contact_status, only: full_contact, interrupted, is_good_status, no_load, no_memory
@@ -13,7 +12,7 @@ module wavycon_contact_solution
    use wavycon_fourier_series, only: fourier_series
    use wavycon_full_contact, only: full_contact_series
    use wavycon_grid_source, only: grid_source
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, quantities, unknown
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields

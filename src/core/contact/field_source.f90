@@ -3,11 +3,10 @@
 !>
 !> Positions of fields and edges are the angles X, Y of the surface's cell.
 module wavycon_field_source
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_quantities, only: quantities
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields

@@ -1,6 +1,5 @@
 !> The source of fields, contact contours, stresses and details of a load that the solver 'fitted' has solved.
 module wavycon_fitted_source
-   use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour
    use wavycon_contact_spots, only: in_cell
@@ -10,7 +9,7 @@ module wavycon_fitted_source
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_answer_stress, only: start_fitted_answer_stress
    use wavycon_fitted_stress_fields, only: fitted_stress_fields
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_load_slopes, only: find_load_slopes
    use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, perimeter, quantities, &
       saddle_gap, saddle_pressure, trough_gap, unknown

@@ -4,7 +4,6 @@
 !> periodic on a smaller square of half the area, rotated by 45 degrees. Then a quarter of the smaller square is solved,
 !> unless the number of points is given, which refers to the cell of the deck.
 module wavycon_grid_contact
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
@@ -14,8 +13,8 @@ module wavycon_grid_contact
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
-   use wavycon_kinds, only: dp
    use wavycon_grid_area, only: load_concentration
+   use wavycon_kinds, only: dp, int64
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
       min_pressure, unknown

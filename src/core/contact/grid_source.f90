@@ -1,8 +1,7 @@
 !> The source of fields, contact contours and stresses of a load that was solved on a grid. The data are the pressures
 !> and gaps at the points of the grid.
 module wavycon_grid_source
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_fortran_env, only: int64
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
    use wavycon_field_source, only: field_source
@@ -16,7 +15,7 @@ module wavycon_grid_source
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_stress_fields, only: grid_stress_fields
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64, not_a_number
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress_fields, only: start_series_stress_fields
@@ -234,7 +233,7 @@ contains
          self%rotated = values(7) > 0.0_dp
          self%history = change_history(values(10:12), reshape(values(13:18), [3, 2]))
          call slab%start(points, whole)
-         allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
+         allocate (field(rows, slab%columns()), source=not_a_number())
          allocate (edge)
          call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab, values(9) > 0.0_dp)
          call self%take_edge(edge)

@@ -3,7 +3,6 @@
 !> points. This is a quadratic programme. 'beale' solves it by Beale's method, as the paper does, and 'series' by
 !> the dual method of Goldfarb & Idnani, which is faster with many harmonics.
 module wavycon_series_contact
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
    use wavycon_beale, only: solve_by_beale
    use wavycon_complementary_energy, only: bounds_at, energy_problem
@@ -21,7 +20,7 @@ module wavycon_series_contact
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_full
    use wavycon_full_contact, only: displacement_of
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_line_zeros, only: line_zeros
    use wavycon_paper_wave, only: is_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_qp_problem, only: qp_problem, qp_solution
@@ -269,7 +268,7 @@ contains
       call self%coefficients(series)
       allocate (own)
       call start_series_stress_fields(own, surface, series, self%record%pbar_over_pstar, &
-                                      pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+                                      pressure_error=not_a_number(), is_sampled=.false.)
       call move_alloc(own, answer)
    end subroutine stresses
 

@@ -1,9 +1,8 @@
 !> The numbers of a solution as one record without pointers or allocatable parts. Tables without fields, checkpoints and
 !> other processes need only this record.
 module wavycon_solution_record
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_status, only: not_found
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_quantities, only: quantities, unknown
    implicit none (type, external)
    private

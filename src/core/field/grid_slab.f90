@@ -10,9 +10,8 @@
 !> Sums are the same to the last digit for any number of ranks. Each rank sums over its columns, or over strips of
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
 module wavycon_grid_slab
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_grid_points, only: image_of_point
-   use wavycon_kinds, only: dp, sp
+   use wavycon_kinds, only: dp, int64, sp
    use wavycon_ranks, only: add_over_ranks, any_rank, comm, largest_over_ranks, ranks_at_work, ranks_on_this_machine, &
       share_error, this_rank
    use wavycon_system, only: has_memory_for

@@ -1,14 +1,12 @@
 !> Makes height maps from lines of x, y and z, and profiles from lines of x and z; says whether numbers may be a matrix
 !> of heights. README.md in this directory, "Points and tables", has the rules.
 module wavycon_point_map
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr, c_size_t
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_constants, only: smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_gsl, only: gsl_interp_alloc, gsl_interp_eval, gsl_interp_free, gsl_interp_init, gsl_interp_steffen, &
       return_gsl_errors
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64, not_a_number, smallest_number
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
@@ -102,7 +100,7 @@ contains
       end if
       call check_room(table%path, points, error)
       if (allocated(error)) return
-      allocate (map%height(points(1), points(2)), source=ieee_value(0.0_dp, ieee_quiet_nan))
+      allocate (map%height(points(1), points(2)), source=not_a_number())
       allocate (is_there(points(1), points(2)), source=.false.)
       do k = 1, size(table%line)
          associate (point => table%values(:, k))

@@ -1,9 +1,8 @@
 !> The edge of contact as closed curves, contact contours, which are traced through the cells of a grid.
 module wavycon_contact_contours
    use, intrinsic :: iso_fortran_env, only: int8
-   use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner, cross, edge_point, quarter_turns
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    implicit none (type, external)
    private

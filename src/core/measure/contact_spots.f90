@@ -2,10 +2,9 @@
 !> of README.md. On a mirrored height map the regions are those of the map, which is a quarter of the cell.
 module wavycon_contact_spots
    use, intrinsic :: iso_c_binding, only: c_size_t
-   use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour
    use wavycon_gsl, only: gsl_sort_index
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: or_nan, unknown
    implicit none (type, external)
    private

@@ -4,8 +4,8 @@
 !> unit, and all results are in the same unit. A stress with a component that is not finite has NaN for its
 !> principal stresses and its largest shear.
 module wavycon_stress_tensor
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use wavycon_kinds, only: dp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_lapack, only: dsyev
    implicit none (type, external)
    private
@@ -63,7 +63,7 @@ contains
       real(dp) :: ascending(3), matrix(3, 3), work(8)
       integer :: info
 
-      principal = ieee_value(principal, ieee_quiet_nan)
+      principal = not_a_number()
       ! LAPACK compares numbers. A comparison with NaN stops a build that traps exceptions.
       if (.not. all(ieee_is_finite(s))) return
       ! DSYEV reads the lower triangle only.

@@ -1,8 +1,7 @@
 !> Recognises the waves of Johnson, Greenwood & Higginson (1985) among surfaces, with the wavelength and the angles of
 !> their equations. Also finds the smaller periodic cell that the 2-D wave and other surfaces of its symmetry have.
 module wavycon_paper_wave
-   use wavycon_constants, only: sqrt2
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, sqrt2
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_surface, only: surface_type
    implicit none (type, external)

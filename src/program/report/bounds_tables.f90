@@ -11,10 +11,10 @@ module wavycon_bounds_tables
    use wavycon_fourier_series, only: fourier_series, weighted
    use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_output_file, only: output_file
    use wavycon_quantities, only: approach, elastic_energy, mean_gap, or_nan, quantities
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
    use wavycon_surface, only: surface_type
    use wavycon_table, only: table_type
    implicit none (type, external)

@@ -3,12 +3,11 @@
 module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
-   use wavycon_constants, only: pi
    use wavycon_contact_status, only: converged, not_accurate, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_map_statistics, only: map_statistics
    use wavycon_methods, only: solvers_for
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number

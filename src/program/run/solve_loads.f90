@@ -3,7 +3,6 @@
 !> loads.
 module wavycon_solve_loads
    use, intrinsic :: iso_c_binding, only: c_size_t
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_adhesive_contact, only: at_approach, at_load, closed, point_names, separated
    use wavycon_adhesive_curve, only: add_load, find_adhesive_solution, follow_curve
    use wavycon_checkpoint, only: checkpoint_file
@@ -14,7 +13,7 @@ module wavycon_solve_loads
    use wavycon_find_percolation, only: solve_for_percolation
    use wavycon_find_yield, only: solve_for_yield
    use wavycon_gsl, only: gsl_sort_index
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_largest_stress, only: find_largest_stresses
    use wavycon_partial_slip, only: solve_partial_slip
    use wavycon_plain_text, only: integer_text, short_number
