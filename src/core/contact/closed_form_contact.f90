@@ -5,7 +5,6 @@ module wavycon_closed_form_contact
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
-   use wavycon_contact_status, only: closed_form, not_found
    use wavycon_contact_contours, only: contact_contour, make_strips
    use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
@@ -14,11 +13,11 @@ module wavycon_closed_form_contact
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
+   use wavycon_solution_record, only: by_closed_form, closed_form, no_solution, not_found
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
-   use wavycon_solution_record, only: by_closed_form, no_solution
    use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)

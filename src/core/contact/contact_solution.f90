@@ -6,7 +6,6 @@
 module wavycon_contact_solution
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_spots, find_spots, one_region
-   use wavycon_contact_status, only: full_contact, interrupted, is_good_status, no_load, no_memory
    use wavycon_contact_contours, only: contact_contour
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
@@ -16,7 +15,8 @@ module wavycon_contact_solution
    use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, quantities, unknown
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
-   use wavycon_solution_record, only: by_grid, record_words, solution_record
+   use wavycon_solution_record, only: by_grid, full_contact, interrupted, is_good_status, no_load, no_memory, &
+      record_words, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)

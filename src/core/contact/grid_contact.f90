@@ -7,7 +7,6 @@ module wavycon_grid_contact
    use wavycon_assertion, only: assert
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
-   use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_sequence, only: grid_start, sequence_answer, solve_by_sequence
    use wavycon_grid_edge, only: grid_edge
@@ -18,7 +17,8 @@ module wavycon_grid_contact
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
       min_pressure, unknown
-   use wavycon_solution_record, only: by_grid, no_solution
+   use wavycon_solution_record, only: by_grid, converged, interrupted, iteration_limit, no_memory, no_solution, &
+      not_accurate, unresolved
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

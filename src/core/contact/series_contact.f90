@@ -11,7 +11,6 @@ module wavycon_series_contact
    use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: status_of_programme
    use wavycon_contact_tuning, only: lightest_start, most_points_to_continue
    use wavycon_cosine_rows, only: add_cosine_rows
    use wavycon_dual_solver, only: dual_solver
@@ -28,7 +27,7 @@ module wavycon_series_contact
    use wavycon_rotated_series, only: to_sum_angles
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
-   use wavycon_solution_record, only: by_beale, by_series
+   use wavycon_solution_record, only: by_beale, by_series, status_of_programme
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_working_set, only: working_set

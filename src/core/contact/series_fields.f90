@@ -4,11 +4,11 @@
 !> load without a solution the fields are NaN.
 module wavycon_series_fields
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_status, only: full_contact, no_load
    use wavycon_fourier_series, only: fourier_series
    use wavycon_full_contact, only: full_contact_series, mean_compliance
    use wavycon_kinds, only: dp, not_a_number
    use wavycon_series_samples, only: sample_series
+   use wavycon_solution_record, only: full_contact, no_load
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

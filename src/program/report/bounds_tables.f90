@@ -5,7 +5,6 @@
 module wavycon_bounds_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
    use wavycon_fourier_series, only: fourier_series, weighted
@@ -15,6 +14,7 @@ module wavycon_bounds_tables
    use wavycon_output_file, only: output_file
    use wavycon_quantities, only: approach, elastic_energy, mean_gap, or_nan, quantities
    use wavycon_results, only: results_type
+   use wavycon_solution_record, only: status_code, status_name
    use wavycon_surface, only: surface_type
    use wavycon_table, only: table_type
    implicit none (type, external)

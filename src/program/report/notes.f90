@@ -3,7 +3,6 @@
 module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
-   use wavycon_contact_status, only: converged, not_accurate, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
@@ -17,7 +16,8 @@ module wavycon_notes
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
       target_words
-   use wavycon_solution_record, only: by_beale, by_grid, by_series, solution_record, solver_names
+   use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, not_accurate, not_found, &
+      solution_record, solver_names, status_name, unresolved
    implicit none (type, external)
    private
 

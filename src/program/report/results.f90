@@ -6,7 +6,6 @@ module wavycon_results
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_spots
-   use wavycon_contact_status, only: is_good_status, not_accurate, status_code, status_name, unresolved
    use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp, not_a_number
@@ -18,6 +17,7 @@ module wavycon_results
    use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, mean_gap, &
       number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
+   use wavycon_solution_record, only: is_good_status, not_accurate, status_code, status_name, unresolved
    use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
    private

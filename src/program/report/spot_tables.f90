@@ -17,7 +17,6 @@ module wavycon_spot_tables
    use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: connected_region
-   use wavycon_contact_status, only: status_code, status_name
    use wavycon_histogram, only: histogram, make_histogram
    use wavycon_kinds, only: dp, not_a_number, pi
    use wavycon_measure_tuning, only: line_samples, plane_samples
@@ -26,6 +25,7 @@ module wavycon_spot_tables
    use wavycon_plain_text, only: clauses, integer_text, short_number
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
+   use wavycon_solution_record, only: status_code, status_name
    use wavycon_table, only: table_type
    implicit none (type, external)
    private

@@ -8,7 +8,6 @@ module wavycon_solve_loads
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_status, only: is_good_status
    use wavycon_find_load, only: solve_for
    use wavycon_find_percolation, only: solve_for_percolation
    use wavycon_find_yield, only: solve_for_yield
@@ -21,7 +20,7 @@ module wavycon_solve_loads
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_approach, by_mean_gap, by_percolation, by_pressure, by_yield
-   use wavycon_solution_record, only: record_words
+   use wavycon_solution_record, only: is_good_status, record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
    use wavycon_work_sharing, only: distributed_loads
