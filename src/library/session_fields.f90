@@ -8,7 +8,6 @@ module wavycon_session_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
-   use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_group, only: key_list
@@ -17,6 +16,7 @@ module wavycon_session_fields
    use wavycon_plain_text, only: integer_text
    use wavycon_scene_groups, only: stress_group
    use wavycon_stress_group, only: lateral_of, list_stress_keys
+   use wavycon_stress_tensor, only: elastic_body, no_waves
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
    implicit none (type, external)

@@ -14,7 +14,6 @@ module wavycon
    use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_contact_contours, only: contact_contour
-   use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
    use wavycon_find_load, only: solve_for
    use wavycon_fitted_contact, only: fitted_contact
@@ -36,7 +35,8 @@ module wavycon
       status_code, status_name, status_of_programme, unresolved
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
+   use wavycon_stress_tensor, only: elastic_body, hydrostatic, largest_shear, laterally_constrained, laterally_free, &
+      principal_stresses, von_mises
    use wavycon_surface, only: surface_type
    use wavycon_surface_of_points, only: surface_of_points
    use wavycon_threads, only: set_threads

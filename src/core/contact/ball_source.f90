@@ -8,7 +8,6 @@ module wavycon_ball_source
    use wavycon_contact_contours, only: contact_contour
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_free_edges, only: ball_radii, surface_of_ball
    use wavycon_free_kernel, only: integral_to_corner
@@ -22,6 +21,7 @@ module wavycon_ball_source
    use wavycon_round_spot_stress, only: round_spot_stress
    use wavycon_solution_record, only: by_closed_form, closed_form
    use wavycon_stress_fields, only: start_point, stress_fields
+   use wavycon_stress_tensor, only: elastic_body
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -6,7 +6,6 @@ module wavycon_closed_form_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_contours, only: contact_contour, make_strips
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_free_edges, only: is_ball
    use wavycon_kinds, only: dp, pi
@@ -19,6 +18,7 @@ module wavycon_closed_form_contact
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
    use wavycon_stress_fields, only: start_point, stress_fields
+   use wavycon_stress_tensor, only: elastic_body
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

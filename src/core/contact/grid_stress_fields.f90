@@ -5,11 +5,10 @@
 !> waves that come from several edges the sums (S5) may cancel.
 module wavycon_grid_stress_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_grid_fields, only: grid_fields
    use wavycon_kinds, only: dp, pi
    use wavycon_series_stress_fields, only: series_stress_fields
-   use wavycon_stress_tensor, only: zz
+   use wavycon_stress_tensor, only: elastic_body, zz
    implicit none (type, external)
    private
 

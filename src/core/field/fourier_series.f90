@@ -23,7 +23,6 @@ module wavycon_fourier_series
       type(grid_slab) :: rows
    contains
       procedure :: is_even
-      procedure :: is_distributed
       procedure :: first
       procedure :: last
       procedure :: row
@@ -45,13 +44,6 @@ contains
 
       is_even = .not. allocated(self%wave)
    end function is_even
-
-   !> Whether each rank has some of the wave numbers in X only.
-   pure logical function is_distributed(self)
-      class(fourier_series), intent(in) :: self
-
-      is_distributed = self%rows%is_distributed
-   end function is_distributed
 
    !> The first wave number in X that this rank has.
    pure integer function first(self)
@@ -228,7 +220,7 @@ contains
       real(dp), allocatable :: own(:, :), whole(:, :)   ! real parts of the waves, and then the imaginary ones
       integer :: last, numbers
 
-      if (.not. self%rows%any(self%is_distributed() .and. self%rows%first == 1)) return
+      if (.not. self%rows%any(self%rows%is_distributed .and. self%rows%first == 1)) return
       last = self%last(2)
       numbers = 2*last + 1
       if (self%is_even()) then

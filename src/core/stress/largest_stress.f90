@@ -6,11 +6,10 @@
 !> the surface, so that the search may end on the surface.
 module wavycon_largest_stress
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_kinds, only: dp, not_a_number, pi
    use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: start_point, stress_fields
-   use wavycon_stress_tensor, only: largest_shear, von_mises
+   use wavycon_stress_tensor, only: elastic_body, largest_shear, von_mises
    use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, likely_gain, &
       most_models, search_accuracy, reach_factor, refined_places
    implicit none (type, external)

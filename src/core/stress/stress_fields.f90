@@ -4,10 +4,9 @@
 !> the body. Stresses are in p*, tension positive. The arguments `nu_terms` are without the stress of the mean pressure,
 !> which depends on how the body is held: `elastic_body` adds it.
 module wavycon_stress_fields
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_kinds, only: dp, not_a_number, pi
-   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: elastic_body, xx, xy, xz, yy, yz, zz
    implicit none (type, external)
    private
 

@@ -103,7 +103,7 @@ contains
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
 
-      is_distributed = self%shape%is_distributed()
+      is_distributed = self%shape%rows%is_distributed
    end function is_distributed
 
    !> Whether a hardness bounds the pressure.
