@@ -1,11 +1,12 @@
 !> The kinds of numbers of the program, mathematical constants, and the range of numbers that decks and maps may have.
 module wavycon_kinds
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only: int64, real32, real64
    implicit none (type, external)
    private
 
-   public :: int64, not_a_number
+   public :: int64
+   public :: ieee_is_finite, ieee_is_nan, not_a_number
 
    !> IEEE double precision: the kind of every number of the mechanics.
    integer, parameter, public :: dp = real64

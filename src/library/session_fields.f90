@@ -5,14 +5,13 @@
 !> numbers of points and coordinates that are out of range or not finite; exit_file_trouble if there is not enough
 !> memory.
 module wavycon_session_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: key_index
-   use wavycon_kinds, only: dp, int64, not_a_number
+   use wavycon_kinds, only: dp, ieee_is_finite, int64, not_a_number
    use wavycon_plain_text, only: integer_text
    use wavycon_scene_groups, only: stress_group
    use wavycon_stress_group, only: lateral_of, list_stress_keys

@@ -105,7 +105,7 @@ contains
       real(dp), intent(in) :: shape_values(:)        !! 1 - h/Delta at the points, shape (M)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as in on_grid, shape (M)
 
-      associate (unused => self, unused_too => column); end associate
+      associate (unused => self, unused_too => column, not_used => shape_values); end associate
       pressure = not_a_number()
       displacement = pressure
       gap = pressure

@@ -1,7 +1,6 @@
 !> The source of fields, contact contours and stresses of a load that was solved on a grid. The data are the pressures
 !> and gaps at the points of the grid.
 module wavycon_grid_source
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
    use wavycon_field_source, only: field_source
@@ -15,7 +14,7 @@ module wavycon_grid_source
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_stress_fields, only: grid_stress_fields
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp, int64, not_a_number
+   use wavycon_kinds, only: dp, ieee_is_nan, int64, not_a_number
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    use wavycon_rotated_series, only: to_difference_angles
    use wavycon_series_stress_fields, only: start_series_stress_fields

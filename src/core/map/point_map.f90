@@ -1,12 +1,11 @@
 !> Makes height maps from lines of x, y and z, and profiles from lines of x and z; says whether numbers may be a matrix
 !> of heights. README.md in this directory, "Points and tables", has the rules.
 module wavycon_point_map
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr, c_size_t
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_gsl, only: gsl_interp_alloc, gsl_interp_eval, gsl_interp_free, gsl_interp_init, gsl_interp_steffen, &
       return_gsl_errors
-   use wavycon_kinds, only: dp, int64, not_a_number, smallest_number
+   use wavycon_kinds, only: dp, ieee_is_nan, int64, not_a_number, smallest_number
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number

@@ -5,8 +5,7 @@
 !> place, and the distance of the points is reduced: (S6), (S7) of README.md in this directory. Depths are mirrored at
 !> the surface, so that the search may end on the surface.
 module wavycon_largest_stress
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_kinds, only: dp, not_a_number, pi
+   use wavycon_kinds, only: dp, ieee_is_nan, not_a_number, pi
    use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_stress_tensor, only: elastic_body, largest_shear, von_mises

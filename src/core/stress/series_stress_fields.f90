@@ -3,10 +3,9 @@
 !>
 !> Equations (S1) to (S5), (S9) and, for free edges, (S11) of README.md in this directory.
 module wavycon_series_stress_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp, pi
+   use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_load_tree, only: load_tree, plant_load_tree
    use wavycon_pressure_wave_sums, only: deepest, pressure_wave_sums
    use wavycon_series_samples, only: sample_series

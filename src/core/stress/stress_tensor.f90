@@ -5,8 +5,7 @@
 !> unit, and all results are in the same unit. A stress with a component that is not finite has NaN for its
 !> principal stresses and its largest shear.
 module wavycon_stress_tensor
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use wavycon_kinds, only: dp, not_a_number
+   use wavycon_kinds, only: dp, ieee_is_finite, not_a_number
    use wavycon_lapack, only: dsyev
    implicit none (type, external)
    private

@@ -1,12 +1,11 @@
 !> The text of a run's log: the input, the tables of the solved loads and of the largest stresses, and notes on what a
 !> user should know of input and solutions.
 module wavycon_notes
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
-   use wavycon_kinds, only: dp, pi
+   use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_map_statistics, only: map_statistics
    use wavycon_methods, only: solvers_for
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number

@@ -1,6 +1,5 @@
 !> The data from which the tables of one scene are written, and the header lines that all tables have.
 module wavycon_results
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_adhesive_curve, only: adhesive_curve
    use wavycon_contact_measures, only: linear_area_fraction
    use wavycon_contact_solution, only: contact_solution
@@ -8,7 +7,7 @@ module wavycon_results
    use wavycon_contact_spots, only: contact_spots
    use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_head_lines, only: head_lines
-   use wavycon_kinds, only: dp, not_a_number
+   use wavycon_kinds, only: dp, ieee_is_nan, not_a_number
    use wavycon_largest_stress, only: largest_stress
    use wavycon_memory_table, only: column_list, column_type, memory_table
    use wavycon_output_file, only: output_file
