@@ -112,11 +112,8 @@ contains
       real(dp), intent(in) :: mean
 
       if (self%first() > 0) return
-      if (self%is_even()) then
-         self%c(0, 0) = mean
-      else
-         self%wave(0, 0) = mean
-      end if
+      if (allocated(self%c)) self%c(0, 0) = mean
+      if (allocated(self%wave)) self%wave(0, 0) = mean
    end subroutine set_mean
 
    !> Adds Re w exp(i (kX + lY)) to a series that is not even.
@@ -288,11 +285,8 @@ contains
       type(fourier_series), intent(inout) :: series
       real(dp), intent(in) :: unit   !! divisor, not 0
 
-      if (series%is_even()) then
-         series%c = series%c/unit
-      else
-         series%wave = series%wave/unit
-      end if
+      if (allocated(series%c)) series%c = series%c/unit
+      if (allocated(series%wave)) series%wave = series%wave/unit
    end subroutine divide_series
 
 end module wavycon_fourier_series
