@@ -1,9 +1,8 @@
 !> The spots of contact and the pools of gap of one periodic cell, and whether contact and gap percolate: (A1) to (A5)
 !> of README.md. On a mirrored height map the regions are those of the map, which is a quarter of the cell.
 module wavycon_contact_spots
-   use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_contact_contours, only: contact_contour
-   use wavycon_gsl, only: gsl_sort_index
+   use wavycon_gsl, only: ascending_order
    use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: or_nan, unknown
    implicit none (type, external)
@@ -78,8 +77,8 @@ contains
       end if
       call add_up_to(area, spots)
       call add_up_to(1.0_dp - area, pools)
-      call sort_by_area(spots, answer%spots)
-      call sort_by_area(pools, answer%pools)
+      answer%spots = spots(ascending_order(-spots%area_fraction))
+      answer%pools = pools(ascending_order(-pools%area_fraction))
    end subroutine find_spots
 
    !> Sets the only region of a cell without an edge: the whole cell.
@@ -309,16 +308,5 @@ contains
 
       in_cell = max(angle - 2*pi*floor(angle/(2*pi) + rounding), 0.0_dp)
    end function in_cell
-
-   !> Sorts regions by their areas.
-   subroutine sort_by_area(regions, sorted)
-      type(connected_region), intent(in) :: regions(:)
-      type(connected_region), allocatable, intent(out) :: sorted(:)   !! the largest first
-
-      integer(c_size_t) :: order(size(regions))
-
-      call gsl_sort_index(order, -regions%area_fraction, 1_c_size_t, size(regions, kind=c_size_t))
-      sorted = regions(int(order) + 1)
-   end subroutine sort_by_area
 
 end module wavycon_contact_spots

@@ -2,7 +2,6 @@
 !> loads, each rank solves its own loads and finds the stresses of these; afterwards all ranks have the numbers of all
 !> loads.
 module wavycon_solve_loads
-   use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_adhesive_contact, only: at_approach, at_load, closed, point_names, separated
    use wavycon_adhesive_curve, only: add_load, find_adhesive_solution, follow_curve
    use wavycon_checkpoint, only: checkpoint_file
@@ -11,7 +10,7 @@ module wavycon_solve_loads
    use wavycon_find_load, only: solve_for
    use wavycon_find_percolation, only: solve_for_percolation
    use wavycon_find_yield, only: solve_for_yield
-   use wavycon_gsl, only: gsl_sort_index
+   use wavycon_gsl, only: ascending_order
    use wavycon_kinds, only: dp, int64
    use wavycon_largest_stress, only: find_largest_stresses
    use wavycon_partial_slip, only: solve_partial_slip
@@ -45,13 +44,11 @@ contains
    subroutine order_loads(results)
       type(results_type), intent(inout) :: results   !! with the started solver; gets `order`
 
-      integer(c_size_t) :: sorted(size(results%scene%target))
-      real(dp) :: sort_key(size(sorted))   ! rises as the load falls
+      real(dp) :: sort_key(size(results%scene%target))   ! rises as the load falls
 
       sort_key = -results%scene%target
       if (results%scene%loads_by == by_mean_gap) sort_key = results%scene%target
-      call gsl_sort_index(sorted, sort_key, 1_c_size_t, size(sorted, kind=c_size_t))
-      results%order = int(sorted) + 1
+      results%order = ascending_order(sort_key)
       call results%sharing%deal_loads(results%order, length_of_block(results))
    end subroutine order_loads
 
