@@ -199,10 +199,8 @@ contains
             if (.not. grid%is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
                                                 integer_text(least(1))//' x '//integer_text(least(2))//' points'
          end if
-         if (trouble /= '') then
-            call fatal_error(error, exit_bad_input, trouble)
-            return
-         end if
+         if (trouble /= '') call fatal_error(error, exit_bad_input, trouble)
+         if (allocated(error)) return
          pbar_over_pstar = mean_pressure/units%p_star
          ! Without a hardness only the ratios of pressures matter: dividing by the largest keeps their squares in range.
          unit = maxval(pressure)

@@ -43,10 +43,8 @@ contains
          return
       end if
       last = index(file%head, char(0)) - 1
-      if (last < 0) then
-         call file%refuse('the head of this .gsf file has no end, which is a null character', error)
-         return
-      end if
+      if (last < 0) call file%refuse('the head of this .gsf file has no end, which is a null character', error)
+      if (allocated(error)) return
       words = file%head(:last)
       do i = 1, size(keys)
          entry = entry_of(words, trim(keys(i)), '=')

@@ -102,10 +102,8 @@ contains
       remedy = remedy_of_content(file%head, file%path)
       if (index(file%head, npy_magic) == 1) remedy = "this is a file of numpy: file_format = 'npy' reads it"
       if (index(file%head, gsf_magic) == 1) remedy = "this is a file of Gwyddion: file_format = 'gsf' reads it"
-      if (remedy /= '') then
-         call file%refuse(remedy, error)
-         return
-      end if
+      if (remedy /= '') call file%refuse(remedy, error)
+      if (allocated(error)) return
       call read_number_table(file%path, most_bytes, table, error)
       if (allocated(error)) then
          ! The name is considered only now, because a text of numbers is read whatever its name is.

@@ -89,10 +89,8 @@ contains
             if (status /= 0) exit
          end if
          call read_line(content(first:last), row, used, ends_open, trouble)
-         if (allocated(trouble)) then
-            call trouble_in_line(trouble)
-            return
-         end if
+         if (allocated(trouble)) call trouble_in_line(trouble)
+         if (allocated(error)) return
          if (used == 0) cycle
          if (rows == 0) then
             columns = used

@@ -201,10 +201,8 @@ contains
       if (allocated(error)) return
       x = table%values(1, :)
       k = findloc(ieee_is_nan(x), .true., dim=1)
-      if (k > 0) then
-         call table%refuse(k, 'x must be a number; a missing height is nan, or its line is left out', error)
-         return
-      end if
+      if (k > 0) call table%refuse(k, 'x must be a number; a missing height is nan, or its line is left out', error)
+      if (allocated(error)) return
       do k = 2, n
          if ((x(k) - x(k - 1))*(x(n) - x(1)) > 0.0_dp) cycle
          call table%refuse(k, 'x = '//short_number(x(k))//' after '//short_number(x(k - 1))// &

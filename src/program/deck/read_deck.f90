@@ -75,10 +75,8 @@ contains
       if (present(in_memory)) is_file = .not. in_memory
       text = deck_text
       token = next_token(text%content, 1)
-      if (token%kind == at_end) then
-         call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
-         return
-      end if
+      if (token%kind == at_end) call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
+      if (allocated(error)) return
       call list_keys(scene, lists)
       call take_groups(text, lists, problems, settings)
       do i = 1, size(lists)
