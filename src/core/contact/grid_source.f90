@@ -16,7 +16,7 @@ module wavycon_grid_source
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp, ieee_is_nan, int64, not_a_number
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
-   use wavycon_rotated_series, only: to_difference_angles
+   use wavycon_rotated_series, only: in_other_angles, to_difference_angles
    use wavycon_series_stress_fields, only: start_series_stress_fields
    use wavycon_paper_wave, only: smaller_cell
    use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
@@ -161,7 +161,7 @@ contains
       call transform%start(shape(values), self%edge%even .and. cells == 1, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
-      if (self%rotated) pressure = to_difference_angles(pressure)
+      if (self%rotated) pressure = in_other_angles(pressure, to_difference_angles)
       allocate (own)
       call start_grid_fields(own%fields, surface, self%edge, self%record%value(approach), self%rotated)
       own%repeats = .not. surface%has_free_edges

@@ -24,7 +24,7 @@ module wavycon_series_contact
    use wavycon_paper_wave, only: is_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_qp_problem, only: qp_problem, qp_solution
    use wavycon_quantities, only: approach, elastic_energy, gap_slope, mean_gap, peak_pressure, quantities
-   use wavycon_rotated_series, only: to_sum_angles
+   use wavycon_rotated_series, only: in_other_angles, to_sum_angles
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
    use wavycon_solution_record, only: by_beale, by_series, status_of_programme
@@ -277,7 +277,7 @@ contains
       type(fourier_series), intent(out) :: series
 
       series = self%pressure(self%record%pbar_over_pstar)
-      if (self%rotated) series = to_sum_angles(series)
+      if (self%rotated) series = in_other_angles(series, to_sum_angles)
    end subroutine coefficients
 
    !> The isobar p = edge_level p*, which is taken as the edge of contact.
