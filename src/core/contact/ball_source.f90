@@ -179,11 +179,10 @@ contains
 
    !> The edge of contact: the ellipse and its mirror images in the four quarters of the mirrored cell. They count as
    !> one spot.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       integer, parameter :: points = 256
       real(dp), parameter :: centres(2, 4) = 0.5_dp*pi*reshape([1, 1, 3, 1, 1, 3, 3, 3], [2, 4])
@@ -195,9 +194,9 @@ contains
       allocate (curves(4))
       do k = 1, size(curves)
          curves(k) = contact_contour(phi=centres(1, k) + axes(1)*cos(t), theta=centres(2, k) + axes(2)*sin(t), &
-                                     turns=1, spot=1, pool=1, area=pi*product(axes), length=self%contact%perimeter())
+                                     turns=1, spot=1, pool=1, load=1.0_dp, area=pi*product(axes), &
+                                     length=self%contact%perimeter())
       end do
-      loads = [1.0_dp]
    end subroutine contact_contours
 
    !> The stresses below the ball: closed forms (I23) of src/beyond if it is round, as it is with adhesion. Those of

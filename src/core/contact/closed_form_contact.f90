@@ -151,15 +151,14 @@ contains
    end subroutine at
 
    !> The edge of contact: both ends of the only strip, X = -pi A and pi A, which carries the whole load.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       associate (unused => surface); end associate
       call make_strips([pi*self%record%value(contact_area)], .true., .true., curves)
-      loads = [1.0_dp]
+      curves%load = 1.0_dp
    end subroutine contact_contours
 
    !> Makes the stresses (`stress_at`) below Westergaard's pressure.

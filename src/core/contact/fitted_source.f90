@@ -103,11 +103,10 @@ contains
    end subroutine prepare_places
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(fitted_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       complex(dp) :: centre, edge(edge_points), to_surface, trough
       integer :: contours, i, k, rotated
@@ -120,12 +119,10 @@ contains
       contours = self%frame%crests
       trough = (0.0_dp, 0.0_dp)
       inside = self%record%value(contact_area)
-      loads = [(1.0_dp/contours, i=1, contours)]
       if (self%answer%pool) then
          contours = contours*self%frame%lattice%troughs
          trough = self%frame%lattice%trough
          inside = inside - 1.0_dp
-         loads = [1.0_dp]
          ! The contact lies on the left of a contour: about a pool the points run backwards.
          edge = edge(edge_points:1:-1)
       end if
@@ -146,10 +143,12 @@ contains
          curves(k)%turns = 1
          curves(k)%spot = k
          curves(k)%pool = 1
+         curves(k)%load = 1.0_dp/contours
          if (self%answer%pool) then
             curves(k)%turns = -1
             curves(k)%spot = 1
             curves(k)%pool = k
+            curves(k)%load = 1.0_dp
          end if
          curves(k)%area = (2*pi)**2/contours*inside
          curves(k)%length = self%record%value(perimeter)

@@ -92,14 +92,13 @@ contains
 
    !> The edge of contact (C11), (C12), and the loads of the spots. In 2-D the polygons are moved into the contact by
    !> the offset of (C12).
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       type(region_numbers) :: numbers
-      real(dp), allocatable :: edges(:)
+      real(dp), allocatable :: edges(:), loads(:)
       integer :: i
 
       if (surface%dimension == 2) then
@@ -113,16 +112,19 @@ contains
             call shift_contour(curves(i), self%edge%period, self%edge%rule%offset)
          end do
          if (self%rotated) call rotate_contours(curves, factor=0.5_dp)
-         call spot_loads(self%edge, numbers, loads)
       else
          call grid_strip_edges(self%edge, edges)
          call make_strips(edges, self%edge%in_contact(1, 1), self%edge%even, curves)
          call find_region_numbers(self%edge, [self%edge%period(1), 1], 0, numbers)
-         call spot_loads(self%edge, numbers, loads)
-         ! make_strips begins with the strip of the first point, the numbers begin with that of the point before. They
-         ! differ if that point is in contact and the first one is not.
-         if (self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) loads = cshift(loads, 1)
       end if
+      call spot_loads(self%edge, numbers, loads)
+      ! make_strips begins with the strip of the first point, the numbers begin with that of the point before. They
+      ! differ if that point is in contact and the first one is not.
+      if (surface%dimension == 1 .and. self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) &
+         loads = cshift(loads, 1)
+      do i = 1, size(curves)
+         curves(i)%load = loads(curves(i)%spot)
+      end do
    end subroutine contact_contours
 
    !> The stresses below the Fourier series that interpolates the pressures at the points. Their error estimate has two

@@ -281,11 +281,10 @@ contains
    end subroutine coefficients
 
    !> The isobar p = edge_level p*, which is taken as the edge of contact.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(series_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       type(fourier_series) :: series
       type(isobar_grid) :: grid
@@ -308,7 +307,6 @@ contains
             call make_strips(zeros, sum(series%c) >= 0.0_dp, .true., curves)
          end if
          ! The load of a spot is not known: some of the pressure lies outside the isobar.
-         allocate (loads(0))
       end associate
    end subroutine contact_contours
 

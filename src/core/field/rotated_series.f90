@@ -17,11 +17,11 @@ module wavycon_rotated_series
 contains
 
    !> With `to_sum_angles` converts a series in phi and theta to a series in X and Y. The field also has the period (pi,
-   !> pi), so that i + j is even in all its terms; terms with an odd sum, which are rounding, are left out. A term (i, j)
-   !> becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with half the coefficient.
+   !> pi), so that i + j is even in all its terms; terms with an odd sum, which are rounding, are left out. A term
+   !> (i, j) becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with half the coefficient.
    !>
-   !> With `to_difference_angles` converts a series in X and Y, which does not change if X and Y are exchanged, to one in
-   !> phi and theta: the inverse. The terms (i, j) and (j, i) become the terms (i + j, |i - j|) and (|i - j|, i + j).
+   !> With `to_difference_angles` converts a series in X and Y, which does not change if X and Y are exchanged, to one
+   !> in phi and theta: the inverse. The terms (i, j) and (j, i) become the terms (i + j, |i - j|) and (|i - j|, i + j).
    pure type(fourier_series) function in_other_angles(series, direction) result(rotated)
       type(fourier_series), intent(in) :: series
       integer, intent(in) :: direction   !! to_sum_angles or to_difference_angles
