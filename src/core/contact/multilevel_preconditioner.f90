@@ -106,6 +106,8 @@ contains
    recursive subroutine average_contact(self)
       class(multilevel_preconditioner), intent(inout) :: self
 
+      real(dp) :: total(1)
+
       if (allocated(self%coarser)) then
          call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
@@ -113,9 +115,9 @@ contains
          self%factor = min(1.0_sp, self%decay*self%reach)
          if (self%coarser%is_balance) self%factor = 1.0_sp
       else
-         associate (area => self%slab%sum_of(real(self%contact, dp))/product(real(self%slab%points, dp)))
-            self%decay = real(min(1.0_dp, decay_alone + decay_growth*sqrt(area)), sp)
-         end associate
+         total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
+         self%decay = real(min(1.0_dp, decay_alone &
+                                       + decay_growth*sqrt(total(1)/product(real(self%slab%points, dp)))), sp)
       end if
    end subroutine average_contact
 

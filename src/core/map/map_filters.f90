@@ -93,14 +93,15 @@ contains
       real(dp), intent(inout) :: height(:, :)   !! shape (M, slab%columns())
       real(dp), intent(out) :: changed          !! part of the points at which the window is below 1
 
-      real(dp) :: along_x(slab%points(1)), along_y(slab%points(2))
+      real(dp) :: along_x(slab%points(1)), along_y(slab%points(2)), mean(1)
       integer :: j
 
       along_x = window(slab%points(1), width)
       along_y = window(slab%points(2), width)
       ! The second pass removes the rounding error of the first one, which is large if the mean is.
       do j = 1, 2
-         height = height - slab%sum_of(height)/product(real(slab%points, dp))
+         mean = slab%column_totals(reshape(sum(height, dim=1), [1, size(height, 2)]))/product(real(slab%points, dp))
+         height = height - mean(1)
       end do
       do j = 1, size(height, 2)
          height(:, j) = along_y(slab%first - 1 + j)*along_x*height(:, j)
@@ -143,7 +144,7 @@ contains
       type(fourier_series) :: waves
       type(grid_transform) :: transform
       real(dp), allocatable :: factor(:, :), ratio(:, :), smooth(:, :)   ! ratio: of the cut-off to the wavelength
-      real(dp) :: periods(2)
+      real(dp) :: periods(2), squares(1)
 
       periods = merge(2, 1, mirrored)*sides
       call transform%start(points, even=mirrored)
@@ -161,7 +162,8 @@ contains
       call waves%multiply(factor)
       allocate (smooth, mold=height)
       call transform%sample(waves, smooth)
-      removed = sqrt(transform%slab%sum_of((height - smooth)**2)/product(real(points, dp)))
+      squares = transform%slab%column_totals(reshape(sum((height - smooth)**2, dim=1), [1, size(height, 2)]))
+      removed = sqrt(squares(1)/product(real(points, dp)))
       height = smooth
    end subroutine leave_out_waves
 

@@ -38,7 +38,7 @@ contains
       type(grid_slab) :: slab
       type(map_changes) :: changes
       logical :: repeats
-      real(dp) :: extremes(2), largest, length(2), mean, unfiltered(2)
+      real(dp) :: extremes(2), largest, length(2), mean(1), unfiltered(2)
 
       slab = map%columns()
       length = sides/slab%points
@@ -73,8 +73,8 @@ contains
          map%height = 0.0_dp
          largest = 0.0_dp
       else
-         mean = slab%sum_of(map%height)/product(real(slab%points, dp))
-         map%height = unit*(map%height - mean)
+         mean = slab%column_totals(reshape(sum(map%height, dim=1), [1, slab%columns()]))/product(real(slab%points, dp))
+         map%height = unit*(map%height - mean(1))
          largest = unit*maxval(extremes + [-mean, mean])
       end if
       if (largest > largest_number .or. (largest < smallest_number .and. largest > 0.0_dp)) then
