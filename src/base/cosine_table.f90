@@ -1,7 +1,6 @@
 !> Cosines at equally spaced points of half a period.
 module wavycon_cosine_table
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

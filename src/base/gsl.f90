@@ -1,11 +1,11 @@
-!> Interfaces of those procedures of the GNU Scientific Library that are used. Names, arguments and return values are
-!> the library's own; its manual describes them in full.
+!> Interfaces of those procedures of the GNU Scientific Library that are used. Names, arguments and return values that
+!> begin with gsl are the library's own; its manual describes them in full.
 module wavycon_gsl
    use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int, c_long, c_ptr, c_size_t
    implicit none (type, external)
    private
 
-   public :: gsl_sort_index
+   public :: ascending_order
    public :: gsl_sf_legendre_pl_array, gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp, gsl_sf_ellint_RD, gsl_sf_ellint_RF
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
@@ -153,6 +153,17 @@ module wavycon_gsl
    end interface
 
 contains
+
+   !> The indices that sort numbers in ascending order.
+   pure function ascending_order(values) result(order)
+      real(c_double), intent(in) :: values(:)
+      integer :: order(size(values))
+
+      integer(c_size_t) :: places(size(values))
+
+      call gsl_sort_index(places, values, 1_c_size_t, size(values, kind=c_size_t))
+      order = int(places) + 1
+   end function ascending_order
 
    !> Makes the library return statuses and null pointers on errors, instead of ending the program, which is its
    !> default. Call this procedure before any procedure of the library that can fail. Further calls change nothing.

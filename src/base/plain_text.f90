@@ -1,7 +1,6 @@
 !> Text for messages and decks: lower case, numbers in words, lists, quotes, and escapes for bytes that do not print.
 module wavycon_plain_text
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    implicit none (type, external)
    private
 

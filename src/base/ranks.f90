@@ -7,9 +7,8 @@
 !> Few modules use this one: wavycon_grid_slab, through which the solvers exchange data, wavycon_work_sharing for the
 !> steps of a run, and one module of each directory that reads or writes files.
 module wavycon_ranks
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, fatal_error
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    implicit none (type, external)
    private
 

@@ -6,19 +6,17 @@
 module wavycon_adhesive_contact
    use wavycon_ball_source, only: ball_source
    use wavycon_closed_form_contact, only: closed_form_source
-   use wavycon_constants, only: pi
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_status, only: converged, full_contact, not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fitted_solver, only: solve_adhesive
    use wavycon_fitted_source, only: fitted_source
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: approach, contact_area, elastic_energy, is_known, mean_gap, or_nan, &
       scaled, unknown
-   use wavycon_solution_record, only: no_solution, no_solver
+   use wavycon_solution_record, only: converged, full_contact, no_solution, no_solver, not_accurate, not_found
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -53,7 +51,7 @@ module wavycon_adhesive_contact
       real(dp) :: error(2) = unknown          !! error estimates of P [p*] and approach [Delta]
       real(dp) :: energy = unknown            !! elastic energy [p* Delta]: the mean of p u/2
       real(dp) :: energy_error = unknown      !! error estimate of the energy [p* Delta]
-      integer :: status = converged           !! a status of wavycon_contact_status
+      integer :: status = converged           !! a status of wavycon_solution_record
       !> The solution by fitted functions, from which other points start. Only of waves on a lattice.
       type(fitted_answer), allocatable :: answer
    end type adhesive_point

@@ -8,14 +8,13 @@ module wavycon_adhesive_curve
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
    use wavycon_beyond_tuning, only: beyond_extreme, finer_by, first_over_critical, least_step, radius_growth, &
       radius_step, ratio_growth, ratio_of_extremes, worst_error
-   use wavycon_constants, only: pi
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_status, only: converged, not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: unknown
+   use wavycon_solution_record, only: converged, not_accurate, not_found
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

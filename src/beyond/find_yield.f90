@@ -4,16 +4,14 @@
 !> ln r(P) = ln(target), is solved for ln P by the secant method. The search begins at a light load, where r is a power
 !> of P, and approaches the root from below, because r may fall again at loads above the least root.
 module wavycon_find_yield
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, fraction_of_error, largest_fraction, largest_stress_error, &
       largest_stress_miss, least_fraction, longest_rise, most_solves, part_of_stress_error
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_finite
    use wavycon_largest_stress, only: largest_stress
    use wavycon_quantities, only: unknown
-   use wavycon_solution_record, only: no_solution
+   use wavycon_solution_record, only: interrupted, no_solution, not_accurate, not_found
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
    implicit none (type, external)

@@ -4,11 +4,10 @@
 module wavycon_partial_slip
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_status, only: not_found
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: approach, elastic_energy, gap_curvature, gap_slope, is_known, mean_gap, or_nan, &
       quantities, unknown
-   use wavycon_solution_record, only: no_solution
+   use wavycon_solution_record, only: no_solution, not_found
    implicit none (type, external)
    private
 

@@ -247,10 +247,8 @@ contains
       allocate (answer%solution)
       answer%loads_by = loads_by
       answer%target = target(load)
-      if (begin_solve(self%is_solving) /= 0) then
-         call fatal_error(error, exit_bad_input, in_callback)
-         return
-      end if
+      if (begin_solve(self%is_solving) /= 0) call fatal_error(error, exit_bad_input, in_callback)
+      if (allocated(error)) return
       call solve_target(self%results%solver, loads_by, target(load), answer%solution, self%results%scene%stress_setting)
       call end_solve(self%is_solving)
       answer%mean_pressure = self%scale%p_star*answer%solution%pbar_over_pstar

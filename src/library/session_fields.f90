@@ -5,20 +5,17 @@
 !> numbers of points and coordinates that are out of range or not finite; exit_file_trouble if there is not enough
 !> memory.
 module wavycon_session_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: map_offset, map_points
    use wavycon_deck_session, only: check_ready, deck_session, solved_load
-   use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: key_index
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_finite, int64, not_a_number
    use wavycon_plain_text, only: integer_text
-   use wavycon_results, only: not_a_number
    use wavycon_scene_groups, only: stress_group
    use wavycon_stress_group, only: lateral_of, list_stress_keys
+   use wavycon_stress_tensor, only: elastic_body, no_waves
    use wavycon_system, only: has_memory_for
    use wavycon_table, only: table_type
    implicit none (type, external)
@@ -202,10 +199,8 @@ contains
             if (.not. grid%is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
                                                 integer_text(least(1))//' x '//integer_text(least(2))//' points'
          end if
-         if (trouble /= '') then
-            call fatal_error(error, exit_bad_input, trouble)
-            return
-         end if
+         if (trouble /= '') call fatal_error(error, exit_bad_input, trouble)
+         if (allocated(error)) return
          pbar_over_pstar = mean_pressure/units%p_star
          ! Without a hardness only the ratios of pressures matter: dividing by the largest keeps their squares in range.
          unit = maxval(pressure)

@@ -11,11 +11,9 @@ module wavycon
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: connected_region, contact_spots
-   use wavycon_contact_status
    use wavycon_deck_session, only: deck_session, solved_load
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_contact_contours, only: contact_contour
-   use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged
    use wavycon_find_load, only: solve_for
    use wavycon_fitted_contact, only: fitted_contact
@@ -32,9 +30,13 @@ module wavycon
    use wavycon_run_scene, only: run_deck
    use wavycon_session_fields, only: bounds_from_fields, fields_at, fields_on_grid, own_points, stresses_at, &
       stresses_on_plane
+   use wavycon_solution_record, only: above_hardness, closed_form, converged, full_contact, interrupted, &
+      is_good_status, iteration_limit, no_load, no_memory, not_accurate, not_finite, not_found, other_failure, &
+      status_code, status_name, status_of_programme, unresolved
    use wavycon_solver_progress, only: solver_progress
    use wavycon_stress_fields, only: stress_fields
-   use wavycon_stress_tensor, only: largest_shear, principal_stresses, von_mises
+   use wavycon_stress_tensor, only: elastic_body, hydrostatic, largest_shear, laterally_constrained, laterally_free, &
+      principal_stresses, von_mises
    use wavycon_surface, only: surface_type
    use wavycon_surface_of_points, only: surface_of_points
    use wavycon_threads, only: set_threads

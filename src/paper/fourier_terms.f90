@@ -6,8 +6,7 @@
 !>    'diagonal'  keeps those with i + j even: phi, theta -> pi - phi, pi - theta leaves the surface as it is,
 !>    'full'      also sets A_ij = A_ji: one unknown stands for both.
 module wavycon_fourier_terms
-   use wavycon_constants, only: sqrt2
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, sqrt2
    implicit none (type, external)
    private
 

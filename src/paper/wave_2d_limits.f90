@@ -24,8 +24,7 @@
 !> + terms in cos(4 theta), and the volume G of each other crack adds the tension G/(4 pi^2 |n|^3). With y = pi^2 b^2
 !> the stress intensity factor vanishes for 2 y/3 - 2 y^2/15 = e + k G, k = S_3/(4 pi^2).
 module wavycon_wave_2d_limits
-   use wavycon_constants, only: pi, sqrt2
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi, sqrt2
    implicit none (type, external)
    private
 

@@ -8,8 +8,7 @@
 !>
 !> N.B. psi is half of the angle phi = 2 pi x/lambda of the Fourier series (12).
 module wavycon_westergaard
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

@@ -6,7 +6,7 @@
 !> grids, each weighted by its points over those of the last; and pairs of transforms, weighted likewise. The last line
 !> has the most iterations on a last grid.
 module bench_iteration_count
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
 
@@ -36,7 +36,6 @@ end module bench_iteration_count
 program bench_iterations
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use bench_iteration_count, only: grids, iteration_count, numbers, sides
-   use wavycon_constants, only: pi
    use wavycon_error, only: error_type
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
    use wavycon_kinds, only: dp

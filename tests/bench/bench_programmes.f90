@@ -10,10 +10,10 @@
 program bench_programmes
    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
    use wavycon_series_contact, only: series_contact, qp_options
-   use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_fourier_terms, only: symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_solution
+   use wavycon_solution_record, only: status_name, status_of_programme
    use wavycon_wave_surfaces, only: wave_2d
    implicit none (type, external)
 

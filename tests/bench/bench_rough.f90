@@ -8,9 +8,8 @@
 !> iterations on all grids and on the last, and transforms there and back in units of one on the last grid.
 program bench_rough
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use wavycon_constants, only: pi
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_surface, only: surface_type
    use wavycon_surface_of_points, only: surface_of_points
    use wavycon_system, only: prepare_process

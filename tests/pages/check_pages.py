@@ -141,7 +141,7 @@ def explained_statuses(text):
 
 def statuses_of_sources():
     """{status: code} as the sources have them."""
-    text = read("src/core/contact/contact_status.f90")
+    text = read("src/core/contact/solution_record.f90")
     codes = {name: int(code) for line in re.findall(r"integer, parameter, public :: (.*)", text)
              for name, code in re.findall(r"(\w+) = (\d+)", line)}
     statuses = re.search(r"statuses\(\*\) = \[(.*?)\]\n", text, re.DOTALL)[1].replace("other_failure +", "")

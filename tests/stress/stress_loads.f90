@@ -7,12 +7,12 @@ program stress_loads
    use command_words, only: number, word
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use wavycon_beale, only: solve_by_beale
-   use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_complementary_energy, only: energy_problem
    use wavycon_dual_solver, only: dual_solver
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_diagonal, symmetry_full, symmetry_none
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged
+   use wavycon_solution_record, only: status_name, status_of_programme
    implicit none (type, external)
 
    !> The library's tolerance for the status converged (kkt_tolerance).

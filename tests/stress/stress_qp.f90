@@ -14,10 +14,10 @@ program stress_qp
    use stress_kkt_in_quad, only: check_in_quad, kkt_type
    use stress_random_numbers, only: random_stream
    use wavycon_beale, only: solve_by_beale
-   use wavycon_contact_status, only: status_name, status_of_programme
    use wavycon_dual_solver, only: dual_solver
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem, qp_solution, qp_converged
+   use wavycon_solution_record, only: status_name, status_of_programme
    implicit none (type, external)
 
    !> The library's tolerance for the status converged (kkt_tolerance), here for each constraint on its own scale.

@@ -7,7 +7,6 @@ program stress_scenes
    use command_words, only: word
    use stress_kkt_of_grid, only: check_grid, grid_kkt
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_status, only: status_name
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type
    use wavycon_grid_source, only: grid_source
@@ -16,6 +15,7 @@ program stress_scenes
    use wavycon_methods, only: start_solver
    use wavycon_quantities, only: mean_gap
    use wavycon_scene, only: scene_type
+   use wavycon_solution_record, only: status_name
    implicit none (type, external)
 
    type(contact_solution) :: solution

@@ -1,7 +1,7 @@
 !> Reads whole files.
 module wavycon_file_bytes
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
+   use wavycon_kinds, only: int64
    use wavycon_plain_text, only: escaped, integer_text, system_words
    use wavycon_system, only: path_absent, path_directory, path_kind
    implicit none (type, external)

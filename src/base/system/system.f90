@@ -2,8 +2,7 @@
 !> functions end in a null character. An errno is the system's number of an error, 0 if there is none.
 module wavycon_system
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int64_t, c_null_char, c_ptr, c_size_t
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    implicit none (type, external)
    private
 

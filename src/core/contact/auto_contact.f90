@@ -6,14 +6,13 @@ module wavycon_auto_contact
    use wavycon_closed_form_contact, only: closed_form_contact, closed_form_exists
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: converged, interrupted
    use wavycon_fitted_contact, only: fitted_contact
    use wavycon_fitted_frame, only: crests_form_lattice
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_grid_slab, only: grid_slab
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: main_quantities
-   use wavycon_solution_record, only: by_auto
+   use wavycon_solution_record, only: by_auto, converged, interrupted
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

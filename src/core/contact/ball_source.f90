@@ -5,12 +5,9 @@
 !> Numbers (C..) are the equations of README.md in this directory.
 module wavycon_ball_source
    use, intrinsic :: iso_c_binding, only: c_int
-   use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_status, only: closed_form
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_free_edges, only: ball_radii, surface_of_ball
    use wavycon_free_kernel, only: integral_to_corner
@@ -18,12 +15,13 @@ module wavycon_ball_source
    use wavycon_grid_contact, only: grid_contact, grid_options
    use wavycon_gsl, only: gsl_sf_ellint_RD, gsl_sf_ellint_RF
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
    use wavycon_round_spot_stress, only: round_spot_stress
-   use wavycon_solution_record, only: by_closed_form
+   use wavycon_solution_record, only: by_closed_form, closed_form
    use wavycon_stress_fields, only: start_point, stress_fields
+   use wavycon_stress_tensor, only: elastic_body
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -181,11 +179,10 @@ contains
 
    !> The edge of contact: the ellipse and its mirror images in the four quarters of the mirrored cell. They count as
    !> one spot.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(ball_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       integer, parameter :: points = 256
       real(dp), parameter :: centres(2, 4) = 0.5_dp*pi*reshape([1, 1, 3, 1, 1, 3, 3, 3], [2, 4])
@@ -197,9 +194,9 @@ contains
       allocate (curves(4))
       do k = 1, size(curves)
          curves(k) = contact_contour(phi=centres(1, k) + axes(1)*cos(t), theta=centres(2, k) + axes(2)*sin(t), &
-                                     turns=1, spot=1, pool=1, area=pi*product(axes), length=self%contact%perimeter())
+                                     turns=1, spot=1, pool=1, load=1.0_dp, area=pi*product(axes), &
+                                     length=self%contact%perimeter())
       end do
-      loads = [1.0_dp]
    end subroutine contact_contours
 
    !> The stresses below the ball: closed forms (I23) of src/beyond if it is round, as it is with adhesion. Those of

@@ -2,25 +2,23 @@
 !> Hertz's (`ball_source`).
 module wavycon_closed_form_contact
    use wavycon_ball_source, only: solve_ball
-   use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
-   use wavycon_contact_status, only: closed_form, not_found
    use wavycon_contact_contours, only: contact_contour, make_strips
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_field_source, only: field_source
    use wavycon_free_edges, only: is_ball
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_paper_wave, only: is_paper_wave
    use wavycon_quantities, only: approach, area_slope, contact_area, elastic_energy, gap_curvature, gap_slope, &
       mean_gap, peak_pressure, quantities
+   use wavycon_solution_record, only: by_closed_form, closed_form, no_solution, not_found
    use wavycon_westergaard, only: kuznetsov_mean_gap_over_amplitude, westergaard_contact_area_fraction, &
       westergaard_displacement_over_amplitude, westergaard_gap_over_amplitude, westergaard_peak_pressure_over_pstar, &
       westergaard_pressure_over_pstar
    use wavycon_westergaard_stress, only: westergaard_stress
-   use wavycon_solution_record, only: by_closed_form, no_solution
    use wavycon_stress_fields, only: start_point, stress_fields
+   use wavycon_stress_tensor, only: elastic_body
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -153,15 +151,14 @@ contains
    end subroutine at
 
    !> The edge of contact: both ends of the only strip, X = -pi A and pi A, which carries the whole load.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(closed_form_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       associate (unused => surface); end associate
       call make_strips([pi*self%record%value(contact_area)], .true., .true., curves)
-      loads = [1.0_dp]
+      curves%load = 1.0_dp
    end subroutine contact_contours
 
    !> Makes the stresses (`stress_at`) below Westergaard's pressure.

@@ -4,11 +4,9 @@
 !> is contact the gap is exactly 0, unless an extension of the type says otherwise. Gap, displacement u and undeformed
 !> gap h satisfy gap = h + u - approach everywhere.
 module wavycon_contact_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use wavycon_constants, only: pi
    use wavycon_equivalent_points, only: equivalent_points, point_image
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number, pi
    implicit none (type, external)
    private
 
@@ -107,8 +105,8 @@ contains
       real(dp), intent(in) :: shape_values(:)        !! 1 - h/Delta at the points, shape (M)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)   !! as in on_grid, shape (M)
 
-      associate (unused => self, unused_too => column); end associate
-      pressure = ieee_value(shape_values, ieee_quiet_nan)
+      associate (unused => self, unused_too => column, not_used => shape_values); end associate
+      pressure = not_a_number()
       displacement = pressure
       gap = pressure
    end subroutine at_own_column

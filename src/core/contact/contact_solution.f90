@@ -4,20 +4,19 @@
 !> Callers use a solution without regard to the solver that made it. Positions of fields and edges are the angles X, Y
 !> of the surface's cell. Ranks are the processes of the parallel program.
 module wavycon_contact_solution
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: contact_spots, find_spots, one_region
-   use wavycon_contact_status, only: full_contact, interrupted, is_good_status, no_load, no_memory
    use wavycon_contact_contours, only: contact_contour
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
    use wavycon_full_contact, only: full_contact_series
    use wavycon_grid_source, only: grid_source
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, quantities, unknown
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
-   use wavycon_solution_record, only: by_grid, record_words, solution_record
+   use wavycon_solution_record, only: by_grid, full_contact, interrupted, is_good_status, no_load, no_memory, &
+      record_words, solution_record
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -96,21 +95,16 @@ contains
 
    !> The edge of contact: closed curves in 2-D, the two ends of each strip in 1-D. There are no curves in full contact,
    !> without load, and without a source.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(contact_solution), intent(in) :: self
       type(surface_type), intent(in) :: surface             !! the surface that was solved
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      !> The part of the load that each spot carries, in the order of the spots' numbers; size 0 if it is not known.
-      real(dp), allocatable, intent(out), optional :: loads(:)
-
-      real(dp), allocatable :: loads_of_spots(:)
 
       if (allocated(self%source)) then
-         call self%source%contact_contours(surface, curves, loads_of_spots)
+         call self%source%contact_contours(surface, curves)
       else
-         allocate (curves(0), loads_of_spots(0))
+         allocate (curves(0))
       end if
-      if (present(loads)) call move_alloc(loads_of_spots, loads)
    end subroutine contact_contours
 
    !> The stresses below the surface. They are exact but for rounding in full contact, and zero without load. They do
@@ -151,14 +145,12 @@ contains
       type(contact_spots), intent(out) :: answer
 
       type(contact_contour), allocatable :: curves(:)
-      real(dp), allocatable :: loads(:)
       logical :: is_full
 
-      call self%contact_contours(surface, curves, loads)
+      call self%contact_contours(surface, curves)
       is_full = self%value(contact_area) > 0.5_dp
       if (size(curves) > 0) then
-         call find_spots(curves, self%value(contact_area), surface%dimension, surface%length, loads, &
-                         surface%mirrored, answer)
+         call find_spots(curves, self%value(contact_area), surface%dimension, surface%length, surface%mirrored, answer)
       else if (self%is_good() .or. is_full) then
          call one_region(is_full, surface%dimension, answer)
       end if

@@ -1,14 +1,13 @@
 !> The type that all solvers extend. src/README.md describes how to add a solver, and README.md in this directory how
 !> solvers and solutions work together.
 module wavycon_contact_solver
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_measures, only: full_contact_quantities
    use wavycon_contact_solution, only: contact_solution
-   use wavycon_contact_status, only: above_hardness, full_contact, interrupted, no_load, not_finite, not_found
    use wavycon_full_contact, only: mean_compliance
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan
    use wavycon_quantities, only: approach, elastic_energy
-   use wavycon_solution_record, only: no_solution, no_solver
+   use wavycon_solution_record, only: above_hardness, full_contact, interrupted, no_load, no_solution, no_solver, &
+      not_finite, not_found
    use wavycon_solver_progress, only: solver_progress
    use wavycon_surface, only: surface_type
    implicit none (type, external)

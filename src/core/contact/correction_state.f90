@@ -290,14 +290,13 @@ contains
       class(correction_state), intent(in) :: self
       real(dp), intent(in) :: vector(:)      !! shape (region%points)
 
-      real(dp) :: chunk_sums(1, self%region%chunks), total(1)
+      real(dp) :: chunk_sums(1, self%region%chunks)
       integer :: c
 
       do c = 1, self%region%chunks
          chunk_sums(1, c) = sum(vector(self%region%chunk(c):self%region%chunk(c + 1) - 1))
       end do
-      total = self%totals(chunk_sums)
-      sum_of = total(1)
+      sum_of = sum(self%totals(chunk_sums))
    end function sum_of
 
    !> Ends a correction: adds the change to the pressure of the grid, in double precision, and restores the pressure's

@@ -3,11 +3,10 @@
 !>
 !> Positions of fields and edges are the angles X, Y of the surface's cell.
 module wavycon_field_source
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: int64
    use wavycon_quantities, only: quantities
    use wavycon_solution_record, only: solution_record
    use wavycon_stress_fields, only: stress_fields
@@ -42,14 +41,13 @@ module wavycon_field_source
          class(contact_fields), allocatable, intent(out) :: answer
       end subroutine fields_of_source
 
-      !> `contact_contours`: the edge of contact, closed curves in 2-D, the two ends of each strip in 1-D.
-      subroutine edge_of_source(self, surface, curves, loads)
-         import :: dp, contact_contour, field_source, surface_type
+      !> `contact_contours`: the edge of contact, closed curves in 2-D, the two ends of each strip in 1-D, with the
+      !> loads of the spots if they are known.
+      subroutine edge_of_source(self, surface, curves)
+         import :: contact_contour, field_source, surface_type
          class(field_source), intent(in) :: self
          type(surface_type), intent(in) :: surface             !! the surface that was solved
          type(contact_contour), allocatable, intent(out) :: curves(:)
-         !> The part of the load that each spot carries, in the order of the spots' numbers; size 0 if it is not known.
-         real(dp), allocatable, intent(out) :: loads(:)
       end subroutine edge_of_source
 
       !> `stresses`: the stresses below the surface.

@@ -8,12 +8,12 @@
 module wavycon_find_load
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_status, only: interrupted, not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, flattest, fraction_of_error, largest_fraction, least_fraction, &
       lightest_load, longest_step, most_solves, steepest, value_roundings
    use wavycon_full_contact, only: mean_compliance
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: approach, contact_area, is_known, mean_gap
+   use wavycon_solution_record, only: interrupted, not_accurate, not_found
    implicit none (type, external)
    private
 

@@ -6,11 +6,11 @@ module wavycon_find_percolation
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
    use wavycon_contact_spots, only: contact_spots
-   use wavycon_contact_status, only: not_accurate, not_found
    use wavycon_contact_tuning, only: coarse_fraction, lightest_load, most_solves, part_of_area_error, &
       percolation_safety, value_roundings, widest_bracket
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: contact_area, last_before, percolation
+   use wavycon_solution_record, only: not_accurate, not_found
    implicit none (type, external)
    private
 

@@ -5,7 +5,6 @@ module wavycon_fitted_contact
    use wavycon_assertion, only: assert
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
-   use wavycon_contact_status, only: converged, not_accurate, not_found
    use wavycon_fitted_answer, only: fitted_answer, fitted_less_exact, fitted_solved
    use wavycon_fitted_frame, only: find_frame, fitted_frame
    use wavycon_fitted_source, only: fitted_source
@@ -13,7 +12,7 @@ module wavycon_fitted_contact
    use wavycon_kinds, only: dp
    use wavycon_quantities, only: elastic_energy, known_errors, main_quantities, number_of_quantities, peak_pressure, &
       perimeter, scaled
-   use wavycon_solution_record, only: by_fitted, no_solution
+   use wavycon_solution_record, only: by_fitted, converged, no_solution, not_accurate, not_found
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

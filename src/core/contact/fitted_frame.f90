@@ -1,10 +1,9 @@
 !> Finds the lattice that the crests of a surface form, if the solver 'fitted' can solve the surface, and converts
 !> between coordinates on the surface and on the lattice.
 module wavycon_fitted_frame
-   use wavycon_constants, only: pi, sqrt2, sqrt3
    use wavycon_contact_tuning, only: largest_aspect_ratio, largest_curvature_ratio
    use wavycon_equivalent_points, only: equivalent_points
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi, sqrt2, sqrt3
    use wavycon_paper_wave, only: no_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_surface, only: surface_type
    use wavycon_wave_lattice, only: hexagonal_lattice, rectangular_lattice, rhombic_lattice, square_lattice, wave_lattice

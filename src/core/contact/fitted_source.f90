@@ -1,6 +1,5 @@
 !> The source of fields, contact contours, stresses and details of a load that the solver 'fitted' has solved.
 module wavycon_fitted_source
-   use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour
    use wavycon_contact_spots, only: in_cell
@@ -10,7 +9,7 @@ module wavycon_fitted_source
    use wavycon_fitted_frame, only: fitted_frame
    use wavycon_fitted_answer_stress, only: start_fitted_answer_stress
    use wavycon_fitted_stress_fields, only: fitted_stress_fields
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_load_slopes, only: find_load_slopes
    use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, perimeter, quantities, &
       saddle_gap, saddle_pressure, trough_gap, unknown
@@ -104,11 +103,10 @@ contains
    end subroutine prepare_places
 
    !> A closed curve about each crest or, once the spots have merged, about each trough.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(fitted_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       complex(dp) :: centre, edge(edge_points), to_surface, trough
       integer :: contours, i, k, rotated
@@ -121,12 +119,10 @@ contains
       contours = self%frame%crests
       trough = (0.0_dp, 0.0_dp)
       inside = self%record%value(contact_area)
-      loads = [(1.0_dp/contours, i=1, contours)]
       if (self%answer%pool) then
          contours = contours*self%frame%lattice%troughs
          trough = self%frame%lattice%trough
          inside = inside - 1.0_dp
-         loads = [1.0_dp]
          ! The contact lies on the left of a contour: about a pool the points run backwards.
          edge = edge(edge_points:1:-1)
       end if
@@ -147,10 +143,12 @@ contains
          curves(k)%turns = 1
          curves(k)%spot = k
          curves(k)%pool = 1
+         curves(k)%load = 1.0_dp/contours
          if (self%answer%pool) then
             curves(k)%turns = -1
             curves(k)%spot = 1
             curves(k)%pool = k
+            curves(k)%load = 1.0_dp
          end if
          curves(k)%area = (2*pi)**2/contours*inside
          curves(k)%length = self%record%value(perimeter)

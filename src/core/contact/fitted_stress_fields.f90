@@ -1,12 +1,10 @@
 !> The stresses below a pressure that the solver 'fitted' has computed, in the axes and units of the surface.
 module wavycon_fitted_stress_fields
-   use wavycon_constants, only: pi
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_fitted_answer_stress, only: fitted_answer_stress
    use wavycon_fitted_frame, only: fitted_frame
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_stress_fields, only: start_point, stress_fields
-   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: elastic_body, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: depths_of_spot, depths_of_cell, edge_ratios
    implicit none (type, external)
    private

@@ -4,22 +4,21 @@
 !> periodic on a smaller square of half the area, rotated by 45 degrees. Then a quarter of the smaller square is solved,
 !> unless the number of points is given, which refers to the cell of the deck.
 module wavycon_grid_contact
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
-   use wavycon_contact_status, only: converged, interrupted, iteration_limit, no_memory, not_accurate, unresolved
    use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_sequence, only: grid_start, sequence_answer, solve_by_sequence
    use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
-   use wavycon_kinds, only: dp
    use wavycon_grid_area, only: load_concentration
+   use wavycon_kinds, only: dp, int64
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
       min_pressure, unknown
-   use wavycon_solution_record, only: by_grid, no_solution
+   use wavycon_solution_record, only: by_grid, converged, interrupted, iteration_limit, no_memory, no_solution, &
+      not_accurate, unresolved
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -5,13 +5,11 @@
 !> pressure, that from the error of the area (C17), (C17a) and from edges along the lines of the grid (C17b). README.md
 !> in this directory has the equations and tells how many of the estimates hold. None is a bound.
 module wavycon_grid_error
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_constants, only: pi
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
    use wavycon_grid_area, only: edge_crossings, edge_spread
    use wavycon_grid_edge, only: grid_edge
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64, pi
    use wavycon_quantities, only: is_known, unknown
    use wavycon_surface, only: surface_type
    implicit none (type, external)

@@ -4,10 +4,9 @@
 !> Pressure and gap are joined to one smooth function psi, which is p^2 in contact and -Lambda gap^(2/3) elsewhere. Both
 !> are proportional to the distance from the edge near it. The factor Lambda makes the mean slopes on both sides equal.
 module wavycon_grid_fields
-   use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
    use wavycon_grid_edge, only: grid_edge
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

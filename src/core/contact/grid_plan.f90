@@ -5,10 +5,9 @@
 !> Numbers of points are those of the part of the cell that is solved: of an even surface half the cell in 1-D and a
 !> quarter in 2-D, of any other surface the whole cell. In 1-D the second number is 1.
 module wavycon_grid_plan
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: first_points, most_points_line, most_points_plane
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -194,14 +194,13 @@ contains
       real(dp), intent(in) :: undeformed_gap(:, :)   !! h [Delta], shape of the gap
 
       integer :: j
-      real(dp) :: column_sums(1, size(undeformed_gap, 2)), total(1)
+      real(dp) :: column_sums(1, size(undeformed_gap, 2))
 
       do j = 1, size(undeformed_gap, 2)
          column_sums(1, j) = dot_product(state%pressure(:, j), &
                                          state%gap(:, j) - undeformed_gap(:, j) + state%approach)
       end do
-      total = state%slab%column_totals(column_sums)
-      energy_of = 0.5_dp*total(1)/product(real(state%slab%points, dp))
+      energy_of = 0.5_dp*sum(state%slab%column_totals(column_sums))/product(real(state%slab%points, dp))
    end function energy_of
 
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error

@@ -1,8 +1,6 @@
 !> The source of fields, contact contours and stresses of a load that was solved on a grid. The data are the pressures
 !> and gaps at the points of the grid.
 module wavycon_grid_source
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
    use wavycon_field_source, only: field_source
@@ -16,9 +14,9 @@ module wavycon_grid_source
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_stress_fields, only: grid_stress_fields
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, int64, not_a_number
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
-   use wavycon_rotated_series, only: to_difference_angles
+   use wavycon_rotated_series, only: in_other_angles, to_difference_angles
    use wavycon_series_stress_fields, only: start_series_stress_fields
    use wavycon_paper_wave, only: smaller_cell
    use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
@@ -94,14 +92,13 @@ contains
 
    !> The edge of contact (C11), (C12), and the loads of the spots. In 2-D the polygons are moved into the contact by
    !> the offset of (C12).
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(grid_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       type(region_numbers) :: numbers
-      real(dp), allocatable :: edges(:)
+      real(dp), allocatable :: edges(:), loads(:)
       integer :: i
 
       if (surface%dimension == 2) then
@@ -115,16 +112,19 @@ contains
             call shift_contour(curves(i), self%edge%period, self%edge%rule%offset)
          end do
          if (self%rotated) call rotate_contours(curves, factor=0.5_dp)
-         call spot_loads(self%edge, numbers, loads)
       else
          call grid_strip_edges(self%edge, edges)
          call make_strips(edges, self%edge%in_contact(1, 1), self%edge%even, curves)
          call find_region_numbers(self%edge, [self%edge%period(1), 1], 0, numbers)
-         call spot_loads(self%edge, numbers, loads)
-         ! make_strips begins with the strip of the first point, the numbers begin with that of the point before. They
-         ! differ if that point is in contact and the first one is not.
-         if (self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) loads = cshift(loads, 1)
       end if
+      call spot_loads(self%edge, numbers, loads)
+      ! make_strips begins with the strip of the first point, the numbers begin with that of the point before. They
+      ! differ if that point is in contact and the first one is not.
+      if (surface%dimension == 1 .and. self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) &
+         loads = cshift(loads, 1)
+      do i = 1, size(curves)
+         curves(i)%load = loads(curves(i)%spot)
+      end do
    end subroutine contact_contours
 
    !> The stresses below the Fourier series that interpolates the pressures at the points. Their error estimate has two
@@ -163,7 +163,7 @@ contains
       call transform%start(shape(values), self%edge%even .and. cells == 1, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
-      if (self%rotated) pressure = to_difference_angles(pressure)
+      if (self%rotated) pressure = in_other_angles(pressure, to_difference_angles)
       allocate (own)
       call start_grid_fields(own%fields, surface, self%edge, self%record%value(approach), self%rotated)
       own%repeats = .not. surface%has_free_edges
@@ -234,7 +234,7 @@ contains
          self%rotated = values(7) > 0.0_dp
          self%history = change_history(values(10:12), reshape(values(13:18), [3, 2]))
          call slab%start(points, whole)
-         allocate (field(rows, slab%columns()), source=ieee_value(1.0_dp, ieee_quiet_nan))
+         allocate (field(rows, slab%columns()), source=not_a_number())
          allocate (edge)
          call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab, values(9) > 0.0_dp)
          call self%take_edge(edge)

@@ -4,13 +4,10 @@
 !> is known without the ringing there. The difference of the two is an error of the series that (S5) may not see: of
 !> waves that come from several edges the sums (S5) may cancel.
 module wavycon_grid_stress_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_constants, only: pi
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_grid_fields, only: grid_fields
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_series_stress_fields, only: series_stress_fields
-   use wavycon_stress_tensor, only: zz
+   use wavycon_stress_tensor, only: elastic_body, zz
    implicit none (type, external)
    private
 

@@ -7,9 +7,8 @@
 !>     R/R' = (K - D)/(D b^2/a^2),   p_0 = E* a^2/(2 R b D),   approach = a^2 K/(2 R D),   force = (2/3) pi a b p_0.
 module wavycon_hertz_ball
    use, intrinsic :: iso_c_binding, only: c_int
-   use wavycon_constants, only: pi
    use wavycon_gsl, only: gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

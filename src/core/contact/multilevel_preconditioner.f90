@@ -6,11 +6,10 @@
 !> or too small. If the grid is distributed over processes, large coarser grids are distributed too; on small ones every
 !> process has all columns.
 module wavycon_multilevel_preconditioner
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_tuning, only: decay_alone, decay_growth
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab, least_distributed_points
-   use wavycon_kinds, only: dp, sp
+   use wavycon_kinds, only: dp, int64, sp
    use wavycon_threads, only: threads_for
    use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)

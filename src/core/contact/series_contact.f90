@@ -3,7 +3,6 @@
 !> points. This is a quadratic programme. 'beale' solves it by Beale's method, as the paper does, and 'series' by
 !> the dual method of Goldfarb & Idnani, which is faster with many harmonics.
 module wavycon_series_contact
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
    use wavycon_beale, only: solve_by_beale
    use wavycon_complementary_energy, only: bounds_at, energy_problem
@@ -12,7 +11,6 @@ module wavycon_series_contact
    use wavycon_contact_measures, only: measure_series, measuring_intervals
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
-   use wavycon_contact_status, only: status_of_programme
    use wavycon_contact_tuning, only: lightest_start, most_points_to_continue
    use wavycon_cosine_rows, only: add_cosine_rows
    use wavycon_dual_solver, only: dual_solver
@@ -21,15 +19,15 @@ module wavycon_series_contact
    use wavycon_fourier_terms, only: choose_terms, fourier_terms, symmetry_full
    use wavycon_full_contact, only: displacement_of
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_line_zeros, only: line_zeros
    use wavycon_paper_wave, only: is_paper_wave, paper_wave, rotated_paper_wave
    use wavycon_qp_problem, only: qp_problem, qp_solution
    use wavycon_quantities, only: approach, elastic_energy, gap_slope, mean_gap, peak_pressure, quantities
-   use wavycon_rotated_series, only: to_sum_angles
+   use wavycon_rotated_series, only: in_other_angles, to_sum_angles
    use wavycon_series_fields, only: series_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
-   use wavycon_solution_record, only: by_beale, by_series
+   use wavycon_solution_record, only: by_beale, by_series, status_of_programme
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_working_set, only: working_set
@@ -269,7 +267,7 @@ contains
       call self%coefficients(series)
       allocate (own)
       call start_series_stress_fields(own, surface, series, self%record%pbar_over_pstar, &
-                                      pressure_error=ieee_value(1.0_dp, ieee_quiet_nan), is_sampled=.false.)
+                                      pressure_error=not_a_number(), is_sampled=.false.)
       call move_alloc(own, answer)
    end subroutine stresses
 
@@ -279,15 +277,14 @@ contains
       type(fourier_series), intent(out) :: series
 
       series = self%pressure(self%record%pbar_over_pstar)
-      if (self%rotated) series = to_sum_angles(series)
+      if (self%rotated) series = in_other_angles(series, to_sum_angles)
    end subroutine coefficients
 
    !> The isobar p = edge_level p*, which is taken as the edge of contact.
-   subroutine contact_contours(self, surface, curves, loads)
+   subroutine contact_contours(self, surface, curves)
       class(series_source), intent(in) :: self
       type(surface_type), intent(in) :: surface
       type(contact_contour), allocatable, intent(out) :: curves(:)
-      real(dp), allocatable, intent(out) :: loads(:)
 
       type(fourier_series) :: series
       type(isobar_grid) :: grid
@@ -310,7 +307,6 @@ contains
             call make_strips(zeros, sum(series%c) >= 0.0_dp, .true., curves)
          end if
          ! The load of a spot is not known: some of the pressure lies outside the isobar.
-         allocate (loads(0))
       end associate
    end subroutine contact_contours
 

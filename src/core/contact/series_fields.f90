@@ -3,13 +3,12 @@
 !> is nowhere exactly zero. The series of full contact and of no load are exact, and there is no edge of contact. For a
 !> load without a solution the fields are NaN.
 module wavycon_series_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_status, only: full_contact, no_load
    use wavycon_fourier_series, only: fourier_series
    use wavycon_full_contact, only: full_contact_series, mean_compliance
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_series_samples, only: sample_series
+   use wavycon_solution_record, only: full_contact, no_load
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -52,7 +51,7 @@ contains
          if (pbar_over_pstar < 1.0_dp) fields%least_pressure = -huge(1.0_dp)
       else
          allocate (fields%pressure%c(0:surface%shape%last(1), 0:surface%shape%last(2)), source=0.0_dp)
-         if (.not. fields%is_edgeless) fields%pressure%c = ieee_value(pbar_over_pstar, ieee_quiet_nan)
+         if (.not. fields%is_edgeless) fields%pressure%c = not_a_number()
          fields%displacement = fields%pressure
       end if
    end subroutine start_edgeless_fields

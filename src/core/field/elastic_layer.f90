@@ -1,8 +1,7 @@
 !> An elastic layer on a base: what it makes of the compliance of a half-space, for each wave and for the mean pressure.
 !> Numbers (E..) are the equations of src/core/half_space/README.md.
 module wavycon_elastic_layer
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

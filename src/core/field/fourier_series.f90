@@ -23,7 +23,6 @@ module wavycon_fourier_series
       type(grid_slab) :: rows
    contains
       procedure :: is_even
-      procedure :: is_distributed
       procedure :: first
       procedure :: last
       procedure :: row
@@ -45,13 +44,6 @@ contains
 
       is_even = .not. allocated(self%wave)
    end function is_even
-
-   !> Whether each rank has some of the wave numbers in X only.
-   pure logical function is_distributed(self)
-      class(fourier_series), intent(in) :: self
-
-      is_distributed = self%rows%is_distributed
-   end function is_distributed
 
    !> The first wave number in X that this rank has.
    pure integer function first(self)
@@ -120,11 +112,8 @@ contains
       real(dp), intent(in) :: mean
 
       if (self%first() > 0) return
-      if (self%is_even()) then
-         self%c(0, 0) = mean
-      else
-         self%wave(0, 0) = mean
-      end if
+      if (allocated(self%c)) self%c(0, 0) = mean
+      if (allocated(self%wave)) self%wave(0, 0) = mean
    end subroutine set_mean
 
    !> Adds Re w exp(i (kX + lY)) to a series that is not even.
@@ -228,7 +217,7 @@ contains
       real(dp), allocatable :: own(:, :), whole(:, :)   ! real parts of the waves, and then the imaginary ones
       integer :: last, numbers
 
-      if (.not. self%rows%any(self%is_distributed() .and. self%rows%first == 1)) return
+      if (.not. self%rows%any(self%rows%is_distributed .and. self%rows%first == 1)) return
       last = self%last(2)
       numbers = 2*last + 1
       if (self%is_even()) then
@@ -296,11 +285,8 @@ contains
       type(fourier_series), intent(inout) :: series
       real(dp), intent(in) :: unit   !! divisor, not 0
 
-      if (series%is_even()) then
-         series%c = series%c/unit
-      else
-         series%wave = series%wave/unit
-      end if
+      if (allocated(series%c)) series%c = series%c/unit
+      if (allocated(series%wave)) series%wave = series%wave/unit
    end subroutine divide_series
 
 end module wavycon_fourier_series

@@ -2,9 +2,8 @@
 module wavycon_grid_convolution_sp
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp, wp => sp
+   use wavycon_kinds, only: dp, pi, wp => sp
    use wavycon_line_plans, only: line_plan, plan_of_line, real_to_waves, waves_backward, waves_forward, waves_to_real
    use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)

@@ -4,8 +4,7 @@
 !> X = pi (i - 1/2)/M, Y = pi (j - 1/2)/N. The points of any other field lie in its whole cell: X = 2 pi (i - 1)/M,
 !> Y = 2 pi (j - 1)/N. N = 1 for a field in one dimension.
 module wavycon_grid_points
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

@@ -10,9 +10,8 @@
 !> Sums are the same to the last digit for any number of ranks. Each rank sums over its columns, or over strips of
 !> `strip_columns` columns, and the sums of all columns or strips are added in the order of the grid.
 module wavycon_grid_slab
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_grid_points, only: image_of_point
-   use wavycon_kinds, only: dp, sp
+   use wavycon_kinds, only: dp, int64, sp
    use wavycon_ranks, only: add_over_ranks, any_rank, comm, largest_over_ranks, ranks_at_work, ranks_on_this_machine, &
       share_error, this_rank
    use wavycon_system, only: has_memory_for
@@ -244,7 +243,7 @@ contains
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns())
 
-      real(dp) :: column_sums(1, size(field, 2)), totals(1)
+      real(dp) :: column_sums(1, size(field, 2))
       real(dp) :: column
       integer :: i, j
 
@@ -256,8 +255,7 @@ contains
          end do
          column_sums(1, j) = column
       end do
-      totals = self%column_totals(column_sums)
-      total = totals(1)
+      total = sum(self%column_totals(column_sums))
    end function sum_of
 
    !> The largest value of a field over the grid, and minus the least value.
@@ -291,7 +289,7 @@ contains
 
       !> Minus the number of the point in the order of the grid, from 0: the largest over the ranks is the first point.
       real(dp) :: minus_number(1)
-      real(dp) :: column, columns(size(field, 2)), most(1)
+      real(dp) :: column, columns(size(field, 2))
       integer :: i, j
 
       do j = 1, size(field, 2)
@@ -302,8 +300,7 @@ contains
          end do
          columns(j) = column
       end do
-      most = self%largest([maxval(columns)])
-      value = most(1)
+      value = maxval(self%largest([maxval(columns)]))
       ! A real number holds a whole number exactly up to 2^53.
       minus_number = -huge(minus_number)
       associate (m => self%points(1))

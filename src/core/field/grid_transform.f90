@@ -121,7 +121,7 @@ contains
       carried = max(min(self%waves - 1, from%last(1)) - from%first() + 1, 0)
       rows = carried
       ! For the exchange the rows must be all own wave numbers of the series.
-      if (from%is_distributed()) rows = from%last(1) - from%first() + 1
+      if (from%rows%is_distributed) rows = from%last(1) - from%first() + 1
       allocate (spectrum(self%numbers, rows, self%points(2)))
       spectrum(:, carried + 1:, :) = 0.0_dp
       if (self%even) then
@@ -131,7 +131,7 @@ contains
          call give_waves(self%points, from, waves(:carried, :))
       end if
       call transform_rows(self%even, spectrum(:, :carried, :), forwards=.false.)
-      if (.not. from%is_distributed()) then
+      if (.not. from%rows%is_distributed) then
          call waves_to_columns(self, size(spectrum, 2), spectrum(:, :, self%slab%first:self%slab%last), field)
          return
       end if

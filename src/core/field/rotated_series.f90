@@ -9,41 +9,31 @@ module wavycon_rotated_series
    implicit none (type, external)
    private
 
-   public :: to_difference_angles, to_sum_angles
+   public :: in_other_angles
+
+   !> The directions of the conversion. A term (i, j) has the new wave numbers (i + j)/direction and |i - j|/direction.
+   integer, parameter, public :: to_difference_angles = 1, to_sum_angles = 2
 
 contains
 
-   !> Converts a series in phi and theta to a series in X and Y. The field also has the period (pi, pi), so that i + j
-   !> is even in all its terms. A term (i, j) becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with
-   !> half the coefficient.
-   pure type(fourier_series) function to_sum_angles(series) result(rotated)
-      type(fourier_series), intent(in) :: series   !! in phi and theta; terms with odd i + j are zero but for rounding
-
-      rotated = in_other_angles(series, 2)
-   end function to_sum_angles
-
-   !> Converts a series in X and Y to a series in phi and theta, the inverse of to_sum_angles. The terms (i, j) and (j,
-   !> i) become the terms (i + j, |i - j|) and (|i - j|, i + j).
-   pure type(fourier_series) function to_difference_angles(series) result(rotated)
-      type(fourier_series), intent(in) :: series   !! in X and Y; does not change if X and Y are exchanged
-
-      rotated = in_other_angles(series, 1)
-   end function to_difference_angles
-
-   !> Converts in either direction. The new wave numbers are (i + j)/divisor and |i - j|/divisor; terms whose i + j the
-   !> divisor does not divide are left out.
-   pure type(fourier_series) function in_other_angles(series, divisor) result(rotated)
+   !> With `to_sum_angles` converts a series in phi and theta to a series in X and Y. The field also has the period (pi,
+   !> pi), so that i + j is even in all its terms; terms with an odd sum, which are rounding, are left out. A term
+   !> (i, j) becomes the terms ((i+j)/2, |i-j|/2) and (|i-j|/2, (i+j)/2), each with half the coefficient.
+   !>
+   !> With `to_difference_angles` converts a series in X and Y, which does not change if X and Y are exchanged, to one
+   !> in phi and theta: the inverse. The terms (i, j) and (j, i) become the terms (i + j, |i - j|) and (|i - j|, i + j).
+   pure type(fourier_series) function in_other_angles(series, direction) result(rotated)
       type(fourier_series), intent(in) :: series
-      integer, intent(in) :: divisor   !! 2 from phi, theta to X, Y; 1 back
+      integer, intent(in) :: direction   !! to_sum_angles or to_difference_angles
 
       integer :: i, j, last
 
-      last = sum(ubound(series%c))/divisor
+      last = sum(ubound(series%c))/direction
       allocate (rotated%c(0:last, 0:last), source=0.0_dp)
       do j = 0, ubound(series%c, 2)
          do i = 0, ubound(series%c, 1)
-            if (mod(i + j, divisor) /= 0) cycle
-            associate (high => (i + j)/divisor, low => abs(i - j)/divisor)
+            if (mod(i + j, direction) /= 0) cycle
+            associate (high => (i + j)/direction, low => abs(i - j)/direction)
                rotated%c(high, low) = rotated%c(high, low) + 0.5_dp*series%c(i, j)
                rotated%c(low, high) = rotated%c(low, high) + 0.5_dp*series%c(i, j)
             end associate

@@ -1,11 +1,10 @@
 !> The largest value of a Fourier series.
 module wavycon_series_peak
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
    use wavycon_newton_maximiser, only: newton_maximiser
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

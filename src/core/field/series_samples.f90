@@ -1,9 +1,8 @@
 !> Evaluates a Fourier series at the points of a grid on its cell, by one fast Fourier transform.
 module wavycon_series_samples
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_wave_packing, only: fold_waves
    implicit none (type, external)
    private

@@ -6,8 +6,7 @@
 !> section 12, and stresses, section 13. These functions are even in x and in y. So u = 2 (x/a)^2 - 1 and v = 2 (y/b)^2
 !> - 1 on the rectangle |x| <= a, |y| <= b. The series outside of one spot or pool, (F49), is such a table too.
 module wavycon_chebyshev_table
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_lapack, only: dgemv
    implicit none (type, external)
    private

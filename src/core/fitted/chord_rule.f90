@@ -19,10 +19,9 @@
 !> (pi/8)(m+1)(m+3) (F34). The neighbourhood of the target that the finite part leaves out is a circle in the image, not
 !> in the disc. The difference is odd in t and cancels.
 module wavycon_chord_rule
-   use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials
    use wavycon_gauss_rules, only: gauss_jacobi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_lapack, only: dgemv
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)

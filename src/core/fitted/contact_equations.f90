@@ -18,13 +18,12 @@
 module wavycon_contact_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
-   use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
       pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
       sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_lapack, only: dgemv
    use wavycon_lattice_images, only: lattice_images
    use wavycon_wave_lattice, only: wave_lattice

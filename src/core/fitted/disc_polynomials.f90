@@ -4,8 +4,7 @@
 !> They are multiples of Re(w^(fold k)) P_l^(power, fold k)(2 |w|^2 - 1), fold k + 2 l <= degree, with Jacobi's
 !> polynomials P: README.md (F24).
 module wavycon_disc_polynomials
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

@@ -1,10 +1,9 @@
 !> Point sources of pressure or gap at the points of a quadrature rule over the mapped disc, and their copies by
 !> symmetry.
 module wavycon_disc_sources
-   use wavycon_constants, only: pi
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_fitted_function, only: fitted_function
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_shape_map, only: shape_map
    use wavycon_stress_kernel, only: add_sources, of_gap, of_gradient, of_pressure, stress_field_count
    implicit none (type, external)

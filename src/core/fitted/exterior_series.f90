@@ -8,9 +8,8 @@
 !> pressure times (1 - 1/|v|)^(1/2).
 module wavycon_exterior_series
    use wavycon_chebyshev_table, only: chebyshev_nodes, chebyshev_table
-   use wavycon_constants, only: pi
    use wavycon_fitted_function, only: fitted_function
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_stress_kernel, only: stress_field_count, surface_field
    use wavycon_stress_rays, only: start_stress_rays, stress_rays
    implicit none (type, external)

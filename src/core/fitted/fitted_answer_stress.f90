@@ -3,12 +3,11 @@
 !> Their integration adds errors of 1e-10 of the peak pressure at most, at any depth, the surface included. The errors
 !> of the solution itself come on top.
 module wavycon_fitted_answer_stress
-   use wavycon_constants, only: pi
    use wavycon_degree_history, only: error_estimate
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_function_stress, only: fitted_function_stress, start_fitted_function_stress
    use wavycon_fitted_tuning, only: fastest_decay_at_point, stress_error_safety
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: contact_area, or_nan, peak_pressure, perimeter, unknown
    use wavycon_shape_search, only: edge_points
    use wavycon_wave_lattice, only: wave_lattice

@@ -6,13 +6,12 @@
 !> README.md, section 12.
 module wavycon_fitted_fields
    use wavycon_chebyshev_table, only: chebyshev_table, square_argument, square_nodes
-   use wavycon_constants, only: pi
    use wavycon_degree_history, only: error_estimate
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_exterior_series, only: exterior_series, start_exterior_series
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: fastest_decay_at_point, field_accuracy, least_map
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: contact_area, mean_gap, peak_pressure
    use wavycon_shape_search, only: find_preimage
    use wavycon_spot_integral, only: far_level, spot_integral, start_spot_integral

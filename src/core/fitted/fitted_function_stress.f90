@@ -4,12 +4,11 @@
 !> the point are integrated one by one, by a rule over the disc or, next to a spot or pool, along rays; the stresses of
 !> all others are smooth and are interpolated in a table.
 module wavycon_fitted_function_stress
-   use wavycon_constants, only: pi
    use wavycon_disc_sources, only: disc_sources, start_disc_sources
    use wavycon_far_stress, only: far_stress, set_far_values, start_far_stress
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: far_top, near_clearance, series_depth
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_lattice_stress_series, only: add_wave, lattice_stress_series, start_lattice_stress_series
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_spot_integral, only: spot_integral, start_spot_integral

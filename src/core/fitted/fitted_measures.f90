@@ -1,10 +1,9 @@
 !> The measures of a solution: mean gap, area, peak pressure, load, energy and length of the edge.
 module wavycon_fitted_measures
-   use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations
    use wavycon_disc_sources, only: copies
    use wavycon_fitted_function, only: fitted_function
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)

@@ -3,10 +3,9 @@
 module wavycon_gauss_rules
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_size_t
-   use wavycon_constants, only: pi
    use wavycon_gsl, only: gsl_integration_fixed_alloc, gsl_integration_fixed_free, &
       gsl_integration_fixed_jacobi, gsl_integration_fixed_nodes, gsl_integration_fixed_weights, return_gsl_errors
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

@@ -11,13 +11,12 @@
 !> with the disc polynomials Psi of the weight 1. Otherwise F is evaluated for all pairs of targets and sources. If a
 !> cell has two pools, they are too near to each other for the series.
 module wavycon_lattice_images
-   use wavycon_constants, only: pi
    use wavycon_disc_polynomials, only: disc_polynomials, start_disc_polynomials
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_disc_sources, only: copies, linearise_sources
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: most_near_points, series_clearance
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_lapack, only: dgemm
    use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice

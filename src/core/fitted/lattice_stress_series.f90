@@ -4,8 +4,7 @@
 !> cos(k_x x) cos(k_y y) only. A lattice of shifted rows has the terms of a rectangle of two rows in which the sum of
 !> the two wave numbers is even.
 module wavycon_lattice_stress_series
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_lapack, only: dgemm
    use wavycon_row_lattice, only: row_lattice
    use wavycon_stress_kernel, only: stress_field_count

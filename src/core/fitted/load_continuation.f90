@@ -2,7 +2,6 @@
 !> another solution, or from a load or area at which an asymptote is accurate: that of light load or of nearly full
 !> contact.
 module wavycon_load_continuation
-   use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_disc_polynomials, only: start_disc_polynomials
    use wavycon_fitted_function, only: edge_power, fitted_function
@@ -10,8 +9,8 @@ module wavycon_load_continuation
    use wavycon_fitted_tuning, only: degree_step, first_degree, heavy_load_start, load_step_ratio, start_degree
    use wavycon_gauss_newton, only: add_step, change_per_square, newton_steps
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
-   use wavycon_kinds, only: dp
    use wavycon_fitted_size, only: merging_ratio
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: polynomial_degree
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)

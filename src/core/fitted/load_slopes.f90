@@ -1,15 +1,14 @@
 !> The derivatives of mean gap and contact area by the load, from a fitted function. Equations (I..) are those of
 !> src/beyond/README.md.
 module wavycon_load_slopes
-   use wavycon_constants, only: pi
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: error_estimate
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_fitted_tuning, only: series_growth
    use wavycon_gauss_newton, only: changes_with_load
-   use wavycon_kinds, only: dp
    use wavycon_fitted_size, only: merging_ratio
+   use wavycon_kinds, only: dp, pi
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private

@@ -20,8 +20,7 @@
 !> Source: P. P. Ewald, Ann. Phys. 369 (1921) 253-287, for the potential 1/r in the plane.
 module wavycon_periodic_kernel
    use wavycon_chebyshev_table, only: chebyshev_table, square_nodes
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_row_lattice, only: row_lattice
    implicit none (type, external)
    private

@@ -10,8 +10,7 @@
 !> Outside of the disc another map, README.md (F48), which equals z(w) on the circle, is used. With tau = 0 it is
 !> conformal, so it does not fold where (F15) would.
 module wavycon_shape_map
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

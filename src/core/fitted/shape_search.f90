@@ -1,7 +1,6 @@
 !> The preimage of a position under the map of the disc, and the distance of a position from the edge.
 module wavycon_shape_search
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_shape_map, only: shape_map
    implicit none (type, external)
    private

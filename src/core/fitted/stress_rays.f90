@@ -5,13 +5,12 @@
 !> edge if w_0 is near the edge, and where the kernel is nearly singular. The number of points grows as the logarithm of
 !> the distances.
 module wavycon_stress_rays
-   use wavycon_constants, only: pi
    use wavycon_disc_sources, only: find_density, source_power
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: ray_angles_of_strain, ray_angles_per_unit, ray_points, ray_points_per_degree, &
       ray_points_per_unit, ray_points_per_unit_and_degree
    use wavycon_gauss_rules, only: gauss_jacobi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_stress_kernel, only: add_sources, all_fields, h_field, l_field, of_gap, of_gradient, of_pressure, &
       stress_field_count
    implicit none (type, external)

@@ -9,8 +9,7 @@
 !> pi k_i.x) in addition to the mean pressure, (F6). Contact is first lost where the sum is lowest, at the troughs.
 !> Section 1 of README.md has a table of the lattices.
 module wavycon_wave_lattice
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_periodic_kernel, only: periodic_kernel, start_periodic_kernels
    use wavycon_row_lattice, only: row_lattice
    implicit none (type, external)

@@ -2,8 +2,7 @@
 !> are the compliance and the stiffness of a field that is bilinear between the points, bounded from above: (E20) and
 !> (E21) of README.md in this directory.
 module wavycon_alias_sums
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_threads, only: threads_for
    use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)

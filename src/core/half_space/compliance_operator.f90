@@ -5,11 +5,10 @@
 !> App. 1). On a surface with free edges the displacement is that of (E15). There the inverse is not exact: it is that
 !> of the periodic mirror images, which is good enough for a preconditioner.
 module wavycon_compliance_operator
-   use wavycon_constants, only: pi
    use wavycon_free_kernel, only: free_kernel, transform_of_kernel
    use wavycon_grid_convolution_dp, only: convolution_dp => grid_convolution
    use wavycon_grid_convolution_sp, only: convolution_sp => grid_convolution
-   use wavycon_kinds, only: dp, sp
+   use wavycon_kinds, only: dp, pi, sp
    use wavycon_surface, only: surface_type
    use wavycon_threads, only: threads_for
    use wavycon_wave_stiffness, only: wave_stiffness

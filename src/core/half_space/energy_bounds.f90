@@ -3,13 +3,12 @@
 !> not that on the grid. They hold for every pressure and gap; if these are far from a solution the bounds are wide, but
 !> never false.
 module wavycon_energy_bounds
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_alias_sums, only: alias_sums
    use wavycon_assertion, only: assert
    use wavycon_fourier_series, only: fourier_series
    use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_finite, ieee_is_nan, not_a_number
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -90,7 +89,7 @@ contains
       real(dp), allocatable :: g(:, :), p(:, :)
 
       if (pbar_over_pstar <= 0.0_dp) return
-      nan = ieee_value(1.0_dp, ieee_quiet_nan)
+      nan = not_a_number()
       answer = energy_bounds(nan, nan, nan)
       p = min(max(pressure, 0.0_dp), surface%hardness)
       if (.not. (self%is_fine_enough .and. all(ieee_is_finite(pressure))) .or. any(ieee_is_nan(gap))) return

@@ -1,10 +1,10 @@
 !> A binary file of heights: its first bytes, and its numbers, of single or double precision and in either byte order.
 module wavycon_binary_file
-   use, intrinsic :: iso_fortran_env, only: int32, int64, int8
+   use, intrinsic :: iso_fortran_env, only: int32, int8
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: open_file
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp, sp
+   use wavycon_kinds, only: dp, int64, sp
    use wavycon_measured_map, only: check_map_size, check_room, measured_map
    use wavycon_plain_text, only: escaped, integer_text, system_words
    implicit none (type, external)

@@ -1,9 +1,8 @@
 !> Removes the trend of a height map, which is its mean, plane or polynomial of the second degree of least squares:
 !> (M1), (M2) of README.md in this directory; or the median of each of its rows.
 module wavycon_detrend
-   use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_gsl, only: gsl_sort_index
+   use wavycon_gsl, only: ascending_order
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dpotrf, dtrsv
    use wavycon_measured_map, only: measured_map
@@ -104,22 +103,18 @@ contains
       real(dp), intent(inout) :: height(:, :)             !! the own columns of the map: rows along x of one y each
       logical, allocatable, intent(in) :: missing(:, :)   !! shape of height; not allocated if none is missing
 
-      integer(c_size_t), allocatable :: order(:)
       integer :: j, n
       logical :: is_there(size(height, 1))
       real(dp), allocatable :: heights(:)
 
       is_there = .true.
-      allocate (order(size(height, 1)))
       do j = 1, size(height, 2)
          if (allocated(missing)) is_there = .not. missing(:, j)
          heights = pack(height(:, j), is_there)
          n = size(heights)
          if (n == 0) cycle
-         call gsl_sort_index(order, heights, 1_c_size_t, int(n, c_size_t))
-         ! The order counts from 0.
-         where (is_there) height(:, j) = height(:, j) - &
-                                         0.5_dp*(heights(order((n + 1)/2) + 1) + heights(order(n/2 + 1) + 1))
+         heights = heights(ascending_order(heights))
+         where (is_there) height(:, j) = height(:, j) - 0.5_dp*(heights((n + 1)/2) + heights(n/2 + 1))
       end do
    end subroutine level_lines
 

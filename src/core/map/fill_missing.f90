@@ -3,9 +3,8 @@
 !> The unknowns are the missing heights alone. The equations are solved by conjugate gradients, which start from
 !> straight lines along x, (M4).
 module wavycon_fill_missing
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped
    use wavycon_system, only: has_memory_for

@@ -3,13 +3,11 @@
 !> ASCII grids, https://desktop.arcgis.com/en/arcmap/latest/manage-data/raster-and-images/esri-ascii-raster-format.htm.
 !> Each line of these heads has a key and the key's entry.
 module wavycon_gwyddion_map
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
-   use wavycon_constants, only: largest_number, smallest_number
    use wavycon_decimal_number, only: read_decimal
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64, largest_number, smallest_number
    use wavycon_length_unit, only: angstrom, find_factor, micro_sign
    use wavycon_measured_map, only: laid_along_x, measured_map
    use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, short_number
@@ -45,10 +43,8 @@ contains
          return
       end if
       last = index(file%head, char(0)) - 1
-      if (last < 0) then
-         call file%refuse('the head of this .gsf file has no end, which is a null character', error)
-         return
-      end if
+      if (last < 0) call file%refuse('the head of this .gsf file has no end, which is a null character', error)
+      if (allocated(error)) return
       words = file%head(:last)
       do i = 1, size(keys)
          entry = entry_of(words, trim(keys(i)), '=')

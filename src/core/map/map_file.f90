@@ -2,7 +2,6 @@
 !> and profiles x, z.
 module wavycon_map_file
    use, intrinsic :: iso_c_binding, only: c_null_char
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_invalid, ieee_overflow, &
       ieee_set_halting_mode, ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
@@ -10,7 +9,7 @@ module wavycon_map_file
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
    use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, read_gsf_map, take_esri_head, take_text_head
-   use wavycon_kinds, only: dp, sp
+   use wavycon_kinds, only: dp, ieee_is_nan, sp
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: npy_magic, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
@@ -103,10 +102,8 @@ contains
       remedy = remedy_of_content(file%head, file%path)
       if (index(file%head, npy_magic) == 1) remedy = "this is a file of numpy: file_format = 'npy' reads it"
       if (index(file%head, gsf_magic) == 1) remedy = "this is a file of Gwyddion: file_format = 'gsf' reads it"
-      if (remedy /= '') then
-         call file%refuse(remedy, error)
-         return
-      end if
+      if (remedy /= '') call file%refuse(remedy, error)
+      if (allocated(error)) return
       call read_number_table(file%path, most_bytes, table, error)
       if (allocated(error)) then
          ! The name is considered only now, because a text of numbers is read whatever its name is.

@@ -1,11 +1,10 @@
 !> Filters of height maps: removal of spikes by a median rule, (M8), taper of the borders, (M5), and removal of short
 !> or long waves, (M9). The equations are those of README.md in this directory.
 module wavycon_map_filters
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_map_tuning, only: reach_of_spike
    implicit none (type, external)
    private

@@ -1,10 +1,9 @@
 !> A height map as a file or an array gives it. It may have holes, be tilted, and not be periodic. This module also
 !> checks the size of maps.
 module wavycon_measured_map
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_plain_text, only: escaped, integer_text
    implicit none (type, external)
    private

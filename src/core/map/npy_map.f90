@@ -1,8 +1,8 @@
 !> Reads height maps in numpy's format .npy: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html.
 module wavycon_npy_map
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type
+   use wavycon_kinds, only: int64
    use wavycon_measured_map, only: laid_along_x, measured_map
    use wavycon_plain_text, only: excerpt, replaced
    implicit none (type, external)

@@ -4,10 +4,8 @@
 !> `read_decimal` reads. Words such as `nan` and `--` stand for missing numbers. A number is also missing where two
 !> commas, semicolons or tabs follow each other.
 module wavycon_number_line
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use wavycon_constants, only: largest_number
    use wavycon_decimal_number, only: read_decimal
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, largest_number, not_a_number
    use wavycon_plain_text, only: excerpt, lower_case, short_number
    implicit none (type, external)
    private
@@ -63,7 +61,7 @@ contains
                return
             end if
          end if
-         values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
+         values(used + 1:used + holes) = not_a_number()
          used = used + holes + 1
          call read_number(line(first:last), values(used), trouble)
          if (allocated(trouble)) return
@@ -77,7 +75,7 @@ contains
       end if
       ends_open = separators > 0
       holes = max(0, separators - 1)
-      values(used + 1:used + holes) = ieee_value(0.0_dp, ieee_quiet_nan)
+      values(used + 1:used + holes) = not_a_number()
       used = used + holes
    end subroutine read_line
 
@@ -142,7 +140,7 @@ contains
          return
       end if
       if (is_missing(word)) then
-         value = ieee_value(0.0_dp, ieee_quiet_nan)
+         value = not_a_number()
          return
       end if
       ! `scan` is 1 if the word has a sign, otherwise 0.

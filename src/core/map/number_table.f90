@@ -4,10 +4,9 @@
 !> head: lines before the first number that begin with a word. Lines end in LF, CR LF or CR. The '#' of a mark for a
 !> missing number, such as `#N/A` and `1.#QNAN`, does not begin a comment.
 module wavycon_number_table
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_number_line, only: gaps, is_missing, read_line
    use wavycon_plain_text, only: escaped, integer_text, lower_case
    implicit none (type, external)
@@ -90,10 +89,8 @@ contains
             if (status /= 0) exit
          end if
          call read_line(content(first:last), row, used, ends_open, trouble)
-         if (allocated(trouble)) then
-            call trouble_in_line(trouble)
-            return
-         end if
+         if (allocated(trouble)) call trouble_in_line(trouble)
+         if (allocated(error)) return
          if (used == 0) cycle
          if (rows == 0) then
             columns = used
@@ -113,7 +110,7 @@ contains
          rows = rows + 1
          table%line(rows) = line
          table%values(:used, rows) = row(:used)
-         table%values(used + 1:, rows) = ieee_value(0.0_dp, ieee_quiet_nan)
+         table%values(used + 1:, rows) = not_a_number()
       end do
       if (status == 0 .and. rows > 0) allocate (values, source=table%values(:columns, :rows), stat=status)
       if (status /= 0) then

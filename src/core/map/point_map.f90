@@ -1,14 +1,11 @@
 !> Makes height maps from lines of x, y and z, and profiles from lines of x and z; says whether numbers may be a matrix
 !> of heights. README.md in this directory, "Points and tables", has the rules.
 module wavycon_point_map
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr, c_size_t
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_constants, only: smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_gsl, only: gsl_interp_alloc, gsl_interp_eval, gsl_interp_free, gsl_interp_init, gsl_interp_steffen, &
       return_gsl_errors
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, int64, not_a_number, smallest_number
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_number_table, only: number_table
    use wavycon_plain_text, only: escaped, integer_text, short_number
@@ -102,7 +99,7 @@ contains
       end if
       call check_room(table%path, points, error)
       if (allocated(error)) return
-      allocate (map%height(points(1), points(2)), source=ieee_value(0.0_dp, ieee_quiet_nan))
+      allocate (map%height(points(1), points(2)), source=not_a_number())
       allocate (is_there(points(1), points(2)), source=.false.)
       do k = 1, size(table%line)
          associate (point => table%values(:, k))
@@ -204,10 +201,8 @@ contains
       if (allocated(error)) return
       x = table%values(1, :)
       k = findloc(ieee_is_nan(x), .true., dim=1)
-      if (k > 0) then
-         call table%refuse(k, 'x must be a number; a missing height is nan, or its line is left out', error)
-         return
-      end if
+      if (k > 0) call table%refuse(k, 'x must be a number; a missing height is nan, or its line is left out', error)
+      if (allocated(error)) return
       do k = 2, n
          if ((x(k) - x(k - 1))*(x(n) - x(1)) > 0.0_dp) cycle
          call table%refuse(k, 'x = '//short_number(x(k))//' after '//short_number(x(k - 1))// &

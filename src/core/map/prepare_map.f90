@@ -1,12 +1,11 @@
 !> Prepares a measured map for a contact solver: removes spikes, subtracts the trend, fills holes and treats the
 !> borders, in this order.
 module wavycon_prepare_map
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_detrend, only: detrend_map, level_lines
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
    use wavycon_fill_missing, only: fill_holes
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_map_filters, only: find_spikes, taper_borders
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: measured_map

@@ -1,9 +1,8 @@
 !> Root mean squares of height, slope and curvature of a surface, and its power spectra, computed from its Fourier
 !> series. The equations are those of README.md in this directory.
 module wavycon_roughness
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_wave_stiffness, only: wave_stiffness
    implicit none (type, external)
    private

@@ -1,9 +1,9 @@
 !> The edge of contact as closed curves, contact contours, which are traced through the cells of a grid.
 module wavycon_contact_contours
    use, intrinsic :: iso_fortran_env, only: int8
-   use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, corner, cross, edge_point, quarter_turns
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
+   use wavycon_quantities, only: unknown
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    implicit none (type, external)
    private
@@ -20,6 +20,7 @@ module wavycon_contact_contours
       !> Numbers, from 1, of the spot on the left of the curve and the pool on the right; in 1-D of the strip and of the
       !> gap after the strip. On a mirrored height map in 2-D a region and its mirror images have the same number.
       integer :: spot = 0, pool = 0
+      real(dp) :: load = unknown      !! the part of the load that the spot carries
       real(dp) :: area = 0.0_dp       !! the area (A1) [rad^2]; in 1-D the width of the strip times 2 pi
       real(dp) :: length = 0.0_dp     !! length [length] if the solver knows it better than the points; otherwise 0
    end type contact_contour

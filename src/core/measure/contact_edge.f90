@@ -4,8 +4,7 @@
 !> where on the line, and the direction of the edge there: `isobar_grid` from a Fourier series, `grid_edge` from a
 !> solution on the points themselves.
 module wavycon_contact_edge
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

@@ -1,11 +1,10 @@
 !> Quantities of a solution whose pressure is a Fourier series, of full contact, and the contact area by the linear law
 !> of rough surfaces.
 module wavycon_contact_measures
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_isobar_grid, only: isobar_grid, start_isobar_grid
    use wavycon_full_contact, only: full_contact_energy
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_line_zeros, only: part_inside, line_zeros
    use wavycon_quantities, only: approach, area_at_hardness, contact_area, elastic_energy, load_at_hardness, mean_gap, &
       min_pressure, peak_pressure, quantities, unknown

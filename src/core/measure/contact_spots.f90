@@ -1,11 +1,9 @@
 !> The spots of contact and the pools of gap of one periodic cell, and whether contact and gap percolate: (A1) to (A5)
 !> of README.md. On a mirrored height map the regions are those of the map, which is a quarter of the cell.
 module wavycon_contact_spots
-   use, intrinsic :: iso_c_binding, only: c_size_t
-   use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour
-   use wavycon_gsl, only: gsl_sort_index
-   use wavycon_kinds, only: dp
+   use wavycon_gsl, only: ascending_order
+   use wavycon_kinds, only: dp, pi
    use wavycon_quantities, only: or_nan, unknown
    implicit none (type, external)
    private
@@ -56,12 +54,11 @@ contains
 
    !> Finds the regions into which the curves of the edge divide a cell. Together the curves must have all numbers of
    !> spots from 1 to the largest, and the same for pools.
-   subroutine find_spots(curves, area, dimension, length, loads, is_map, answer)
+   subroutine find_spots(curves, area, dimension, length, is_map, answer)
       type(contact_contour), intent(in) :: curves(:)   !! all curves of the cell, at least one
       real(dp), intent(in) :: area                !! contact area over the nominal area
       integer, intent(in) :: dimension            !! 1: the contact is a set of strips; 2: of spots
       real(dp), intent(in) :: length(2)           !! L_x, L_y [length]
-      real(dp), intent(in) :: loads(:)            !! load of each spot over the total load; size 0 if not known
       !> Whether the cell consists of a map and its mirror images. In 2-D a region and its images have the same number.
       logical, intent(in) :: is_map
       type(contact_spots), intent(out) :: answer
@@ -69,18 +66,16 @@ contains
       type(connected_region), allocatable :: spots(:), pools(:)
 
       if (dimension == 1) then
-         call find_strips(curves, loads, is_map, spots, pools)
+         call find_strips(curves, is_map, spots, pools)
       else
          call find_regions(curves%spot, curves%pool, 1, curves, area, length, is_map, spots)
          call find_regions(curves%pool, curves%spot, -1, curves, 1.0_dp - area, length, is_map, pools)
-         spots%load_fraction = or_nan(unknown)
-         if (size(loads) == size(spots)) spots%load_fraction = loads
          pools%load_fraction = or_nan(unknown)
       end if
       call add_up_to(area, spots)
       call add_up_to(1.0_dp - area, pools)
-      call sort_by_area(spots, answer%spots)
-      call sort_by_area(pools, answer%pools)
+      answer%spots = spots(ascending_order(-spots%area_fraction))
+      answer%pools = pools(ascending_order(-pools%area_fraction))
    end subroutine find_spots
 
    !> Sets the only region of a cell without an edge: the whole cell.
@@ -122,6 +117,7 @@ contains
          associate (region => regions(number(i)), x => curves(i)%phi, y => curves(i)%theta)
             region%area_fraction = region%area_fraction + outwards*curves(i)%area/cell_area
             region%perimeter = region%perimeter + curve_length(curves(i), length)
+            region%load_fraction = or_nan(curves(i)%load)
             if (curves(i)%turns == outwards) then
                has_outer(number(i)) = .true.
                region%centre = centroid(curves(i), is_map)
@@ -172,21 +168,18 @@ contains
 
    !> Finds the strips of a 1-D contact and the gaps between them, of a mirrored map those within the map. All are
    !> endless along y and bounded along x.
-   subroutine find_strips(strips, loads, is_map, spots, pools)
+   subroutine find_strips(strips, is_map, spots, pools)
       type(contact_contour), intent(in) :: strips(:)   !! all strips of the cell, ascending, at least one
-      real(dp), intent(in) :: loads(:)                 !! as of find_spots
       logical, intent(in) :: is_map                    !! whether the cell consists of a map and its mirror image
       type(connected_region), allocatable, intent(out) :: spots(:), pools(:)
 
-      real(dp) :: gap(2), load
+      real(dp) :: gap(2)
       integer :: i, n
 
       n = size(strips)
       allocate (spots(n), pools(n))
-      load = or_nan(unknown)
       do i = 1, n
-         if (size(loads) == n) load = loads(i)
-         spots(i) = strip(strips(i)%phi, load)
+         spots(i) = strip(strips(i)%phi, or_nan(strips(i)%load))
          gap = [strips(i)%phi(2), strips(mod(i, n) + 1)%phi(1)]
          if (i == n) then
             ! The gap after the last strip ends at the first strip one period on. It contains phi = 0, or lies between 0
@@ -310,16 +303,5 @@ contains
 
       in_cell = max(angle - 2*pi*floor(angle/(2*pi) + rounding), 0.0_dp)
    end function in_cell
-
-   !> Sorts regions by their areas.
-   subroutine sort_by_area(regions, sorted)
-      type(connected_region), intent(in) :: regions(:)
-      type(connected_region), allocatable, intent(out) :: sorted(:)   !! the largest first
-
-      integer(c_size_t) :: order(size(regions))
-
-      call gsl_sort_index(order, -regions%area_fraction, 1_c_size_t, size(regions, kind=c_size_t))
-      sorted = regions(int(order) + 1)
-   end subroutine sort_by_area
 
 end module wavycon_contact_spots

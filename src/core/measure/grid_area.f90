@@ -4,12 +4,10 @@
 !> For comparison with other programs also the counted area, the number of points in contact over the number of points,
 !> and its correction (C26). Another number says how concentrated the load is in the cell.
 module wavycon_grid_area
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi
    use wavycon_contact_edge, only: edge_point
    use wavycon_grid_edge, only: balance, grid_edge
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64, pi
    use wavycon_line_zeros, only: part_inside
    implicit none (type, external)
    private

@@ -9,11 +9,10 @@
 !> A grid may be distributed over processes, each of which has the pressures and gaps of its own columns. The edge is
 !> then known in these columns and in those that `fetch_neighbours` copies from the neighbouring processes.
 module wavycon_grid_edge
-   use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, edge_point, quarter_turns
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_measure_tuning, only: aligned_slope, cell_edge_offset, cell_gap_weight, cell_turn_area, edge_offset, &
       gap_weight, turn_area
    use wavycon_surface, only: surface_type

@@ -6,11 +6,10 @@
 !> the isobar at both. The error of areas then falls as the fourth power of the grid's step. With straight lines it
 !> would fall as the second power.
 module wavycon_isobar_grid
-   use wavycon_constants, only: pi
    use wavycon_contact_edge, only: contact_edge, edge_point
    use wavycon_cosine_table, only: cosine_table, folded
    use wavycon_fourier_series, only: evaluate_line, fourier_series
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_line_zeros, only: zero_between
    implicit none (type, external)
    private

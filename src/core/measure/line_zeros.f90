@@ -1,8 +1,7 @@
 !> Zeros of a cosine series in one variable, and the part of a range that lies between them.
 module wavycon_line_zeros
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: evaluate_line
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

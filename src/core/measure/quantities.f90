@@ -3,9 +3,8 @@
 !>
 !> A new quantity takes a number and a row of the list here, and an assignment in a solver: src/README.md, "A quantity".
 module wavycon_quantities
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_assertion, only: assert
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -124,7 +123,7 @@ contains
       real(dp), intent(in) :: number
 
       or_nan = number
-      if (.not. is_known(number)) or_nan = ieee_value(1.0_dp, ieee_quiet_nan)
+      if (.not. is_known(number)) or_nan = not_a_number()
    end function or_nan
 
    !> Error estimates of the main quantities, made `unknown` where they say nothing: where an estimate is as large as

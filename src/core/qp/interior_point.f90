@@ -4,9 +4,8 @@
 !> It takes some 20 to 40 steps, whatever the load, where the dual method takes thousands of exchanges. Its multipliers
 !> have few digits; so they are only a start for the dual method.
 module wavycon_interior_point
-   use, intrinsic :: iso_c_binding, only: c_size_t
    use wavycon_cosine_rows, only: cosine_rows
-   use wavycon_gsl, only: gsl_sort_index
+   use wavycon_gsl, only: ascending_order
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv, dpotrf, dtrsv
    use wavycon_qp_problem, only: qp_problem
@@ -39,7 +38,6 @@ contains
       real(dp), dimension(size(multipliers)) :: slack, slack_change, change, products
       real(dp), dimension(size(problem%linear)) :: x, x_change
       real(dp), allocatable :: matrix(:, :)
-      integer(c_size_t) :: order(size(multipliers))
       integer :: i, info, m, n, pass
       real(dp) :: mean, step
 
@@ -83,8 +81,8 @@ contains
             multipliers = multipliers + step*change
          end do
       end select
-      call gsl_sort_index(order, slack/multipliers, 1_c_size_t, size(order, kind=c_size_t))
-      list = int(order(:count(multipliers > likely_ratio*slack))) + 1
+      list = ascending_order(slack/multipliers)
+      list = list(:count(multipliers > likely_ratio*slack))
    end subroutine likely_active
 
 end module wavycon_interior_point

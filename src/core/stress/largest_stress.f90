@@ -5,13 +5,10 @@
 !> place, and the distance of the points is reduced: (S6), (S7) of README.md in this directory. Depths are mirrored at
 !> the surface, so that the search may end on the surface.
 module wavycon_largest_stress
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use wavycon_constants, only: pi
-   use wavycon_elastic_body, only: elastic_body
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, not_a_number, pi
    use wavycon_lapack, only: dsyev
    use wavycon_stress_fields, only: start_point, stress_fields
-   use wavycon_stress_tensor, only: largest_shear, von_mises
+   use wavycon_stress_tensor, only: elastic_body, largest_shear, von_mises
    use wavycon_stress_tuning, only: close_to_largest, error_of_invariant, first_reach, gain_part, likely_gain, &
       most_models, search_accuracy, reach_factor, refined_places
    implicit none (type, external)
@@ -39,7 +36,7 @@ contains
       real(dp) :: unknown
       type(start_point), allocatable :: places(:)
 
-      unknown = ieee_value(unknown, ieee_quiet_nan)
+      unknown = not_a_number()
       if (present(yielding)) yielding = largest_stress(unknown, unknown, unknown)
       if (present(shear)) shear = largest_stress(unknown, unknown, unknown)
       if (.not. fields%exist) return

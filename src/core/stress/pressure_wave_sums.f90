@@ -5,13 +5,11 @@
 !> As in (S3) a wave has the numbers k >= 0 and l, the wave vector (k, l'), l' = l L_x/L_y, and its length q.
 module wavycon_pressure_wave_sums
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi, sqrt3
-   use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi, sqrt3
    use wavycon_lapack, only: dgemm
-   use wavycon_stress_tensor, only: largest_shear, xx, xy, xz, yy, yz, zz
+   use wavycon_stress_tensor, only: elastic_body, largest_shear, no_waves, xx, xy, xz, yy, yz, zz
    use wavycon_stress_tuning, only: faintest_on_planes
    use wavycon_wave_packing, only: fold_waves
    implicit none (type, external)

@@ -3,18 +3,15 @@
 !>
 !> Equations (S1) to (S5), (S9) and, for free edges, (S11) of README.md in this directory.
 module wavycon_series_stress_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_constants, only: pi
-   use wavycon_elastic_body, only: elastic_body, no_waves
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_load_tree, only: load_tree, plant_load_tree
    use wavycon_pressure_wave_sums, only: deepest, pressure_wave_sums
    use wavycon_series_samples, only: sample_series
    use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_stress_kernel, only: nu_terms_of
-   use wavycon_stress_tensor, only: von_mises, zz
+   use wavycon_stress_tensor, only: elastic_body, no_waves, von_mises, zz
    use wavycon_stress_tuning, only: coarsest, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
       pressure_part, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, window_points
    use wavycon_surface, only: surface_type

@@ -4,12 +4,9 @@
 !> the body. Stresses are in p*, tension positive. The arguments `nu_terms` are without the stress of the mean pressure,
 !> which depends on how the body is held: `elastic_body` adds it.
 module wavycon_stress_fields
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use wavycon_constants, only: pi
-   use wavycon_elastic_body, only: elastic_body
    use wavycon_equivalent_points, only: equivalent_points, point_image
-   use wavycon_kinds, only: dp
-   use wavycon_stress_tensor, only: xx, xy, xz, yy, yz, zz
+   use wavycon_kinds, only: dp, not_a_number, pi
+   use wavycon_stress_tensor, only: elastic_body, xx, xy, xz, yy, yz, zz
    implicit none (type, external)
    private
 
@@ -56,8 +53,8 @@ contains
       real(dp), intent(out), optional :: error
 
       associate (unused => self, unused_too => [x, y, depth]); end associate
-      nu_terms = ieee_value(nu_terms, ieee_quiet_nan)
-      if (present(error)) error = ieee_value(error, ieee_quiet_nan)
+      nu_terms = not_a_number()
+      if (present(error)) error = not_a_number()
    end subroutine at
 
    !> Proposes the places from which the search for the largest stress starts. At least one of them should be close to

@@ -9,8 +9,7 @@
 !>
 !> At the distance R from a point force V = 1/(2 pi R): Boussinesq's solution.
 module wavycon_stress_kernel
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

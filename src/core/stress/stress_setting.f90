@@ -1,10 +1,9 @@
 !> The bodies whose stresses are computed, and the criterion of their yield.
 module wavycon_stress_setting
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_elastic_body, only: elastic_body
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan
    use wavycon_largest_stress, only: find_largest_stresses, largest_stress
    use wavycon_stress_fields, only: stress_fields
+   use wavycon_stress_tensor, only: elastic_body
    implicit none (type, external)
    private
 

@@ -1,21 +1,53 @@
-!> The stress at a point: its components, and the measures of it that decide on yield.
+!> The stress at a point of an elastic body: its components, as the sum of the stress of the pressure's waves and of the
+!> stress of the mean pressure, and the measures of it that decide on yield.
 !>
 !> Stresses are positive in tension. The six components stand in the order xx, yy, zz, xy, xz, yz. They may be in any
 !> unit, and all results are in the same unit. A stress with a component that is not finite has NaN for its
 !> principal stresses and its largest shear.
 module wavycon_stress_tensor
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_finite, not_a_number
    use wavycon_lapack, only: dsyev
    implicit none (type, external)
    private
 
-   public :: largest_shear, principal_stresses, stress_pressure, von_mises
+   public :: elastic_body, largest_shear, principal_stresses, stress_pressure, von_mises
 
    !> Positions of the components in an array of six.
    integer, parameter, public :: xx = 1, yy = 2, zz = 3, xy = 4, xz = 5, yz = 6
 
+   !> The lateral stress that the mean pressure pbar causes, (S2). `laterally_constrained`: -nu pbar/(1 - nu), as there
+   !> is no lateral strain. `laterally_free`: none. `hydrostatic`: -pbar.
+   integer, parameter, public :: laterally_constrained = 1, laterally_free = 2, hydrostatic = 3
+
+   !> The argument `nu_terms` of `stress` where the pressure has no waves: `stress` then returns that of the mean
+   !> pressure.
+   real(dp), parameter, public :: no_waves(6, 2) = 0.0_dp
+
+   type :: elastic_body
+      real(dp) :: nu = 0.3_dp                        !! Poisson's ratio, -1 < nu <= 1/2
+      integer :: lateral = laterally_constrained     !! or laterally_free, or hydrostatic
+   contains
+      procedure :: stress
+   end type elastic_body
+
 contains
+
+   !> The stress at a point, tension positive: the sum of that of the pressure's waves, (S1), and that of the mean
+   !> pressure, (S2).
+   pure function stress(self, nu_terms, pbar)
+      class(elastic_body), intent(in) :: self
+      !> The stress of the waves is nu_terms(:, 1) + nu*nu_terms(:, 2): see `at` of wavycon_stress_fields.
+      real(dp), intent(in) :: nu_terms(6, 2)
+      real(dp), intent(in) :: pbar          !! mean pressure, in the unit of `nu_terms`
+      real(dp) :: stress(6)                 !! xx, yy, zz, xy, xz, yz, in the same unit
+
+      real(dp) :: lateral(3)   ! lateral stress over -pbar for each choice of `lateral`
+
+      lateral = [self%nu/(1.0_dp - self%nu), 0.0_dp, 1.0_dp]
+      stress = nu_terms(:, 1) + self%nu*nu_terms(:, 2)
+      stress([xx, yy]) = stress([xx, yy]) - lateral(self%lateral)*pbar
+      stress(zz) = stress(zz) - pbar
+   end function stress
 
    !> Von Mises stress [(d1^2 + d2^2 + d3^2)/2 + 3 (xy^2 + xz^2 + yz^2)]^(1/2) with the differences d1 = xx - yy,
    !> d2 = yy - zz, d3 = zz - xx. In uniaxial tension it is the tension.
@@ -63,7 +95,7 @@ contains
       real(dp) :: ascending(3), matrix(3, 3), work(8)
       integer :: info
 
-      principal = ieee_value(principal, ieee_quiet_nan)
+      principal = not_a_number()
       ! LAPACK compares numbers. A comparison with NaN stops a build that traps exceptions.
       if (.not. all(ieee_is_finite(s))) return
       ! DSYEV reads the lower triangle only.

@@ -1,8 +1,7 @@
 !> Surfaces with free edges, which are not continued beyond their borders: their units, and the ball below a map. The
 !> ball is a paraboloid, the shape of a sphere near its lowest point.
 module wavycon_free_edges
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_paraboloid, only: paraboloid
    use wavycon_surface, only: surface_type
    implicit none (type, external)

@@ -1,9 +1,8 @@
 !> Makes the surface of a measured height map: prepares the map, computes its statistics, and interpolates its heights.
 module wavycon_height_map
-   use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, largest_number, smallest_number
    use wavycon_map_filters, only: find_spikes, leave_out_waves
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_map_tuning, only: spiky_kurtosis

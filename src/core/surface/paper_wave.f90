@@ -1,9 +1,8 @@
 !> Recognises the waves of Johnson, Greenwood & Higginson (1985) among surfaces, with the wavelength and the angles of
 !> their equations. Also finds the smaller periodic cell that the 2-D wave and other surfaces of its symmetry have.
 module wavycon_paper_wave
-   use wavycon_constants, only: sqrt2
-   use wavycon_kinds, only: dp
-   use wavycon_rotated_series, only: to_sum_angles
+   use wavycon_kinds, only: dp, sqrt2
+   use wavycon_rotated_series, only: in_other_angles, to_sum_angles
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -94,7 +93,7 @@ contains
       type(surface_type), intent(in) :: whole   !! a surface for which has_smaller_cell is true
 
       surface = whole
-      surface%shape = to_sum_angles(whole%shape)
+      surface%shape = in_other_angles(whole%shape, to_sum_angles)
       surface%length = whole%length/sqrt2
       surface%crest = [whole%crest(1) + whole%crest(2), whole%crest(1) - whole%crest(2)]
    end function smaller_cell

@@ -1,7 +1,6 @@
 !> A paraboloid below a height map. The map has the angles 0 <= X, Y <= pi, and its centre is that of the paraboloid.
 module wavycon_paraboloid
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
 

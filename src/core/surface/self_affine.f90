@@ -1,13 +1,12 @@
 !> Makes random self-affine surfaces from their spectra. Equations (G1) to (G8) are in README.md of this directory.
 module wavycon_self_affine
    use, intrinsic :: iso_c_binding, only: c_long, c_ptr
-   use wavycon_constants, only: largest_number, pi, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
    use wavycon_gsl, only: gsl_rng_alloc, gsl_rng_free, gsl_rng_mt19937, gsl_rng_set, gsl_rng_uniform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, largest_number, pi, smallest_number
    use wavycon_measured_map, only: check_room
    use wavycon_map_statistics, only: map_statistics, statistics_of
    use wavycon_plain_text, only: short_number

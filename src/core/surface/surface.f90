@@ -2,12 +2,11 @@
 !> surface is periodic, the pressure p* that closes the gap.
 module wavycon_surface
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_paraboloid, only: paraboloid
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_samples, only: sample_series
@@ -104,7 +103,7 @@ contains
    pure logical function is_distributed(self)
       class(surface_type), intent(in) :: self
 
-      is_distributed = self%shape%is_distributed()
+      is_distributed = self%shape%rows%is_distributed
    end function is_distributed
 
    !> Whether a hardness bounds the pressure.

@@ -1,13 +1,12 @@
 !> Makes surfaces through given heights at the points of a grid.
 module wavycon_surface_of_points
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: divide_series, weighted
    use wavycon_free_edges, only: form_of_radii, set_units_without_closure
    use wavycon_full_contact, only: set_closure
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -1,7 +1,6 @@
 !> The factors between the units of the core and those of the user.
 module wavycon_unit_scale
-   use wavycon_constants, only: pi
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -1,9 +1,8 @@
 !> Makes surfaces of cosine waves: sums of any waves, and the named kinds of decks.
 module wavycon_wave_surfaces
-   use wavycon_constants, only: sqrt3
    use wavycon_fourier_series, only: divide_series, fourier_series, turn, weighted
    use wavycon_full_contact, only: set_closure
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, sqrt3
    use wavycon_series_peak, only: find_peak
    use wavycon_surface, only: surface_type
    implicit none (type, external)

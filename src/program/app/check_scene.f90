@@ -1,12 +1,11 @@
 !> What --check writes about a deck, without a run.
 module wavycon_check_scene
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_auto_contact, only: has_lattice
    use wavycon_grid_plan, only: bytes_of_grid
    use wavycon_fourier_series, only: fourier_series
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_methods, only: why_chosen
    use wavycon_notes, only: show_scene
    use wavycon_plain_text, only: clauses, escaped, integer_text, listed

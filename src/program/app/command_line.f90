@@ -149,10 +149,8 @@ contains
       associate (options => command_line%options)
          if (decks == 0 .and. .not. (options%version%is_true .or. options%help%is_true .or. &
                                      allocated(trouble))) trouble = 'no deck is given'
-         if (allocated(trouble)) then
-            call fatal_error(error, exit_bad_input, trouble)
-            return
-         end if
+         if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
+         if (allocated(error)) return
          if (options%output%is_given) then
             sweeps = sweeps + 1
             call read_sweep('--set', 'output.directory='//quoted(options%output%text), sweep(sweeps)%values, trouble)

@@ -3,13 +3,14 @@
 !> In the parallel program all processes do the same, and only the first one writes. An error of one process ends all.
 module wavycon_run_program
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
-   use, intrinsic :: iso_fortran_env, only: error_unit, int64
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use wavycon_check_scene, only: check_scene
    use wavycon_checkpoint, only: remove_done
    use wavycon_collected_table, only: check_table_file, collected_deck, list_keys, write_collected_table
    use wavycon_command_line, only: command_line_type, make_help, read_command_line
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, exit_fine, exit_not_converged, fatal_error
+   use wavycon_kinds, only: int64
    use wavycon_notes, only: outcome
    use wavycon_plain_text, only: escaped, integer_text
    use wavycon_ranks, only: comm, end_ranks, is_first_rank, share_error

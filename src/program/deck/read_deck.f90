@@ -27,7 +27,7 @@ module wavycon_read_deck
    implicit none (type, external)
    private
 
-   public :: read_deck, parse_deck, resolved_deck_text
+   public :: read_deck, parse_deck
 
 contains
 
@@ -75,10 +75,8 @@ contains
       if (present(in_memory)) is_file = .not. in_memory
       text = deck_text
       token = next_token(text%content, 1)
-      if (token%kind == at_end) then
-         call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
-         return
-      end if
+      if (token%kind == at_end) call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
+      if (allocated(error)) return
       call list_keys(scene, lists)
       call take_groups(text, lists, problems, settings)
       do i = 1, size(lists)
@@ -237,17 +235,6 @@ contains
 
    !> The resolved deck: every key that applies, with the value in effect. A run of the resolved deck gives the same
    !> results. The last line has no newline.
-   function resolved_deck_text(scene) result(text)
-      type(scene_type), intent(in), target :: scene
-      character(:), allocatable :: text
-
-      type(key_list) :: lists(number_of_groups)
-
-      call list_keys(scene, lists)
-      text = text_of(scene, lists)
-   end function resolved_deck_text
-
-   !> The resolved deck.
    function text_of(scene, lists) result(text)
       type(scene_type), intent(in), target :: scene
       type(key_list), intent(in) :: lists(:)   !! keys of all groups, which point to the values of the scene

@@ -1,12 +1,12 @@
 !> The &stress group: stresses below the surface. They are computed only if the deck has this group.
 module wavycon_stress_group
-   use wavycon_elastic_body, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: choice_value, integer_value, key_type, logical_value, real_value
    use wavycon_kinds, only: dp
    use wavycon_material_group, only: take_ratios
    use wavycon_scene_groups, only: load_group, material_group, stress_group
    use wavycon_stress_setting, only: stress_setting
+   use wavycon_stress_tensor, only: elastic_body, hydrostatic, laterally_constrained, laterally_free
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -119,7 +119,7 @@ contains
    end subroutine check_stress_group
 
    !> How the mean pressure loads the bodies laterally: laterally_constrained, laterally_free or hydrostatic of
-   !> wavycon_elastic_body.
+   !> wavycon_stress_tensor.
    pure integer function lateral_of(values) result(lateral)
       type(stress_group), intent(in) :: values
 

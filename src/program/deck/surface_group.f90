@@ -1,12 +1,11 @@
 !> The &surface group: the gap between the bodies.
 module wavycon_surface_group
-   use wavycon_constants, only: largest_number, smallest_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: check_sum, formula_surface
    use wavycon_height_map_kind, only: surface_of_file, surface_of_heights
    use wavycon_key_group, only: key_list, key_value
    use wavycon_key_table, only: choice_value, integer_value, key_type, logical_value, real_value, text_value
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, largest_number, smallest_number
    use wavycon_map_statistics, only: map_statistics
    use wavycon_map_tuning, only: usual_window_width
    use wavycon_measured_map, only: most_points

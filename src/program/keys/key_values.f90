@@ -1,13 +1,11 @@
 !> Reads the value of a key from a word of a deck, and checks type and bounds of the value.
 module wavycon_key_values
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_overflow, ieee_set_halting_mode, ieee_set_status, &
       ieee_status_type
-   use wavycon_constants, only: largest_number, smallest_number
    use wavycon_decimal_number, only: read_decimal
    use wavycon_key_table, only: allowed_values, choice_value, integer_value, key_type, logical_value, &
       name_length, real_value, text_value, words_of
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, largest_number, smallest_number
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted
    implicit none (type, external)

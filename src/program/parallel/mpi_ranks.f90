@@ -1,7 +1,7 @@
 !> The exchange between the ranks, the processes of the parallel program, by MPI. src/base/ranks.f90 describes the
 !> procedures and their arguments.
 module wavycon_mpi_ranks
-   use, intrinsic :: iso_fortran_env, only: error_unit, int64
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use mpi_f08, only: mpi_abort, mpi_address_kind, mpi_allreduce, mpi_alltoallv, mpi_alltoallw, mpi_byte, mpi_comm, &
       mpi_comm_free, mpi_comm_rank, mpi_comm_size, mpi_comm_split_type, mpi_comm_type_shared, mpi_comm_world, &
       mpi_datatype, mpi_double_precision, mpi_finalize, mpi_get_library_version, mpi_ibarrier, mpi_in_place, &
@@ -9,7 +9,7 @@ module wavycon_mpi_ranks
       mpi_status_ignore, mpi_sum, mpi_test, mpi_thread_funneled, mpi_type_commit, mpi_type_contiguous, &
       mpi_type_create_hindexed_block, mpi_type_free, mpi_type_vector
    use wavycon_error, only: exit_bad_input, exit_file_trouble
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_ranks, only: communicator, use_communicator
    implicit none (type, external)
    private

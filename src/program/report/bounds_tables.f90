@@ -3,18 +3,17 @@
 !> taken at the points of a grid: of the grid that the solver used or, if there is none, of a grid on which the solution
 !> is evaluated. The page of src/core/half_space derives the bounds, (E18) to (E26).
 module wavycon_bounds_tables
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
    use wavycon_energy_bounds, only: bounding_grid, energy_bounds
    use wavycon_fourier_series, only: fourier_series, weighted
    use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, not_a_number
    use wavycon_output_file, only: output_file
    use wavycon_quantities, only: approach, elastic_energy, mean_gap, or_nan, quantities
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
+   use wavycon_solution_record, only: status_code, status_name
    use wavycon_surface, only: surface_type
    use wavycon_table, only: table_type
    implicit none (type, external)

@@ -1,9 +1,9 @@
 !> Tables of numbers at the points of a grid over the whole cell. Such a table is a text in gnuplot's grid format, with
 !> a blank line between rows, or a file of numpy: an array of records.
 module wavycon_cell_file
-   use, intrinsic :: iso_fortran_env, only: int64, int8
+   use, intrinsic :: iso_fortran_env, only: int8
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_memory_table, only: column_list, column_type, of_integers
    use wavycon_output_file, only: npy_mark, output_file, table_mark
    use wavycon_plain_text, only: integer_text, newline

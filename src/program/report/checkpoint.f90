@@ -14,11 +14,10 @@
 !> ranks of the interrupted run, and may have another number of ranks.
 module wavycon_checkpoint
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solution, only: contact_solution
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_file_bytes, only: open_file
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_plain_text, only: escaped, excerpt, integer_text, newline
    use wavycon_ranks, only: is_first_rank
    use wavycon_results, only: results_type

@@ -9,13 +9,13 @@
 module wavycon_interface_tables
    use wavycon_adhesive_contact, only: adhesive_point, at_approach, at_load, closed, not_solved, &
       point_names, separated
-   use wavycon_contact_status, only: no_load, status_code, status_name
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: cycle_energy, relative_displacement
    use wavycon_plain_text, only: exact_number, integer_text
    use wavycon_quantities, only: area_slope, contact_area, gap_curvature, gap_slope, is_known, or_nan, quantities
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
+   use wavycon_solution_record, only: no_load, status_code, status_name
    use wavycon_table, only: table_type
    implicit none (type, external)
    private

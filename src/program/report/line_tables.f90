@@ -6,9 +6,8 @@
 !> otherwise after a whole cell. On a mirrored height map a line runs through the crest from border to border of the
 !> map.
 module wavycon_line_tables
-   use wavycon_constants, only: pi
    use wavycon_contact_fields, only: contact_fields
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_output_file, only: output_file
    use wavycon_results, only: results_type
    use wavycon_table, only: table_type

@@ -5,15 +5,14 @@
 !> <case>.slip_map.dat or .npy: tangential traction, pressure, and whether the point sticks or slips, for each load and
 !> tangential load.
 module wavycon_map_tables
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_cell_file, only: cell_file, is_text, map_points
    use wavycon_contact_fields, only: contact_fields
    use wavycon_error, only: error_type
    use wavycon_grid_points, only: image_of_point
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64, not_a_number
    use wavycon_plain_text, only: exact_number, integer_text
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
    use wavycon_table, only: table_type
    implicit none (type, external)
    private

@@ -1,8 +1,7 @@
 !> A table in memory, whose columns are arrays of numbers. `output_file` writes a table to memory in place of a file.
 !> Columns are declared as name[unit]. A column of the unit '#' has integers, one of the unit 'word' has words.
 module wavycon_memory_table
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_plain_text, only: newline
    use wavycon_system, only: has_memory_for
    implicit none (type, external)

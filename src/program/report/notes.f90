@@ -1,14 +1,11 @@
 !> The text of a run's log: the input, the tables of the solved loads and of the largest stresses, and notes on what a
 !> user should know of input and solutions.
 module wavycon_notes
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
-   use wavycon_constants, only: pi
-   use wavycon_contact_status, only: converged, not_accurate, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_map_statistics, only: map_statistics
    use wavycon_methods, only: solvers_for
    use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
@@ -18,7 +15,8 @@ module wavycon_notes
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
       target_words
-   use wavycon_solution_record, only: by_beale, by_grid, by_series, solution_record, solver_names
+   use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, not_accurate, not_found, &
+      solution_record, solver_names, status_name, unresolved
    implicit none (type, external)
    private
 

@@ -1,15 +1,13 @@
 !> The data from which the tables of one scene are written, and the header lines that all tables have.
 module wavycon_results
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use wavycon_adhesive_curve, only: adhesive_curve
    use wavycon_contact_measures, only: linear_area_fraction
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_spots, only: contact_spots
-   use wavycon_contact_status, only: is_good_status, not_accurate, status_code, status_name, unresolved
    use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_head_lines, only: head_lines
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, not_a_number
    use wavycon_largest_stress, only: largest_stress
    use wavycon_memory_table, only: column_list, column_type, memory_table
    use wavycon_output_file, only: output_file
@@ -18,11 +16,12 @@ module wavycon_results
    use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, mean_gap, &
       number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
+   use wavycon_solution_record, only: is_good_status, not_accurate, status_code, status_name, unresolved
    use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
    private
 
-   public :: results_type, not_a_number
+   public :: results_type
 
    !> The tables of a run whose status says whether a load was solved as requested.
    character(*), parameter, public :: status_tables(4) = [character(14) :: 'summary', 'stress_largest', &
@@ -307,10 +306,5 @@ contains
       mean_pressure = self%scene%p_star*self%loads(load)%pbar_over_pstar
       if (allocated(self%scene%mean_pressure)) mean_pressure = self%scene%mean_pressure(load)
    end function mean_pressure
-
-   !> The entry of a table for a number that does not exist.
-   pure real(dp) function not_a_number()
-      not_a_number = ieee_value(1.0_dp, ieee_quiet_nan)
-   end function not_a_number
 
 end module wavycon_results

@@ -1,8 +1,7 @@
 !> The log of a run on standard output: lines, notes, and on a terminal a progress line.
 module wavycon_run_log
    use, intrinsic :: iso_c_binding, only: c_null_char
-   use, intrinsic :: iso_fortran_env, only: int64
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_plain_text, only: integer_text, newline, short_number
    use wavycon_solver_progress, only: solver_progress
    use wavycon_system, only: print_text, say_line => say, terminal_columns

@@ -13,20 +13,18 @@
 !> without a grid is sampled at equally spaced points, and in 2-D taken as linear between them, by (A7) of README.md in
 !> src/core/measure.
 module wavycon_spot_tables
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use wavycon_constants, only: pi
    use wavycon_contact_contours, only: contact_contour, keep_curves_of_quarter
    use wavycon_contact_fields, only: contact_fields
    use wavycon_contact_spots, only: connected_region
-   use wavycon_contact_status, only: status_code, status_name
    use wavycon_histogram, only: histogram, make_histogram
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan, not_a_number, pi
    use wavycon_measure_tuning, only: line_samples, plane_samples
    use wavycon_output_file, only: output_file
    use wavycon_quantities, only: contact_area
    use wavycon_plain_text, only: clauses, integer_text, short_number
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
+   use wavycon_solution_record, only: status_code, status_name
    use wavycon_table, only: table_type
    implicit none (type, external)
    private

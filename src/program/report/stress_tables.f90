@@ -8,14 +8,13 @@
 !> depth.
 module wavycon_stress_tables
    use wavycon_cell_file, only: cell_file
-   use wavycon_constants, only: pi
-   use wavycon_contact_status, only: status_code, status_name
    use wavycon_error, only: error_type
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number, pi
    use wavycon_line_tables, only: start_surface_line, surface_line
    use wavycon_output_file, only: output_file
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
    use wavycon_scene_groups, only: stress_group
+   use wavycon_solution_record, only: status_code, status_name
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_tensor, only: principal_stresses, stress_pressure, von_mises
    use wavycon_surface, only: surface_type

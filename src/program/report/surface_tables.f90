@@ -8,9 +8,9 @@ module wavycon_surface_tables
    use wavycon_error, only: error_type
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number
    use wavycon_output_file, only: output_file
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
    use wavycon_roughness, only: line_spectrum, radial_spectrum, spectrum_bin
    use wavycon_table, only: table_type
    implicit none (type, external)

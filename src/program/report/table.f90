@@ -2,7 +2,6 @@
 !> its rows. src/README.md describes how to add a table.
 module wavycon_table
    use wavycon_contact_solver, only: solver_traits
-   use wavycon_contact_status, only: status_name
    use wavycon_error, only: error_type
    use wavycon_formula_kinds, only: paper_waves
    use wavycon_kinds, only: dp
@@ -14,7 +13,7 @@ module wavycon_table
    use wavycon_quantities, only: quantities
    use wavycon_results, only: results_type
    use wavycon_scene, only: scene_type
-   use wavycon_solution_record, only: solver_names
+   use wavycon_solution_record, only: solver_names, status_name
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -9,15 +9,14 @@
 !> nearest crest (light load), and the pressure and the opening of the penny-shaped crack about the nearest trough
 !> (heavy load).
 module wavycon_theory_tables
-   use wavycon_constants, only: pi
    use wavycon_dundurs, only: dundurs_coefficients, dundurs_pressure_over_pstar
    use wavycon_free_edges, only: ball_radii
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact, hertz_roller
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, not_a_number, pi
    use wavycon_line_tables, only: line_columns, put_surface_line, start_surface_line, surface_line
    use wavycon_output_file, only: output_file
    use wavycon_paper_wave, only: paper_angles, paper_wavelength
-   use wavycon_results, only: not_a_number, results_type
+   use wavycon_results, only: results_type
    use wavycon_table, only: table_type
    use wavycon_wave_2d_limits, only: hertz_point_contact_area_fraction, hertz_point_peak_pressure_over_pstar, &
       hertz_point_pressure_over_pstar, hertz_point_radius_over_wavelength, light_load_contact_area_longer, &

@@ -1,11 +1,10 @@
 !> Runs a scene, or a deck, from beginning to end: starts the solver, solves all loads, writes the tables. Ranks are the
 !> processes of the parallel program.
 module wavycon_run_scene
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_file_bytes, only: read_file
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_methods, only: start_solver, traits_of
    use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file

@@ -2,19 +2,16 @@
 !> loads, each rank solves its own loads and finds the stresses of these; afterwards all ranks have the numbers of all
 !> loads.
 module wavycon_solve_loads
-   use, intrinsic :: iso_c_binding, only: c_size_t
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_adhesive_contact, only: at_approach, at_load, closed, point_names, separated
    use wavycon_adhesive_curve, only: add_load, find_adhesive_solution, follow_curve
    use wavycon_checkpoint, only: checkpoint_file
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver
-   use wavycon_contact_status, only: is_good_status
    use wavycon_find_load, only: solve_for
    use wavycon_find_percolation, only: solve_for_percolation
    use wavycon_find_yield, only: solve_for_yield
-   use wavycon_gsl, only: gsl_sort_index
-   use wavycon_kinds, only: dp
+   use wavycon_gsl, only: ascending_order
+   use wavycon_kinds, only: dp, int64
    use wavycon_largest_stress, only: find_largest_stresses
    use wavycon_partial_slip, only: solve_partial_slip
    use wavycon_plain_text, only: integer_text, short_number
@@ -22,7 +19,7 @@ module wavycon_solve_loads
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_approach, by_mean_gap, by_percolation, by_pressure, by_yield
-   use wavycon_solution_record, only: record_words
+   use wavycon_solution_record, only: is_good_status, record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
    use wavycon_work_sharing, only: distributed_loads
@@ -47,13 +44,11 @@ contains
    subroutine order_loads(results)
       type(results_type), intent(inout) :: results   !! with the started solver; gets `order`
 
-      integer(c_size_t) :: sorted(size(results%scene%target))
-      real(dp) :: sort_key(size(sorted))   ! rises as the load falls
+      real(dp) :: sort_key(size(results%scene%target))   ! rises as the load falls
 
       sort_key = -results%scene%target
       if (results%scene%loads_by == by_mean_gap) sort_key = results%scene%target
-      call gsl_sort_index(sorted, sort_key, 1_c_size_t, size(sorted, kind=c_size_t))
-      results%order = int(sorted) + 1
+      results%order = ascending_order(sort_key)
       call results%sharing%deal_loads(results%order, length_of_block(results))
    end subroutine order_loads
 

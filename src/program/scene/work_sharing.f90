@@ -1,10 +1,9 @@
 !> How the ranks, the processes of the parallel program, share the work of a scene, and what they exchange between the
 !> steps of a run.
 module wavycon_work_sharing
-   use, intrinsic :: iso_fortran_env, only: int64
    use wavycon_contact_solver, only: solver_traits
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_plain_text, only: integer_text
    use wavycon_ranks, only: add_integers_over_ranks, any_rank, rank_count, ranks_on_this_machine, share_error, &
       this_rank, work_alone

@@ -2,10 +2,9 @@
 !> of one to three waves, and 'sum', of any waves. 'ball' is a ball, or a body with two radii of curvature, on a
 !> half-space.
 module wavycon_formula_kinds
-   use wavycon_constants, only: pi
    use wavycon_free_edges, only: surface_of_ball
    use wavycon_key_group, only: key_value
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_plain_text, only: integer_text
    use wavycon_scene_groups, only: surface_group
    use wavycon_surface, only: surface_type

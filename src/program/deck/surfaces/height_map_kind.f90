@@ -1,12 +1,11 @@
 !> kind = 'file': the surface is a height map, read from a file or given in memory.
 module wavycon_height_map_kind
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of
    use wavycon_grid_slab, only: grid_slab
    use wavycon_height_map, only: surface_of_map
    use wavycon_key_group, only: key_value
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_nan
    use wavycon_length_unit, only: convert_lengths
    use wavycon_map_file, only: read_height_map
    use wavycon_map_statistics, only: map_statistics
