@@ -4,7 +4,7 @@ module wavycon_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use wavycon_series_contact, only: paper_errors
    use wavycon_constants, only: pi
-   use wavycon_contact_status, only: converged, not_accurate, not_found, status_name, unresolved
+   use wavycon_contact_status, only: converged, iteration_limit, not_accurate, not_found, status_name, unresolved
    use wavycon_contact_tuning, only: border, least_concentration
    use wavycon_error, only: exit_fine, exit_not_converged
    use wavycon_head_lines, only: head_lines
@@ -75,8 +75,9 @@ contains
       end associate
    end subroutine show_scene
 
-   !> Notes what is suspicious in a scene, before its loads are solved: a doubtful height map; if the deck has units, a
-   !> surface that is too steep for the theory; a surface that is almost flat, most likely by a mistake of units.
+   !> Notes what is suspicious in a scene, before its loads are solved: decimal commas; a doubtful height map; if the
+   !> deck has units, a surface that is too steep for the theory; a surface that is almost flat, most likely by a
+   !> mistake of units.
    subroutine note_scene(scene, logger)
       type(scene_type), intent(in) :: scene
       type(run_log), intent(inout) :: logger
@@ -89,6 +90,8 @@ contains
       character(:), allocatable :: borders, cause, verdict
       logical :: is_flat
 
+      if (scene%decimal_commas /= '') call logger%note('commas separate some numbers of '// &
+         scene%decimal_commas(3:)//", blanks alone others: '0,2 0.5' is 0, 2 and 0.5. Write decimals with a point")
       if (allocated(scene%map)) call note_map(scene, scene%map, logger)
       is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
       if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
@@ -404,6 +407,8 @@ contains
             "loads. solver = 'auto' gives digits, with error estimates")
          call note_some(count(is_series .and. loads%value(mean_gap) < 0.0_dp), &
                         'the mean gap is below 0, where no gap can be: this is an error of the series')
+         call note_some(count(loads%solver == by_beale .and. loads%status == iteration_limit), &
+            "Beale's exchanges did not come to an end. solver = 'series' finds the minimum of the same series")
          if (loads_by == by_yield) then
             call note_some(count(loads%status == not_found), 'no mean pressure was found that brings the '// &
                            'stresses to the given part of the yield stress')
