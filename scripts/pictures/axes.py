@@ -101,10 +101,16 @@ class Axis:
     options: str = "offset 0, 0"
 
     def commands(self, name):
-        form = ("10^{%T}" if self.wide else "%h") if self.numbers else ""
+        tics = repr(self.step) if self.step else "autofreq"
+        is_short = self.wide and math.floor(math.log10(self.high)) - math.ceil(math.log10(self.low)) < 1
+        if is_short:
+            # A single power of ten, or none, is no scale.
+            powers = range(math.floor(math.log10(self.low)), math.ceil(math.log10(self.high)))
+            tics = "(" + ", ".join(f"{one}e{power}" for power in powers for one in (1, 2, 5)) + ")"
+        form = ("10^{%T}" if self.wide and not is_short else "%h") if self.numbers else ""
         minor = "default" if not (self.wide and self.step) else 1 if self.step > 10 else 10
         return [f"set {name}range [{self.low!r}:{self.high!r}]", f"{'' if self.wide else 'un'}set logscale {name}",
-                f"set {name}tics {repr(self.step) if self.step else 'autofreq'} font '{self.font}'",
+                f"set {name}tics {tics} font '{self.font}'",
                 f"set m{name}tics {minor}", f"set format {name} '{form}'",
                 f"set {name}label {lines_of(self.label)} {self.options}"]
 
@@ -141,6 +147,12 @@ def axis(numbers, may_be_wide=True, up_to=None):
     if up_to and 0.7*up_to < high < 1.15*up_to:
         high = up_to
     return low, high, step_of(high - low), False
+
+
+def a_decade(numbers):
+    """The ends of a logarithmic axis of numbers > 0, which is a decade long at least."""
+    margin = max(1.6, math.sqrt(10*min(numbers)/max(numbers)))
+    return min(numbers)/margin, margin*max(numbers)
 
 
 def decades(numbers, label, widen=1.0):

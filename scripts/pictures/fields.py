@@ -3,7 +3,7 @@ import copy
 import dataclasses
 import math
 
-from axes import Axis, decades, label_of_unit, step_of
+from axes import Axis, a_decade, decades, label_of_unit, step_of
 from picture import GAP, MOST_CURVES, MOST_EDGES, MOST_PANELS, P, P_BAR, P_STAR, RIGHT, X, Y, CannotBeDrawn, \
     Quantity, entry
 
@@ -21,6 +21,7 @@ ALONG_LINES = {1: (["westergaard_pressure_over_pstar"], ["westergaard_gap_over_a
                2: (["hertz_pressure_over_pstar", "crack_pressure_over_pstar"], ["crack_gap_over_amplitude"])}
 # Densities this far below the largest are rounding of the heights, and not shown.
 ROUNDING = 1e-12
+FEW = 6   # so few points of spectra are larger, and those along x and y of two sizes
 # What maps are of: column, unit, and its symbol.
 FIELDS = ("pressure", "p*", P), ("gap", "Delta", GAP)
 MISSING = math.nan
@@ -46,8 +47,9 @@ def lines(picture, along=None):
         for load in loads if theory else ():
             # In 2-D Hertz's for light loads and the crack's for heavy ones, where they are positive.
             block, look = theory.blocks[load.place], f"lines {load.colour} lw {'1.2 dt (4, 3)' if solved else 1.5}"
+            title = None if solved else load.name
             drawn += [(0, block.columns, [size*number if dimension == 1 or number > 0 else MISSING
-                                          for number in block.columns[name]], look, None) for name in forms
+                                          for number in block.columns[name]], look, title) for name in forms
                       if dimension == 1 or name.startswith("hertz") == (block.pbar_over_pstar < 0.4)]
         numbers = [[number for at, _, some, *_ in drawn if at == run for number in some if math.isfinite(number)]
                    for run in range(len(tables))]
@@ -331,18 +333,14 @@ def spectra(picture):
     numbers = [q for of_kind in found for some in of_kind for q, _ in some if q > 0]
     if not numbers:
         raise CannotBeDrawn("there are no waves")
-    low, high = min(numbers)/1.5, max(numbers)*1.5
-    if math.floor(math.log10(low)) == math.floor(math.log10(high)):
-        # An axis needs a power of ten to have a number.
-        low, high = 10.0**math.floor(math.log10(low)), 10.0**math.ceil(math.log10(high))
     unit = label_of_unit(picture.table.label("cell_x"))
-    x = Axis(low, high, wide=True, label="wave number {/:Italic q}" + (unit and f" [rad/{unit}]"))
+    x = Axis(*a_decade(numbers), wide=True, label="wave number {/:Italic q}" + (unit and f" [rad/{unit}]"))
     picture.grid(240, 216, len(kinds), gaps=(90, 0), room=(80, 24, 72, 42))
     for n, (of_kind, (_, power, index, _)) in enumerate(zip(found, kinds)):
         sizes = [c for some in of_kind for _, c in some if c > 0] or [1.0]
         y = decades(sizes, f"spectrum {{/:Italic C}}{index}" + (unit and f" [{unit}^{power}]"), 1.001)
-        several = len(of_kind) == 2
-        picture.panel(n, x, y, [picture.curve(f"linespoints ls {31 + k} ps 0.5*mark", *zip(*some),
+        several, few = len(of_kind) == 2, len(sizes) <= FEW
+        picture.panel(n, x, y, [picture.curve(f"linespoints ls {31 + k} ps {1.6 - 0.7*k if few else 0.5}*mark", *zip(*some),
                                               title=f"along {(X, Y)[k]}" if several else None)
                                 for k, some in enumerate(of_kind)], key="top right samplen 2" if several else "")
 

@@ -5,7 +5,7 @@ far as COMPANIONS lists them, and raises CannotBeDrawn if there is nothing to be
 """
 from fields import edges, heights, lines, maps, series, spectra
 from interfaces import adhesion, interface, partial_slip, slip_loops, slip_maps
-from loading import bounds, details, histogram, spot_sizes, spots, summary, theory
+from loading import bounds, column, details, histogram, spot_sizes, spots, summary, theory
 from picture import CannotBeDrawn
 from stresses import SYMBOLS, below_crest, largest, planes, section
 
@@ -17,14 +17,20 @@ DRAWN = {"summary": summary, "lines": lines, "map": maps, "theory_lines": lines,
          "stress_largest": largest, "stress_line": below_crest, "stress_section": section, "stress_planes": planes,
          "interface": interface, "partial_slip": partial_slip, "slip_loop": slip_loops, "slip_map": slip_maps,
          "adhesion": adhesion, "bounds": bounds}
-# What --variable may name.
+# What --variable may name; in tables with a row for each load, any column.
 VARIABLES = {"map": ("regions",), "stress_section": tuple(SYMBOLS), "stress_planes": tuple(SYMBOLS)}
+ROWS_OF_LOADS = ("summary", "details", "theory", "spots", "stress_largest", "interface", "bounds")
 
 
-def check_variable(kind, name):
-    """Raises CannotBeDrawn where a kind of table has no such variable."""
+def function_for(kind, variable):
+    """The function that draws a kind of table, of which --variable names one. Raises CannotBeDrawn where there is no
+    such variable."""
+    if variable and kind in ROWS_OF_LOADS:
+        return column
     there_are = VARIABLES.get(kind, ())
-    if name not in there_are:
-        raise CannotBeDrawn(f"--variable {name}: " + (f"there is no {'stress' if len(there_are) > 1 else 'variable'} "
-                            f"'{name}'; there are {', '.join(there_are)}" if there_are else
-                            "this kind of table has no variables to choose from; maps, sections and planes have"))
+    if variable and variable not in there_are:
+        raise CannotBeDrawn(f"--variable {variable}: " + (
+            f"there is no {'stress' if len(there_are) > 1 else 'variable'} '{variable}'; there are "
+            f"{', '.join(there_are)}" if there_are else "this kind of table has no variables to choose from; maps, "
+            "sections, planes and tables with a row for each load have"))
+    return DRAWN[kind]

@@ -1,8 +1,9 @@
 """The pictures against the load: summaries, closed forms, details, spots and their sizes, histograms."""
+import dataclasses
 import math
 import os
 
-from axes import Axis, axis, decades, marked_up
+from axes import Axis, Scale, a_decade, axis, decades, marked_up
 from picture import AREA, DELTA, GAP, MEAN_GAP, MOST_CURVES, OVER, P, P_BAR, P_MAX, P_STAR, RIGHT, X, Y, \
     CannotBeDrawn, Quantity, entry, mean_pressure_axis
 from table import Table
@@ -10,8 +11,10 @@ from table import Table
 REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "outputs", "reference", "wave_2d.dat")
 # The status of a load that is not accurate. Below are those of solutions, above those of loads that are not solved.
 NOT_ACCURATE = 10
+NO_UNIT = ("", "-", "#")   # units of columns without one
 LINEAR_LAW = "linear_area_fraction"
 NONE = 0.5   # less than one spot, on a logarithmic axis
+FEW = 10     # fewer spots are counted on a linear axis
 MANY = 30    # so many points are joined without marks
 # Above the points whose error is unknown or as large as the value.
 OPEN = "points lc rgb '#ffffff' pt 7 ps 0.35*mark"
@@ -159,8 +162,6 @@ def points_of(table, load, found, run, column):
     or as large as the value. The paper's series knows no errors: it has no such rows."""
     columns = table.columns
     errors = columns.get(f"{column}_error")
-    if column == "mean_gap":
-        errors = [table.numbers.get("Delta", 0.0)*error for error in columns["mean_gap_over_amplitude_error"]]
     estimated = errors is not None and table.method not in ("beale", "series")
     errors = found.of(errors or [math.nan]*len(columns[column]), run)
     return [(at, value, error, code, estimated and code < NOT_ACCURATE and not (error == 0 or error < value))
@@ -213,17 +214,53 @@ def details(picture):
         for k, one in enumerate(DETAILS, 31)])
 
 
+def pressures_of(table):
+    """The mean pressure of each row of a table with rows of loads."""
+    columns = table.columns
+    if "mean_pressure" in columns:
+        return columns["mean_pressure"]
+    if "p*" in table.numbers:
+        return [table.numbers["p*"]*number for number in columns["pbar_over_pstar"]]
+    if not table.summary:
+        raise CannotBeDrawn("its loads are in the summary of the run, which is not beside it")
+    known = table.summary.columns
+    of_load = dict(zip(known["load"], known["mean_pressure"]))
+    return [of_load.get(load, math.nan) for load in columns["load"]]
+
+
+def column(picture):
+    """A column of a table with a row for each load against the mean pressure, with error bars."""
+    name, body = picture.choice.variable, picture.choice.body
+    tables = [table.of_rows("body", body or 1) if "body" in table.names else table for table in picture.tables]
+    shown = [one for one in tables[0].names if any(map(math.isfinite, tables[0].columns[one]))]
+    if name not in shown:
+        words = "has no number" if name in tables[0].names else "is not there"
+        raise CannotBeDrawn(f"--variable {name}: this column {words}; those with numbers are {', '.join(shown)}")
+    units = {table.column_units.get(name, "") for table in tables}
+    if len(units) > 1:
+        raise CannotBeDrawn(f"--variable {name}: its units differ, {' and '.join(sorted(units))}")
+    unit = units.pop()
+    scale = Scale(max(map(abs, (number for table in tables for number in table.column(name)))),
+                  "" if unit in NO_UNIT else unit)
+    pressures = [pressures_of(table) for table in tables]
+    load, x = mean_pressure_axis(tables, [list(filter(math.isfinite, some)) for some in pressures])
+    curves, ends = [], []
+    for run, table in enumerate(tables):
+        values = [scale.factor*number for number in table.columns[name]]
+        errors = [scale.factor*number for number in table.columns.get(name + "_error", [math.nan]*len(values))]
+        at = load.of(pressures[run], run)
+        bars = [(one, value - error, 0.0, 2*error) for one, value, error in zip(at, values, errors)
+                if 0 < error < abs(value)]
+        ends += values + [end for _, low, _, high in bars for end in (low, low + high)]
+        curves.append(picture.curve(f"vectors ls {31 + run} dt solid nohead", *zip(*bars)))
+        curves.append(picture.curve(f"linespoints ls {31 + run}", at, values))
+    y = Axis.of(ends, scale.label(marked_up(name)), may_be_wide=x.wide)
+    picture.single(x, y, curves + picture.runs("linespoints"), key="" if picture.alone else ABOVE, left=100)
+
+
 def spots(picture):
     """Numbers of spots and pools, their areas, and percolation, against the mean pressure."""
-    table, columns = picture.table, picture.table.columns
-    if "p*" in table.numbers:
-        loads = [table.numbers["p*"]*number for number in columns["pbar_over_pstar"]]
-    elif table.summary:
-        known = table.summary.columns
-        of_load = dict(zip(known["load"], known["mean_pressure"]))
-        loads = [of_load.get(load, math.nan) for load in columns["load"]]
-    else:
-        raise CannotBeDrawn("its loads are in the summary of the run, which is not beside it")
+    table, columns, loads = picture.table, picture.table.columns, pressures_of(picture.table)
     load, x = mean_pressure_axis([table], [list(filter(math.isfinite, loads))])
     picture.grid(215, 148, 3, gaps=([85, 115], 0), room=(75, 20, 67, 95))
     number = axis(table.column("spots") + table.column("closed_pools"))
@@ -249,7 +286,8 @@ def spot_sizes(picture):
     loads, kinds = picture.loads(MOST_CURVES), ([], [])
     areas = [area for load in loads for area in load.columns["area_fraction"] if area > 0]
     ranks = [rank for load in loads for rank in load.columns["rank"]]
-    least = min(areas, default=0.1)/1.6
+    least, most = a_decade(areas or [0.1, 1.0])
+    few = max(ranks, default=1) < FEW
     picture.grid(355, 251, room=(80, 165, 67, 42))
     for load in loads:
         columns = load.columns
@@ -259,11 +297,13 @@ def spot_sizes(picture):
         for curves, part, width, title in (
                 (kinds[0], sizes[:first], 1.5, load.name), (kinds[1], sizes[first:], 0.8, None)):
             # From the largest downwards, to the edge of the picture; none lies below it.
-            steps = [(area, rank) for rank, area in part if area > 0] or [(least, NONE)]
-            steps = [(steps[0][0], NONE), *steps, (least, steps[-1][1])]
+            steps = [(area, rank) for rank, area in part if area > 0] or [(least, 0.0 if few else NONE)]
+            steps = [(steps[0][0], 0.0 if few else NONE), *steps, (least, steps[-1][1])]
             curves.append(picture.curve(f"steps {load.colour} lw {width}", *zip(*steps), title=title))
-    x = Axis(least, max(areas, default=1.0)*1.6, wide=True, label=f"area {AREA}")
+    x = Axis(least, most, wide=True, label=f"area {AREA}")
     y = Axis(0.8, 1.6*max(ranks, default=1.0), wide=True, label="number of at least this area")
+    if few:
+        y = dataclasses.replace(y, low=0.0, high=max(ranks, default=1.0) + 0.5, step=1.0, wide=False)
     # Spots are blue; pools, orange and thin, have a plot of their own over this one, for its colours.
     looks = [entry("lines lc rgb blue lw 1.5", "spots"), entry("lines lc rgb red lw 0.8", "pools")]
     picture.panel(0, x, y, kinds[0] + looks, key=RIGHT)

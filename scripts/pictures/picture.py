@@ -204,9 +204,9 @@ class Picture:
                          f"set label 1 {quoted(words)} at screen 0.5, screen {1 - 15/self.height} center {font}",
                          *self.commands]
 
-    def single(self, x, y, curves, *commands, key="", right=14):
-        """A picture of one panel. right: the room beside it."""
-        self.grid(390, 230, room=(80, right, 66, 42))
+    def single(self, x, y, curves, *commands, key="", left=80, right=14):
+        """A picture of one panel. left, right: the room beside it."""
+        self.grid(390, 230, room=(left, right, 66, 42))
         self.panel(0, x, y, curves, *commands, key=key)
 
     def curve(self, look, *columns, title=None, joined=False):
@@ -241,7 +241,10 @@ class Picture:
         self.commands += y.bare("y" in self.shared and n % self.across > 0).commands("y")
         self.commands += ["set key default", f"set key {KEY} {key}"] if key else ["unset key"]
         self.commands += [f"set title {quoted(title)} offset 0, -0.6 {SMALL}" if title else "unset title", *commands]
-        self.commands += ["plot " + ", ".join(list(filter(None, curves)) or ["NaN"]), "unset label 1"]
+        drawn = list(filter(None, curves))
+        if all(one.startswith("keyentry") for one in drawn):
+            drawn = ["NaN", *drawn]   # entries of a key alone are no plot for gnuplot
+        self.commands += ["plot " + ", ".join(drawn), "unset label 1"]
 
     def colours(self, first, last, label):
         """The commands of a bar of colours beside panels of a column, from the first to the last."""

@@ -80,6 +80,7 @@ class Table:
         self.names, self.blocks = [], []
         self.numbers, self.units, self.method, self.title, self.mirrored = {}, {}, "", "", False
         self.adhesive = False
+        self.column_units = {}   # by the names of columns
         self.summary = None   # that of the same run, if there is one
         self.points = None    # of a map in numpy's format
         with open(path, "rb") as file:
@@ -109,12 +110,14 @@ class Table:
                 block.pbar_over_pstar = 0.0
 
     def _read_text(self):
-        load, words_of_load = None, ""
+        load, words_of_load, units = None, "", []
         try:
             with open(self.path, encoding="utf-8") as file:
                 for line in file:
                     if line.startswith("#"):
                         self._read_head(line)
+                        if re.fullmatch(r"#(\s+\[\S*\])+\s*", line):
+                            units = [word[1:-1] for word in line[1:].split()]
                         begun = re.match(r"# load (\d+): (?:pbar/p\*|mean pressure) = ([^ ,]+)", line)
                         if begun:
                             load, words_of_load = int(begun[1]), begun[2]
@@ -128,6 +131,7 @@ class Table:
                         if not all(re.fullmatch(r"[A-Za-z]\w*", word) for word in words):
                             raise NotATable("this is not a table of wavycon: its first row holds no names of columns")
                         self.names = words
+                        self.column_units = dict(zip(words, units))
                     if words == self.names:
                         self.blocks.append(Block(words))
                         if load is not None:

@@ -80,14 +80,15 @@ SHOWN = {
                          "pressure)|error unknown|the rms slope|converged|not accurate"),
     "auto.lines.dat": ("auto|pressure p/p*", ""),
     "auto.map.dat": ("auto|gap g/Δ", ""),
-    "auto.theory_lines.dat": ("auto|distance along the diagonal", ""),
+    "auto.theory_lines.dat": ("auto|distance along the diagonal|p̄/p* = 0.1 p̄/p* = 0.5", ""),
     "auto.contour.dat": ("auto|y|mean pressure p̄/p*", ""),
     "auto.theory.dat": ("auto|mean gap ḡ/Δ", ""),
     "auto.details.dat": ("auto|perimeter", ""),
     "bounded.bounds.dat": ("distance between the bounds|complementary energy, over itself|mean pressure p̄/p*", ""),
     "paper.coefficients.dat": ("paper|harmonic", ""),
     "auto.spots.dat": ("auto|closed pools|percolates along|mean pressure p̄/p*", ""),
-    "auto.spot_sizes.dat": ("auto|number of at least this area", ""),
+    # A few spots have whole numbers, a short axis more numbers than powers of ten.
+    "auto.spot_sizes.dat": ("auto|number of at least this area| 0 1 2 ", ""),
     "line.histogram.dat": ("line|density of pressure|gap g/Δ", ""),
     "si.summary.dat": ("[MPa]|mean gap ḡ [µm]", ""),
     "si.map.dat": ("x [µm]", ""),
@@ -97,7 +98,7 @@ SHOWN = {
     "oblong.contour.dat": (" 60 ", ""),
     "oblong.lines.dat": (" 10 ", ""),
     "rough.spectrum.dat": ("wave number q [rad/µm]|spectrum C [µm4]|spectrum C1 [µm3]|along x|along y", ""),
-    "profile.spectrum.dat": ("wave number q", "along|["),
+    "profile.spectrum.dat": ("wave number q| 2 5 10 ", "along|["),
     "rough.height.npy": ("height [µm]| 30 ", ""),
     "profile.height.npy": ("height/Δ", ""),
     # Unknown errors of a grid are NaN, but so are those of the paper's series, which is not marked.
@@ -348,7 +349,7 @@ class Plot(ProgramTest):
     def test_stresses(self):
         for words, complaint in ((("--variable", "stress_ab", "stress.stress_section.dat"), "no stress 'stress_ab'"),
                                  (("--variable", "foo", "auto.map.dat"), "no variable 'foo'; there are regions"),
-                                 (("--variable", "regions", "auto.summary.dat"), "no variables to choose from"),
+                                 (("--variable", "regions", "auto.lines.dat"), "no variables to choose from"),
                                  (("--depths", "4", "stress.stress_planes.dat"), "none of the depths 4"),
                                  (("--body", "2", "stress.stress_line.dat"), "no stresses of body 2"),
                                  (("--body", "2", "stress.stress_largest.dat"), "no stresses of body 2")):
@@ -495,6 +496,37 @@ class Plot(ProgramTest):
             name = "stress.stress_section" + ".".join(("", *variable[1:])) + ".svg"
             self.assertEqual(f"picture: {name}\n",
                              self.plot("--format", "svg", *variable, "stress.stress_section.dat")[0])
+
+    def test_columns_of_tables_of_loads(self):
+        """Any column of numbers is drawn against the mean pressure; of largest stresses those of one body."""
+        shown = self.drawn("--variable", "elastic_energy", "si.summary.dat", name="si.summary.elastic_energy.svg")
+        for words in "mean pressure p̄ [MPa]", "elastic_energy [10−6 N*m]":
+            self.assertIn(words, shown)
+        for table, column in (("auto.details", "perimeter"), ("auto.theory", "hertz_peak_pressure_over_pstar"),
+                              ("auto.spots", "largest_spot_area_fraction"), ("slip.interface", "contact_stiffness"),
+                              ("stress.stress_largest", "von_mises_depth"), ("bounded.bounds", "points_x"),
+                              ("free.spots", "perimeter")):
+            shown = self.drawn("--variable", column, f"{table}.dat", name=f"{table}.{column}.svg")
+            self.assertIn(column, shown)
+            self.assertIn("mean pressure p̄", shown)
+        # The error of a column makes bars.
+        self.drawn("--variable", "contact_area", "free.summary.dat")
+        text = (self.folder/"free.summary.contact_area.svg").read_text(encoding="utf-8")
+        paths = " ".join(re.findall(r"<path stroke='rgb\(  0, 101, 163\)'\s+d='([^']*)'", text))
+        self.assertEqual(2, len(re.findall(r"M([\d.]+),[\d.]+ L\1,", paths)))
+        of_body = []
+        for body in "12":
+            self.plot("--format", "svg", "--body", body, "--variable", "largest_shear", "bodies.stress_largest.dat")
+            of_body.append((self.folder/"bodies.stress_largest.largest_shear.svg").read_text(encoding="utf-8"))
+        self.assertNotEqual(*of_body)
+        words = "--compare", "--variable", "residual", "auto.summary.dat", "paper.summary.dat"
+        self.assertRegex(self.drawn(*words, name="auto.summary.residual.compare.svg"), "auto.*paper|paper.*auto")
+        for column, complaint in (("status", "has no number"), ("foo", "is not there; those with numbers are load, pbar"),
+                                  ("percolation_over_pstar_error", "has no number")):
+            self.assertIn(f"--variable {column}: this column {complaint}",
+                          self.plot("--variable", column, "auto.summary.dat", status=3)[1])
+        self.assertIn("its units differ, N*m and pressure*length^2*length", self.plot(
+            "--compare", "--variable", "elastic_energy", "si.summary.dat", "auto.summary.dat", status=3)[1])
 
     def test_words_of_the_command_line(self):
         for words in ((), ("--format", "gif", "a"), ("--format",), ("--what", "a")):

@@ -143,7 +143,7 @@ class Names(ValuesTest):
         self.refuse("no key 'length_unit': it is an option of solve", wc.wave_2d, length_unit="m")
         self.refuse("wave_2d: there is no key 'wave_length'; did you mean 'wavelength'", wc.wave_2d, wave_length=1)
         results = self.solve_rough()
-        for name, meant in {"mean_gap_error": "mean_gap_over_amplitude_error", "aera": "contact_area",
+        for name, meant in {"peak_error": "peak_pressure_error", "aera": "contact_area",
                             "peak": "peak_pressure", "meangap": "mean_gap"}.items():
             for thing in results, results[0]:
                 self.refuse(rf"'{name}'; did you mean '{meant}'\?", getattr, thing, name, error=AttributeError)

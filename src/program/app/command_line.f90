@@ -3,8 +3,8 @@ module wavycon_command_line
    use wavycon_deck_text, only: at_end, is_comma, next_token, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_group, only: key_group, key_list, key_value
-   use wavycon_key_reference, only: add_wrapped, group_names, key_reference
-   use wavycon_key_table, only: integer_value, key_type, logical_value, text_value
+   use wavycon_key_reference, only: add_wrapped, group_names, key_names, key_reference
+   use wavycon_key_table, only: integer_value, key_type, logical_value, name_length, text_value
    use wavycon_key_values, only: must_be, read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: did_you_mean
@@ -77,7 +77,8 @@ contains
       call keys%add(options%quiet, key_type(logical_value, '--quiet', '.false.', '', 'write nothing but problems'))
       call keys%add(options%version, key_type(logical_value, '--version', '.false.', '', 'show the version and stop'))
       call keys%add(options%help, key_type(logical_value, '--help', '.false.', '', &
-         'show this and stop; --help GROUP, such as --help surface: only the keys of this group'))
+         'show this and stop; --help surface: only the keys of this group; --help load.percolates or '// &
+         '--help percolates: only this key'))
       call keys%close()
    end subroutine list_options
 
@@ -225,34 +226,46 @@ contains
       end do
    end subroutine make_runs
 
-   !> Makes the text of --help: usage and options, then the reference of all keys; or the keys of groups. Errors:
-   !> exit_bad_input for a word beside --help that is neither a group nor, with a point or a slash, a deck.
+   !> Makes the text of --help: usage and options, then the reference of all keys; or that of groups and keys. Errors:
+   !> exit_bad_input for a word beside --help that names neither, and is no deck.
    subroutine make_help(command_line, is_parallel, text, error)
-      type(command_line_type), intent(in) :: command_line   !! with the names of groups in place of decks
+      type(command_line_type), intent(in) :: command_line   !! with the names of groups and keys in place of decks
       logical, intent(in) :: is_parallel                    !! whether this is the parallel program
       character(:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: word
-      integer :: r
+      character(:), allocatable :: found, group, key, word
+      character(name_length), allocatable :: groups(:), keys(:)
+      integer :: point, r
 
       text = ''
-      if (all([(scan(command_line%runs(r)%path, './') > 0, r=1, size(command_line%runs))])) then
-         text = help_text(is_parallel)
-         return
-      end if
+      groups = group_names()
       do r = 1, size(command_line%runs)
-         if (scan(command_line%runs(r)%path, './') > 0) cycle
          word = lower_case(command_line%runs(r)%path)
-         associate (groups => group_names())
-            if (all(groups /= word .and. '&'//groups /= word)) then
-               call fatal_error(error, exit_bad_input, "--help: there is no group '"//escaped(word)//"'"// &
-                                did_you_mean(word, groups, '', '', '; groups are '//listed(groups, ' and ')))
-               return
-            end if
-            text = text//key_reference(word(verify(word, '&'):))
-         end associate
+         if (index(word, '&') == 1) word = word(2:)
+         point = index(word, '.')
+         group = word(:max(point - 1, 0))
+         key = word(point + 1:)
+         found = ''
+         if (any(groups == word)) then
+            found = key_reference(word, '')
+         else if (key /= '') then
+            found = key_reference(group, key)
+         end if
+         text = text//found
+         if (found /= '') cycle
+         if (point > 0 .and. any(groups == group) .and. key /= 'nml') then
+            keys = key_names(group)
+            call fatal_error(error, exit_bad_input, "--help: there is no key '"//escaped(key)//"' in &"//group// &
+                             did_you_mean(key, keys, '', '', '; its keys are '//listed(keys, ' and ')))
+         else if (scan(word, './') == 0) then
+            keys = key_names('')
+            call fatal_error(error, exit_bad_input, "--help: there is no group or key '"//escaped(word)//"'"// &
+                             did_you_mean(word, [groups, keys], '', '', '; groups are '//listed(groups, ' and ')))
+         end if
+         if (allocated(error)) return
       end do
+      if (text == '') text = help_text(is_parallel)
    end subroutine make_help
 
    !> Usage and options, then the reference of all keys.
@@ -296,7 +309,7 @@ contains
       call add_wrapped(text, 0, 'The DECK - is standard input.'//newline)
       call add_wrapped(text, 0, 'Exit status: 0 fine, 1 bad input, 2 a load did not converge, 3 file trouble; of '// &
                        'several decks the worst.')
-      text = text//newline//key_reference()
+      text = text//newline//key_reference('', '')
    end function help_text
 
    !> A word of the command line, of any length.

@@ -4,7 +4,8 @@ module wavycon_deck_groups
       is_group, is_slash, is_word, next_token, quotes, starts_entry, token_type
    use wavycon_interface_group, only: list_interface_keys
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: allowed_values, choice_value, key_index, key_type, name_length, text_value, words_of
+   use wavycon_key_table, only: allowed_values, choice_value, key_index, key_type, name_length, real_value, &
+      text_value, words_of
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: list_load_keys
@@ -200,6 +201,7 @@ contains
          integer :: k, most_values, position, used
          logical :: is_bad     ! whether a value cannot be used
          logical :: is_read    ! whether words are read as values; if not they are skipped
+         logical :: by_blanks, by_decimal_commas   ! whether blanks alone, and such commas, separate values of a line
          real(dp), allocatable :: numbers(:)
          type(token_type) :: before, equals   ! the token before the next one; the '=' of the entry
          type(word_value) :: value
@@ -213,6 +215,8 @@ contains
          used = 0
          is_read = k > 0
          is_bad = .false.
+         by_blanks = .false.
+         by_decimal_commas = .false.
          equals = next_token(text%content(:last), token%last + 1)
          token = equals
          do
@@ -222,6 +226,8 @@ contains
             case (is_comma)
                if (any(before%kind == [is_equals, is_comma])) &
                   call problems%add(token%first, 'no value before this comma')
+               by_decimal_commas = by_decimal_commas .or. may_be_decimal(text%content(before%first:before%last), &
+                                                                         text%content(before%last + 1:last))
             case (is_equals)
                call problems%add(token%first, "'=' in place of a value")
             case (is_broken_word)
@@ -240,6 +246,8 @@ contains
                   call problems%add(token%first, 'expected a blank or a comma behind the quote')
                if (starts_entry(text%content(:last), token)) exit
                if (.not. is_read) cycle
+               by_blanks = by_blanks .or. (before%kind == is_word .and. &
+                                           index(text%content(before%last:token%first), newline) == 0)
                call read_word(text%content(token%first:token%last), lists(g)%rows, k, numbers, used, value, trouble)
                if (.not. allocated(trouble)) cycle
                call problems%add(token%first, trouble)
@@ -252,6 +260,8 @@ contains
          if (k == 0) return
          if (is_bad) used = 0
          call lists(g)%take(k, position, numbers(:used), value%text)
+         lists(g)%keys(k)%value%has_decimal_commas = lists(g)%rows(k)%kind == real_value .and. by_blanks .and. &
+            by_decimal_commas
          if (before%last == equals%last) call problems%add(position, &
             name//' has no value: it must be '//allowed_values(lists(g)%rows(k)))
       end subroutine take_entry
@@ -297,6 +307,17 @@ contains
       end subroutine find_key
 
    end subroutine take_groups
+
+   !> Whether a comma may be meant as a decimal point: it stands between a whole number and a digit, without blanks.
+   pure logical function may_be_decimal(word, rest)
+      character(*), intent(in) :: word   !! the word before the comma
+      character(*), intent(in) :: rest   !! what follows the word
+
+      character(*), parameter :: digits = '0123456789'
+
+      may_be_decimal = verify(word(scan(word, '+-') + 1:), digits) == 0 .and. index(rest, ',') == 1 .and. &
+                       scan(rest(2:min(2, len(rest))), digits) == 1
+   end function may_be_decimal
 
    !> Reads a word of a deck as the next value of a key or, if it is 'r*value', as the next r values.
    subroutine read_word(word, rows, k, numbers, used, value, trouble)

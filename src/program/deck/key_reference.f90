@@ -11,7 +11,7 @@ module wavycon_key_reference
    implicit none (type, external)
    private
 
-   public :: add_wrapped, group_names, key_json, key_reference
+   public :: add_wrapped, group_names, key_json, key_names, key_reference
 
    integer, parameter, public :: widest_line = 100
 
@@ -31,9 +31,27 @@ contains
       names = lists%name
    end function group_names
 
-   !> The reference as text: lines of at most `widest_line` characters, each with a newline.
-   function key_reference(group) result(reference)
-      character(*), intent(in), optional :: group   !! name of the only group; absent: all groups
+   !> The names of the keys of a group, or of all groups.
+   function key_names(group) result(names)
+      character(*), intent(in) :: group   !! name of the group; '': all groups
+      character(name_length), allocatable :: names(:)
+
+      type(key_list) :: lists(number_of_groups)
+      type(scene_type), target :: no_scene   ! records without values, to which the lists point
+      integer :: i
+
+      call list_keys(no_scene, lists)
+      allocate (names(0))
+      do i = 1, size(lists)
+         if (group == '' .or. lists(i)%name == group) names = [names, lists(i)%rows%name]
+      end do
+   end function key_names
+
+   !> The reference as text: lines of at most `widest_line` characters, each with a newline; empty if there is no such
+   !> group or key.
+   function key_reference(group, key) result(reference)
+      character(*), intent(in) :: group   !! name of the only group; '': all groups
+      character(*), intent(in) :: key     !! name of the only key; '': all keys of the group
       character(:), allocatable :: reference
 
       type(key_list) :: lists(number_of_groups)
@@ -43,27 +61,27 @@ contains
 
       reference = ''
       call list_keys(no_scene, lists)
-      if (.not. present(group)) call add_wrapped(reference, 0, &
+      if (group == '' .and. key == '') call add_wrapped(reference, 0, &
          "A deck consists of Fortran namelist groups, '&group key = value ... /', "// &
          "in any order; '!' begins a comment. A group or key may be left out unless marked as required. "// &
          'Lengths may be in any one unit and pressures in any one unit.')
       do i = 1, size(lists)
-         if (present(group)) then
-            if (lists(i)%name /= group) cycle
-         end if
+         if (group /= '' .and. lists(i)%name /= group) cycle
+         if (key /= '' .and. all(lists(i)%rows%name /= key)) cycle
          reference = reference//newline
          line = '&'//trim(lists(i)%name)//'   '//trim(lists(i)%meaning)
          if (lists(i)%required) line = line//' (required)'
          call add_wrapped(reference, 0, line)
          do k = 1, size(lists(i)%rows)
-            associate (key => lists(i)%rows(k))
-               line = allowed_values(key)
-               if (key%unit /= '') line = line//' ['//trim(key%unit)//']'
-               if (key%default /= '') line = line//'; default '//trim(key%default)
-               if (key%needs /= '') line = line//'; needs '//trim(key%needs)
-               if (key%required .and. key%way == 0) line = line//'; required'
-               call add_wrapped(reference, name_length + 3, line, head='   '//key%name)
-               call add_wrapped(reference, name_length + 3, full_meaning(key))
+            associate (row => lists(i)%rows(k))
+               if (key /= '' .and. row%name /= key) cycle
+               line = allowed_values(row)
+               if (row%unit /= '') line = line//' ['//trim(row%unit)//']'
+               if (row%default /= '') line = line//'; default '//trim(row%default)
+               if (row%needs /= '') line = line//'; needs '//trim(row%needs)
+               if (row%required .and. row%way == 0) line = line//'; required'
+               call add_wrapped(reference, name_length + 3, line, head='   '//row%name)
+               call add_wrapped(reference, name_length + 3, full_meaning(row))
             end associate
          end do
       end do

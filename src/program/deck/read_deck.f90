@@ -194,7 +194,7 @@ contains
       logical, intent(in) :: is_run            !! whether the scene may be run: a checkpoint needs its fingerprint
 
       character(:), allocatable :: file, file2
-      integer :: i
+      integer :: i, k
 
       scene%roughness = scene%surface%roughness()
       scene%gives_modulus = scene%material%e_star%is_given .or. scene%material%e1%is_given
@@ -227,7 +227,12 @@ contains
          if (file2 /= '') call surface%file2%set(text=file2)
       end associate
       allocate (scene%asked_for(0))
+      scene%decimal_commas = ''
       do i = 1, size(lists)
+         do k = 1, size(lists(i)%rows)
+            if (lists(i)%keys(k)%value%has_decimal_commas) &
+               scene%decimal_commas = scene%decimal_commas//', '//trim(lists(i)%rows(k)%name)
+         end do
          if (lists(i)%group%position == 0 .and. lists(i)%name /= 'output') cycle
          scene%asked_for = [scene%asked_for, lists(i)%asked_for()]
       end do

@@ -46,6 +46,7 @@ module wavycon_checkpoint
       integer, private :: loads = 0                            !! number of loads of the run
       integer(int64), private :: bytes = 0                     !! length of the file so far
       character(:), allocatable, private :: name               !! path of the file
+      character(:), allocatable, private :: text               !! the description of the run
    contains
       procedure :: create
       procedure :: add
@@ -92,23 +93,27 @@ contains
    !> Creates the checkpoint of a run with the solutions that are known already. The file replaces the checkpoint of an
    !> earlier run only when it holds all of these. An error of writing does not stop the run: `is_complete` is then
    !> .false.
-   subroutine create(self, results, known)
+   subroutine create(self, results, known, text)
       class(checkpoint_file), intent(out) :: self
       type(results_type), intent(in) :: results   !! its directory exists
       logical, intent(in) :: known(:)             !! whether the solution of each load is known
+      character(*), intent(in), optional :: text  !! the description; absent: all ranks together make it here
 
-      character(:), allocatable :: text
       integer :: load
 
+      if (present(text)) then
+         self%text = text
+      else
+         self%text = description(results)
+      end if
       self%name = checkpoint_name(results)
       call remove_others(results)
       self%file = open_written(self%name//c_null_char)
       self%is_complete = .true.
       self%bytes = len(mark)
       self%loads = size(results%loads)
-      text = description(results)
       if (put_text(self%file, mark, len(mark, c_size_t)) /= 0) call close_file(self)
-      call put(self, transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64]))
+      call put(self, transfer(self%text//repeat(' ', modulo(-len(self%text), bytes_of_word)), [0_int64]))
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
@@ -142,13 +147,15 @@ contains
       integer, intent(in) :: status      !! exit status of the deck
       logical, intent(in) :: says_done   !! whether a checkpoint that says so stays, until remove_done
 
+      character(:), allocatable :: text
       integer(int64) :: bytes
 
       bytes = self%bytes
+      text = self%text
       call close_file(self)
       if (file_size(self%name) == bytes) then
          if (says_done .and. results%sharing%is_first) then
-            call self%create(results, spread(.false., 1, size(results%loads)))
+            call self%create(results, spread(.false., 1, size(results%loads)), text)
             call put(self, [0_int64, int(status, int64)])
             call close_file(self)
          else

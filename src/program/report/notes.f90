@@ -15,7 +15,7 @@ module wavycon_notes
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
       target_words
-   use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, not_accurate, not_found, &
+   use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, iteration_limit, not_accurate, not_found, &
       solution_record, solver_names, status_name, unresolved
    implicit none (type, external)
    private
@@ -73,8 +73,9 @@ contains
       end associate
    end subroutine show_scene
 
-   !> Notes what is suspicious in a scene, before its loads are solved: a doubtful height map; if the deck has units, a
-   !> surface that is too steep for the theory; a surface that is almost flat, most likely by a mistake of units.
+   !> Notes what is suspicious in a scene, before its loads are solved: decimal commas; a doubtful height map; if the
+   !> deck has units, a surface that is too steep for the theory; a surface that is almost flat, most likely by a
+   !> mistake of units.
    subroutine note_scene(scene, logger)
       type(scene_type), intent(in) :: scene
       type(run_log), intent(inout) :: logger
@@ -87,6 +88,8 @@ contains
       character(:), allocatable :: borders, cause, verdict
       logical :: is_flat
 
+      if (scene%decimal_commas /= '') call logger%note('commas separate some numbers of '// &
+         scene%decimal_commas(3:)//", blanks alone others: '0,2 0.5' is 0, 2 and 0.5. Write decimals with a point")
       if (allocated(scene%map)) call note_map(scene, scene%map, logger)
       is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
       if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
@@ -402,6 +405,8 @@ contains
             "loads. solver = 'auto' gives digits, with error estimates")
          call note_some(count(is_series .and. loads%value(mean_gap) < 0.0_dp), &
                         'the mean gap is below 0, where no gap can be: this is an error of the series')
+         call note_some(count(loads%solver == by_beale .and. loads%status == iteration_limit), &
+            "Beale's exchanges did not come to an end. solver = 'series' finds the minimum of the same series")
          if (loads_by == by_yield) then
             call note_some(count(loads%status == not_found), 'no mean pressure was found that brings the '// &
                            'stresses to the given part of the yield stress')

@@ -144,7 +144,8 @@ contains
    end subroutine open_table
 
    !> The label of a unit in the deck's words: 'length' and 'pressure' become the deck's labels; 'area' becomes the
-   !> label of a length squared, in 1-D of a length; 'force' becomes pressure times area. All other text stays.
+   !> label of a length squared, in 1-D of a length; 'force' becomes pressure times area, N
+   !> for Pa and m and for MPa and mm. All other text stays.
    elemental recursive function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit   !! such as '1/length'
@@ -162,6 +163,7 @@ contains
          if (names(k) == 'pressure') label = self%scene%pressure_unit
          if (k > 2 .and. self%solver%surface%dimension == 2) label = label//'^2'
          if (names(k) == 'force') label = self%scene%pressure_unit//'*'//label
+         if (label == 'Pa*m^2' .or. label == 'MPa*mm^2') label = 'N'
          words = trim(self%unit_in_words(unit(:first - 1)))//label// &
                  self%unit_in_words(unit(first + len_trim(names(k)):))
          return

@@ -97,9 +97,10 @@ contains
          'percolation_over_pstar_error[-] area_at_hardness_fraction[-] load_at_hardness_fraction[-] '// &
          'area_at_hardness_fraction_error[-] load_at_hardness_fraction_error[-] contact_area_counted_fraction[-] '// &
          'contact_area_corrected_fraction[-] linear_area_fraction[-] mean_pressure[pressure] force[force] '// &
-         'mean_gap[length] approach[length] approach_error[length] contact_area[area] contact_area_error[area] '// &
-         'peak_pressure[pressure] peak_pressure_error[pressure] '//listed_columns('summary')// &
-         'active_constraints[#] iterations[#] residual[-] solver[word] status_code[#] status[word]'
+         'mean_gap[length] mean_gap_error[length] approach[length] approach_error[length] contact_area[area] '// &
+         'contact_area_error[area] peak_pressure[pressure] peak_pressure_error[pressure] '// &
+         listed_columns('summary')//'active_constraints[#] iterations[#] residual[-] solver[word] '// &
+         'status_code[#] status[word]'
    end function summary_columns
 
    !> Writes the block of a load: the Fourier coefficients of its pressure.

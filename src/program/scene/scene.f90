@@ -55,6 +55,7 @@ module wavycon_scene
       logical :: gives_modulus = .false.            !! whether the deck gives a modulus
       !> Whether the deck gives a modulus or labels of units: its numbers are then not normalised.
       logical :: has_units = .false.
+      character(:), allocatable :: decimal_commas   !! names of keys with `has_decimal_commas`, ', ' before each
       real(dp) :: p_star = 0.0_dp                   !! p*, mean pressure that just closes the gap [pressure]
       integer :: loads_by = by_pressure             !! by_pressure or another of the names above
       !> The loads in the deck's order, by loads_by: P, G, the contact area fraction, the largest equivalent stress over
