@@ -362,6 +362,9 @@ class Values(ValuesTest):
             total = pair[0] + pair[1]
             self.assertEqual((3, 2, "m"), (total.keys["length_x"], total.keys["length_y"], total.length_unit))
             numpy.testing.assert_allclose(total.heights - total.heights.mean(), 2*(first - first.mean()), atol=1e-5)
+        # Keys that are None are none.
+        self.assertEqual("mirror", (wc.heights(first, edges="mirror", length_x=None) + wc.heights(
+            second, edges="mirror", length_x=3, detrend=None, fill_missing="harmonic")).keys["edges"])
         # Maps without keys are added as they are, and each map has its own trend.
         numpy.testing.assert_array_equal(first + first[::-1], (wc.heights(first) + wc.heights(first[::-1])).heights)
         plain = wc.heights(first, detrend="plane", **both) + wc.heights(second, **both)

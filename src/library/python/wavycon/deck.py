@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import names
-from .library import Handle, address, call, keys, number, reals, tell, text
-from .surfaces import SIDES, Surface, meanings, slips, unknown
+from .library import Handle, address, call, keys, reals
+from .surfaces import Surface, meanings, slips, unknown
 
 
 def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
@@ -68,23 +68,6 @@ def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) ->
     scene: Handle = call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows,
                          None if h is None else address(h))
     return scene
-
-
-def prepared(surface: Surface) -> Surface:
-    """As Surface.prepared."""
-    if surface.keys.get("kind") != "file":
-        raise ValueError("only maps can be turned over and added, heights in memory and files")
-    own = {key: value for key, value in surface.keys.items() if key in (*SIDES, "edges") and value != "window"}
-    if surface.heights is not None and len(own) == len(surface.keys) - len(("kind", "file")):
-        return surface
-    scene = scene_of(surface, {}, keep_fields=False)
-    tell(text(scene, "notes").splitlines())
-    table = call("new_table", call("solve", scene, b"mean_pressure", 0.0), b"height")
-    h = np.empty((int(number(scene, "points_y")), int(number(scene, "points_x"))))
-    call("get_column", table, b"height", h.size, address(h))
-    own |= {side: number(scene, side) for side in SIDES[:2 - (len(h) == 1)]}
-    unit = text(scene, "length_unit")
-    return Surface({"kind": "file", "file": "heights", **own}, h, None if unit == "length" else unit)
 
 
 def deck_text(groups: Mapping[str, Mapping[str, Any]]) -> str:

@@ -12,7 +12,7 @@ from typing import Any, ParamSpec
 import numpy as np
 import numpy.typing as npt
 
-from .library import keys
+from .library import address, call, keys, number, tell, text
 
 FEW = 30          # names that a message lists
 MOST = 3          # names that a message proposes
@@ -40,8 +40,20 @@ class Surface:
     def prepared(self) -> Surface:
         """The map as it is solved, its heights in memory: read, without its trend, filled, filtered. Of its keys the
         sides and the edges remain. Errors: ValueError for a surface that is no map, and as of solve."""
-        from .deck import prepared   # which needs this module
-        return prepared(self)
+        from .deck import scene_of   # which needs this module
+        if self.keys.get("kind") != "file":
+            raise ValueError("only maps can be turned over and added, heights in memory and files")
+        own = {key: value for key, value in self.keys.items() if key in (*SIDES, "edges") and value != "window"}
+        if self.heights is not None and len(own) == len(self.keys) - len(("kind", "file")):
+            return self
+        scene = scene_of(self, {}, keep_fields=False)
+        tell(text(scene, "notes").splitlines())
+        table = call("new_table", call("solve", scene, b"mean_pressure", 0.0), b"height")
+        heights = np.empty((int(number(scene, "points_y")), int(number(scene, "points_x"))))
+        call("get_column", table, b"height", heights.size, address(heights))
+        own |= {side: number(scene, side) for side in SIDES[:1 if len(heights) == 1 else 2]}
+        unit = text(scene, "length_unit")
+        return Surface({"kind": "file", "file": "heights", **own}, heights, None if unit == "length" else unit)
 
     def flipped(self) -> Surface:
         """The map turned over about the y axis, as that of the second body is when it is laid on the first one: the
@@ -83,7 +95,7 @@ def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surfa
         for name in given:
             if name not in known:
                 raise ValueError(f"{function.__name__}: {unknown_key(name, list(known))}")
-        return Surface({**function(*none, **given).keys, **given})
+        return Surface({**function(*none, **given).keys, **{key: one for key, one in given.items() if one is not None}})
 
     return make
 
