@@ -7,8 +7,8 @@ module wavycon_foreign_format
    public :: remedy_of_content, remedy_of_name
 
    character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As)'
-   character(*), parameter :: by_python = 'the command wavycon-convert writes a .gsf or .npy of many such files, and '// &
-      'wavycon.read reads them in Python; otherwise '//by_gwyddion
+   character(*), parameter :: by_python = 'the command wavycon-convert writes a .gsf or .npy of many such files, '// &
+      'and wavycon.read reads them in Python; otherwise '//by_gwyddion
 
    !> Endings of names by group; below, for each group, what such a file is and how to convert it.
    character(*), parameter :: endings(*) = [character(160) :: &
