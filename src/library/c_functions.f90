@@ -251,19 +251,19 @@ contains
       get_grid = this%code()
    end function get_grid
 
-   integer(c_int) function get_bounds(error, scene, mean_pressure, points_x, points_y, pressure, gap, bounds) &
+   integer(c_int) function get_bounds(error, scene, mean_pressure, points_x, points_y, offset, pressure, gap, bounds) &
       bind(c, name='wavycon_get_bounds')
       type(c_ptr), value :: error, scene
       real(c_double), value :: mean_pressure
       integer(c_int), value :: points_x, points_y
-      real(c_double), intent(in), optional :: pressure(*), gap(*)
+      real(c_double), intent(in), optional :: offset(2), pressure(*), gap(*)
       real(c_double), intent(inout), optional :: bounds(6)
 
       type(c_call) :: this
 
       if (this%begins(error, scene, 'scene', [present(pressure), present(gap), present(bounds)])) &
-         call bounds_from_fields(this%contents%scene, mean_pressure, [points_x, points_y], pressure, gap, &
-                                 this%trouble, bounds)
+         call bounds_from_fields(this%contents%scene, mean_pressure, [points_x, points_y], offset, pressure, &
+                                 gap, this%trouble, bounds)
       get_bounds = this%code()
    end function get_bounds
 

@@ -153,12 +153,13 @@ contains
    !> arrays; they are close if the arrays are those of a solution. Negative pressures count as 0, negative gaps too if
    !> there is no hardness, and the pressure is scaled to the mean pressure. Further errors: exit_bad_input for a flat
    !> surface, for free edges, and for a grid that does not have all waves of the surface.
-   subroutine bounds_from_fields(session, mean_pressure, points, pressure, gap, error, bounds)
+   subroutine bounds_from_fields(session, mean_pressure, points, offset, pressure, gap, error, bounds)
       type(deck_session), intent(in) :: session
       real(dp), intent(in) :: mean_pressure     !! > 0, below the hardness [pressure]
-      !> Numbers of points along x and y, as in fields_on_grid. The first point is at x = y = 0, on a mirrored map half
-      !> a step from its borders.
-      integer, intent(in) :: points(2)
+      integer, intent(in) :: points(2)          !! as in fields_on_grid
+      !> As in fields_on_grid, at most 1 in size. Of a mirrored map, whose points are half a step from its borders, it
+      !> is 0.5, also if absent.
+      real(dp), intent(in), optional :: offset(2)
       real(dp), intent(in) :: pressure(points(1), points(2))   !! [pressure]
       !> [length]. With a hardness the gap may be negative where the pressure is the hardness: the bodies overlap there.
       real(dp), intent(in) :: gap(points(1), points(2))
@@ -166,6 +167,9 @@ contains
       !> Lower and upper bound of the complementary energy [pressure*length^3, of a profile pressure*length^2], then of
       !> the approach and of the mean gap [length]. NaN: no bound.
       real(dp), intent(out) :: bounds(6)
+
+      !> Places that were computed in single precision are at most this far off [step].
+      real(dp), parameter :: tolerance = 1e-3_dp
 
       character(:), allocatable :: trouble
       integer :: least(2)
@@ -175,8 +179,7 @@ contains
       type(table_type) :: table   ! that of bounds, which refuses the same surfaces
 
       call check_ready(session, error)
-      if (.not. allocated(error)) call check_points(session, points, depth=0.0_dp, numbers=numbers_of_bounds, &
-                                                    first=first, error=error)
+      if (.not. allocated(error)) call check_points(session, points, offset, 0.0_dp, numbers_of_bounds, first, error)
       if (allocated(error)) return
       table = table_type('bounds')
       trouble = ''
@@ -191,8 +194,13 @@ contains
             trouble = 'pressures and gaps must be finite numbers'
          else if (.not. any(pressure > 0.0_dp)) then
             trouble = 'no pressure is above 0'
+         else if (any(abs(first) > 1.0_dp)) then
+            trouble = 'the first point must be at most a step from x = y = 0'
+         else if (surface%mirrored .and. present(offset) .and. &
+                  any(abs(first(:surface%dimension) - 0.5_dp) > tolerance)) then
+            trouble = 'on a mirrored map the first point is half a step from its borders'
          else
-            call grid%start(surface, points, surface%mirrored)
+            call grid%start(surface, points, surface%mirrored, first)
             least = surface%shape%last([1, 2])
             least = max(2*least, 1)
             if (surface%mirrored) least = surface%shape%last([1, 2]) + 1

@@ -150,8 +150,8 @@ int wavycon_get_grid(wavycon_error error, wavycon_solution solution, int points_
 
 /* Gets guaranteed bounds of the contact of a scene under a mean pressure, from any pressure and gap, also those of
    another program.
-   pressure, gap: arrays [points_y][points_x] of the values at x = length_x i/points_x, i = 0 .. points_x - 1, and
-   y = length_y j/points_y, j = 0 .. points_y - 1; on a mirrored map half a step further. For a profile points_y is 1.
+   pressure, gap: arrays [points_y][points_x] of the values at the points of a grid, as wavycon_get_grid has them.
+   offset: that of this grid, at most 1 in size, NULL for no offset. On a mirrored map it is 0.5, also for NULL.
    Negative pressures count as 0, negative gaps too if there is no hardness, and the pressure is scaled to the mean
    pressure. With a hardness the gap is negative where the bodies overlap.
    bounds: an array [6] for the least and the largest value of the complementary energy, then of the approach and of the
@@ -159,7 +159,7 @@ int wavycon_get_grid(wavycon_error error, wavycon_solution solution, int points_
    for any given arrays; they are close if the arrays are those of a solution.
    Further errors: free edges, a flat surface, and a grid that does not have all waves of the surface. */
 int wavycon_get_bounds(wavycon_error error, wavycon_scene scene, double mean_pressure, int points_x, int points_y,
-                       const double *pressure, const double *gap, double *bounds);
+                       const double *offset, const double *pressure, const double *gap, double *bounds);
 
 /* Gets stresses at points in one of the two bodies. Tension is positive.
    x, y, depth: arrays [points]; depths are >= 0 and point into the body.

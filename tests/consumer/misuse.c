@@ -324,36 +324,40 @@ static void bounds(wavycon_scene scene, wavycon_solution solution)
     enum { n = 8 };
     const double bad_loads[] = {NAN, INFINITY, -INFINITY, 0, -1};
     const int bad_points[] = {0, 1, -1, -2147483647 - 1, 2147483647};
+    const double bad_offsets[] = {NAN, INFINITY, 1.01, -1.01};
     double p[n*n], gap[n*n], b[6] = {0};
     wavycon_scene free = scene_of("&surface kind = 'ball', radius = 1, length_x = 1 / &method solver = 'auto' /");
     MADE(free);
     FINE(wavycon_get_grid(error, solution, n, n, NULL, p, gap, NULL));
     double pbar = number(solution, "mean_pressure");
     for (size_t i = 0; i < COUNT(bad_loads); i++)
-        REFUSED(wavycon_get_bounds(error, scene, bad_loads[i], n, n, p, gap, b));
+        REFUSED(wavycon_get_bounds(error, scene, bad_loads[i], n, n, NULL, p, gap, b));
     for (size_t i = 0; i < COUNT(bad_points); i++) {
-        REFUSED(wavycon_get_bounds(error, scene, pbar, bad_points[i], n, p, gap, b));
-        REFUSED(wavycon_get_bounds(error, scene, pbar, n, bad_points[i], p, gap, b));
+        REFUSED(wavycon_get_bounds(error, scene, pbar, bad_points[i], n, NULL, p, gap, b));
+        REFUSED(wavycon_get_bounds(error, scene, pbar, n, bad_points[i], NULL, p, gap, b));
     }
-    REFUSED(wavycon_get_bounds(error, NULL, pbar, n, n, p, gap, b));
-    REFUSED(wavycon_get_bounds(error, (wavycon_scene)solution, pbar, n, n, p, gap, b));
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, gap, b));
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, NULL, b));
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, NULL));
-    REFUSED(wavycon_get_bounds(error, free, pbar, n, n, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, NULL, pbar, n, n, NULL, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, (wavycon_scene)solution, pbar, n, n, NULL, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, NULL, gap, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, NULL, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, NULL));
+    REFUSED(wavycon_get_bounds(error, free, pbar, n, n, NULL, p, gap, b));
     check(b[0] == 0 && b[5] == 0, "no bounds are written", __LINE__);
-    FINE(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    FINE(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, b));
     check(b[0] < b[1] && b[2] < number(solution, "approach") && number(solution, "approach") < b[3] &&
           b[4] < number(solution, "mean_gap") && number(solution, "mean_gap") < b[5], "the bounds", __LINE__);
+    for (size_t i = 0; i < COUNT(bad_offsets); i++)
+        REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, (double[2]){0, bad_offsets[i]}, p, gap, b));
+    FINE(wavycon_get_bounds(error, scene, pbar, n, n, (double[2]){1, -1}, p, gap, b));
     p[3] = NAN;
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, b));
     p[3] = 0;
     gap[3] = INFINITY;
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, b));
     gap[3] = 0;
     for (int i = 0; i < n*n; i++)
         p[i] = -1;
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, p, gap, b));
+    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, b));
     wavycon_delete(&free);
 }
 

@@ -222,7 +222,9 @@ class Digits(PackageTest):
             self.assertLess(abs(rows["y"] - one.y[:, None]).max(), DIGITS)
         self.assertEqual((), results[1].fields_at(0, 0)["gap"].shape)
         line = results[1].table("stress_planes")[::97]
-        stresses = results[1].stresses_at(line["x"], line["y"], line["depth"], 0.3)
+        stresses = results[1].stresses_at(line["x"], line["y"], line["depth"])   # nu is that of &stress
+        one = wc.solve(wc.wave_1d(), e1=2, nu1=0.3, pbar_over_pstar=0.2)[0]
+        numpy.testing.assert_array_equal(*(one.stresses_at(0, 0, 0.1, *nu)["stress"] for nu in ([], [0.3])))
         for column, values in zip(("stress_xx", "von_mises", "largest_shear"),
                                   (stresses["stress"][:, 0], stresses["von_mises"], stresses["largest_shear"])):
             self.assertLess(abs(values - line[column]).max(), 1e-10*abs(line[column]).max())
@@ -282,7 +284,16 @@ class Digits(PackageTest):
         for name in "empty.gsf", "empty.npy", "empty.txt":
             pathlib.Path(name).touch()
             self.refuse(f"{name}: the file is empty", wc.solve, wc.file(file=name), pbar_over_pstar=0)
-        self.refuse("leave out length_x", wc.solve, wc.read("map.gsf", length_x=1), pbar_over_pstar=0)
+        self.refuse("leave out length_x", wc.read, "map.gsf", length_x=1)
+        # What numpy says has the name of the file.
+        pathlib.Path("cut.npy").write_bytes(pathlib.Path("map.npy").read_bytes()[:300])
+        numpy.save("objects.npy", numpy.array([[1, None]], dtype=object))
+        for name in "cut.npy", "objects.npy":
+            self.refuse(f"^{name}: ", wc.read, name)
+            with self.assertRaisesRegex(SystemExit, f"^wavycon-convert: {name}: "):
+                convert([name, "map.gsf"])
+        with self.assertRaisesRegex(SystemExit, "map.gsf: decks read this file as it is"):
+            convert(["map.gsf", "other.npy"])
 
     def test_grids_of_esri(self):
         """The program reads them: they have steps, and their first row is that of the largest y."""
@@ -304,8 +315,7 @@ class Digits(PackageTest):
         self.assertEqual((100, "mm"), (results.length_x, results.length_unit))
         numpy.testing.assert_allclose(results[0].gap.ravel(), 1e-3*(heights.max() - heights), atol=2e-7)
         for text, is_of_program in (("1,5;2,5\n", True), ("2 0,5\r\n", True), ("1,2,3\n", False), ("0.1,5 2\n", False)):
-            pathlib.Path("numbers.txt").write_text(text)
-            self.assertEqual(is_of_program, files.is_of_program("numbers.txt"), text)
+            self.assertEqual(is_of_program, files.DECIMAL_COMMAS.search(text.encode()) is not None, text)
 
     def test_gsf_keeps_heights_beside_a_large_mean(self):
         h = numpy.random.default_rng(1).uniform(size=(12, 16))
@@ -421,6 +431,36 @@ class Certify(PackageTest):
                     self.assertTrue(lower < number < upper)
                 widths.append(bounds.energy[1] - bounds.energy[0])
             self.assertLess(widths[1], widths[0]*(shapes[0][1]/shapes[1][1])**2.5)
+
+    def test_the_place_of_the_points(self):
+        """Fields of grids begin half a step in. The bounds are those of the surface that is moved."""
+        wave, load = wc.wave_2d(amplitude=1e-3), {"e_star": 1, "mean_pressure": 1e-3}
+        one = wc.solve(wave, solver="grid", grid_points=64, **load)[0]
+        self.assertAlmostEqual(0.5, one.x[0]*64)
+        by_result = wc.certify(wave, one, **load)
+        by_places = wc.certify(wave, one.pressure, one.gap, x=one.x.astype("f4"), y=one.y, **load)
+        wide = wc.certify(wave, one.pressure, one.gap, **load)
+        widths = [each.energy[1]/each.energy[0] - 1 for each in (by_result, by_places, wide)]
+        self.assertLess(max(widths[:2]), 1e-4)
+        self.assertGreater(widths[2], 1e-3)
+        # A map of other points and its own, moved by a step.
+        surface = self.smooth_map((24, 40))
+        one = wc.solve(surface, **load)[0]
+        expected = wc.certify(surface, one, **load)
+        for steps in (1, 0), (0, 1), (-1, 1):
+            p, g = (numpy.roll(field, -numpy.array(steps), (1, 0)) for field in (one.pressure, one.gap))
+            found = wc.certify(surface, p, g, x=one.x + steps[0]/20, y=one.y + steps[1]/8, **load)
+            numpy.testing.assert_allclose(found, expected, rtol=1e-10)
+        for shape, name in ((24, 40), "y"), ((1, 65), "x"):
+            mirrored = self.smooth_map(shape, edges="mirror")
+            one = wc.solve(mirrored, **load)[0]
+            places = {"x": one.x, "y": one.y}
+            self.assertEqual(wc.certify(mirrored, one.pressure, one.gap, **load), wc.certify(mirrored, one, **load))
+            self.refuse("half a step from its borders", wc.certify, mirrored, one.pressure, one.gap, **load,
+                        **{**places, name: places[name] - places[name][0]})
+        for words, x in {"x must have the places of 40 points": one.x, "equal steps over the whole side 2":
+                         numpy.linspace(0, 2, 40), "at most a step": numpy.arange(40)/20 - 1}.items():
+            self.refuse(words, wc.certify, surface, p, g, x=x, **load)
 
     def test_what_is_wrong_is_wide(self):
         load = {"e_star": 2, "mean_pressure": 0.5, "residual": 1e-11}
@@ -593,7 +633,7 @@ class Misuse(PackageTest):
         reader.parent.mkdir()
         code = f"""import sys; sys.path[:0] = [{os.path.dirname(wc.__path__[0])!r}, {str(reader.parent)!r}]
 import wavycon
-try: wavycon.read('none.opd')
+try: wavycon.read({str(reader)!r})
 except ImportError as error: print(error)"""
         for text, words in ("import a_package_that_is_not_there", "is installed, but cannot be imported: No module named"
                             " 'a_package"), ("from os import none", "is installed, but cannot be imported: cannot import"):
@@ -663,6 +703,7 @@ except ImportError as error: print(error)"""
         self.refuse("0 or more", one.stresses_at, 0, 0, -1, 0.3)
         self.refuse("nu", one.stresses_at, 0, 0, 0, 0.7)
         self.refuse("lateral", one.stresses_at, 0, 0, 0, 0.3, "tight")
+        self.refuse("give nu", one.stresses_at, 0, 0, 0)
         self.assertEqual((2, 3, 6), one.stresses_at(numpy.zeros((2, 1)), 0, [0, 1, 2], 0.3)["stress"].shape)
         self.refuse("points must be", one.fields_at, [], [])
         without = wc.solve(wc.wave_1d(), pbar_over_pstar=0.5, keep_fields=False)[0]
@@ -768,7 +809,28 @@ class Files(PackageTest):
         """SurfaceTopography takes lines of x, y, z for a map of three columns where a point is missing."""
         points = [(x, y, x*y % 3) for y in range(5) for x in range(5)]
         numpy.savetxt("points.txt", points[:7] + points[8:])
-        self.refuse("points.txt: its lines have three numbers, .* wavycon.file", wc.read, "points.txt")
+        self.refuse("points.txt: 1 of 25 heights are missing", wc.read, "points.txt")
+        one = wc.solve(wc.read("points.txt", fill_missing="harmonic"), pbar_over_pstar=0)[0]
+        self.assertEqual((5, 5), one.gap.shape)
+        with self.assertRaisesRegex(SystemExit, "points.txt: decks read this file as it is"):
+            convert(["points.txt", "map.npy"])
+
+    def test_what_is_no_file_of_an_instrument(self):
+        """The program reads tables of numbers, or tells what is wrong."""
+        h = numpy.random.default_rng(1).normal(size=(8, 12))
+        numpy.savetxt("comma.csv", h, delimiter=",")
+        numpy.testing.assert_allclose(h - h.mean(), wc.read("comma.csv").prepared().heights, atol=1e-14)
+        pathlib.Path("ragged.txt").write_text("1 2 3\n1 2\n4 5 6\n")
+        pathlib.Path("number.json").write_text('{"a": 1}')   # of 8 bytes, as a tile of 2 x 2 heights, .hgt
+        pathlib.Path("grey.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(60))
+        pathlib.Path("cut.opd").write_bytes(b"\1\0Directory" + bytes(9))
+        (self.folder/"folder.opd").mkdir()
+        for name, words in {"ragged.txt": "2: this row has 2 numbers, the first has 3", "number.json": " there are no",
+                            "grey.png": " by its name this is a picture", "folder.opd": " this is no file",
+                            "cut.opd": " SurfaceTopography cannot read it: OPDReader: .*truncated"}.items():
+            self.refuse(f"{name}:{words}", wc.read, name, error=(ValueError, OSError))
+            with self.assertRaisesRegex(SystemExit, f"{name}:{words}"):
+                convert([name, "map.npy"])
 
     def test_channels_that_have_no_heights(self):
         def channel(name, unit, data_unit=None, **more):
@@ -801,6 +863,7 @@ class Files(PackageTest):
         surface = wc.read("um.txt")
         self.assertEqual(("um", 4), (surface.length_unit, surface.keys["length_x"]))
         self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0, length_unit="um").length_unit)
+        self.refuse("um.txt: 'furlong' is no unit of length", wc.read, "um.txt", length_unit="furlong")
 
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))
@@ -811,8 +874,7 @@ class Files(PackageTest):
 
     def test_misuse(self):
         (self.folder/"words.txt").write_text("no heights")
-        self.refuse("cannot read it: the formats that can be read are gsf, al3d, .*, x3p.*; wavycon.file", wc.read,
-                    "words.txt")
+        self.refuse("words.txt: there are no numbers in this file", wc.read, "words.txt")
         self.refuse("there is no such file", wc.read, "none.opd", error=OSError)
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")

@@ -6,6 +6,7 @@ usage: test_values.py --program WAVYCON --package FOLDER --needs PACKAGES --envi
 The tests of types need mypy, those of some files h5py and xarray: they are skipped where these are not installed.
 """
 import copy
+import gc
 import importlib.util
 import inspect
 import os
@@ -38,7 +39,10 @@ reveal_type(wc.self_affine)
 REVEALED = ("Result", "Results", "float64", "float", "str", "hurst: ")
 MISTAKES = {"wc.wave_2d(amplitud=1)": "amplitud", "wc.wave_2d(amplitude='1')": "str",
             "wc.solve(wc.wave_2d(), mean_presure=1)": "mean_presure", "wc.solve(wc.wave_2d(), solver='gird')": "gird",
-            "wc.solve(wc.wave_2d(), mean_gap=1)[0].mean_gab": "mean_gab"}
+            "wc.solve(wc.wave_2d(), mean_gap=1)[0].mean_gab": "mean_gab",
+            "wc.solve(wc.wave_2d(), mean_gap=1)[0].plot_map('presure')": "presure",
+            "wc.solve(wc.wave_2d(), mean_gap=1).plot(y='mean_gab')": "mean_gab",
+            "wc.solve(wc.wave_2d(), mean_gap=1).plot('mean_gap', 'pressur')": "pressur"}
 
 
 class ValuesTest(ProgramTest):
@@ -113,7 +117,7 @@ class Names(ValuesTest):
                         lambda thing=thing: thing.contact_area_fracton, error=AttributeError)
             self.assertFalse(hasattr(thing, "_none"))
         self.refuse("'pressure' here: one load has it", lambda: results.pressure, error=AttributeError)
-        for name in "save", "p_star":
+        for name in "save", "method":
             self.refuse(f"'{name}' here: all loads together have it", getattr, results[0], name, error=AttributeError)
         self.refuse("load is a group: it must be a dictionary of its keys, got 3", wc.solve, self.rough, load=3)
         results.save("units.npz")
@@ -325,6 +329,9 @@ class Values(ValuesTest):
         self.assertEqual(results.mean_gap.tolist(), again.mean_gap.tolist())
         for other in again, self.solve_rough():
             self.assertNotIn("in memory", other.deck)
+        for other, words in (results, "to a file, the heights to that which it names, and solve"), (
+                self.solve_rough(), "to a file, and solve"):
+            self.refuse(words, pickle.loads(pickle.dumps(other))[0].fields_at, 0, 0)
 
     def test_two_bodies(self):
         """The sum of two maps is what the program makes of two files, each with its own treatment."""
@@ -345,9 +352,23 @@ class Values(ValuesTest):
         numpy.testing.assert_allclose(frame.mean_gap, [two.mean_gap[0]]*2, rtol=DIGITS)
         # The sides of the first one are taken, as in the program.
         self.assertEqual(2, (wc.heights(first, length_x=2) + wc.heights(first, length_x=2.04)).keys["length_x"])
-        # The second map has no trend subtracted unless its own keys say so.
+        # Files too, with what they tell, and beside heights in memory.
+        on_disc = (wc.file(file="first.npy", detrend="plane", height_scale=2, **both)
+                   + wc.file(file="second.npy", detrend="mean", **both).flipped())
+        numpy.testing.assert_allclose(surface.heights, on_disc.heights, atol=1e-13)
+        with open("first.gsf", "wb") as file:
+            files_of_package.write_gsf(file, first, {"length_x": 3, "length_y": 2}, "m")
+        for pair in (wc.read("first.gsf"), wc.heights(first)), (wc.heights(first), wc.read("first.gsf")):
+            total = pair[0] + pair[1]
+            self.assertEqual((3, 2, "m"), (total.keys["length_x"], total.keys["length_y"], total.length_unit))
+            numpy.testing.assert_allclose(total.heights - total.heights.mean(), 2*(first - first.mean()), atol=1e-5)
+        # Keys that are None are none.
+        self.assertEqual("mirror", (wc.heights(first, edges="mirror", length_x=None) + wc.heights(
+            second, edges="mirror", length_x=3, detrend=None, fill_missing="harmonic")).keys["edges"])
+        # Maps without keys are added as they are, and each map has its own trend.
+        numpy.testing.assert_array_equal(first + first[::-1], (wc.heights(first) + wc.heights(first[::-1])).heights)
         plain = wc.heights(first, detrend="plane", **both) + wc.heights(second, **both)
-        self.assertEqual("none", plain.keys["file2_detrend"])
+        self.assertGreater(numpy.polyfit(numpy.arange(24), plain.heights.mean(0), 1)[0], 0.25)
         numpy.testing.assert_array_equal(second[:, ::-1], wc.heights(second).flipped().heights)
         expected = wc.solve(wc.heights(first[0] + first[1][::-1], length_x=3), pbar_over_pstar=0.2).mean_gap
         for shape in (24,), (1, 24), (24, 1):
@@ -359,14 +380,27 @@ class Values(ValuesTest):
 
     def test_two_bodies_that_do_not_fit(self):
         one, h = wc.heights(numpy.eye(8), length_x=2, length_unit="um"), numpy.eye(8)
-        for words, other in {"same points, got the shapes .8, 8. and .8, 9.": wc.heights(numpy.eye(8, 9)),
+        for words, other in {"same shape, got .8, 8. and .8, 9.": wc.heights(numpy.eye(8, 9)),
                              "same length_unit, got 'um' and 'm'": wc.heights(h, length_unit="m"),
                              "same length_x, got 2 and 2.13": wc.heights(h, length_x=2.13),
-                             "same edges, got None and 'mirror'": wc.heights(h, edges="mirror"),
-                             "file2=...": wc.wave_2d()}.items():
+                             "same edges, got 'periodic' and 'mirror'": wc.heights(h, edges="mirror"),
+                             "only maps can be": wc.wave_2d()}.items():
             self.refuse(words, one.__add__, other)
-        self.refuse("unsupported operand", lambda: one + 1, error=TypeError)
-        self.refuse("file2=.*turns the map", wc.file(file="a.gsf").flipped)
+        self.refuse("a surface and int cannot be added: wavycon.heights", lambda: one + 1, error=TypeError)
+        for add in lambda: one + h, lambda: h + one:
+            self.refuse("a surface and ndarray cannot be added: wavycon.heights", add, error=TypeError)
+        self.refuse("only maps can be", wc.wave_2d().flipped)
+        self.refuse("a.gsf: there is no such file", wc.file(file="a.gsf").flipped, error=OSError)
+
+    def test_no_folder_is_left_to_be_cleaned(self):
+        h = numpy.random.default_rng(1).normal(size=(16, 24))
+        numpy.savetxt("profile.txt", numpy.c_[numpy.sort(h[0]), h[0]])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", ResourceWarning)
+            wc.solve(wc.heights(h, detrend="plane") + wc.heights(h), pbar_over_pstar=0.1)
+            if importlib.util.find_spec("SurfaceTopography"):
+                wc.read("profile.txt")
+            gc.collect()
 
     def test_units_in_a_head(self):
         results = wc.solve(wc.wave_2d(), e_star=2, mean_pressure=0.1, pressure_unit="MPa", length_unit="um")
@@ -385,6 +419,7 @@ class Values(ValuesTest):
         self.assertEqual(4, text.count("<tr"))
         self.assertIn("mean pressure [&lt;MPa&gt;]", text)
         self.assertIn("converged", text)
+        self.assertIn("<th>mean gap [length]</th>", text)
         self.assertNotIn("red", text)
         failed = wc.solve(wc.wave_2d(), mean_pressure=[2, 0.5], hardness=1)._repr_html_()
         self.assertEqual(1, failed.count("color:red"))
@@ -433,6 +468,19 @@ class Pictures(ValuesTest):
         self.assertIsNone(loads[1:].plot().get_legend())
         self.assertIn("unresolved", loads[0].plot_map().get_title())
 
+    def test_nothing_is_cut_off(self):
+        """At the top of the picture was the title of regions of a map that is wider than high."""
+        rough = numpy.random.default_rng(3).normal(size=(24, 36))
+        one = wc.solve(wc.heights(rough, edges="mirror", short_wavelength=0.2), contact_area_fraction=0.45)[0]
+        for size in (6.4, 4.8), (6, 3), (4, 6):
+            ax = one.plot_map("regions", matplotlib.pyplot.subplots(figsize=size, layout="constrained")[1])
+            ax.figure.savefig("regions.png")
+            width, height = ax.figure.bbox.size
+            for part in ax.title, ax.xaxis.label, ax.get_legend():
+                box = part.get_window_extent()
+                self.assertTrue(box.x0 > 0 and box.y0 > 0 and box.x1 < width and box.y1 < height, (size, part, box))
+            self.assertLess(ax.get_legend().get_window_extent().y1, ax.xaxis.label.get_window_extent().y0)
+
     def test_units(self):
         one = wc.solve(self.rough, e_star=2, mean_pressure=0.01, pressure_unit="MPa", length_unit="um")
         ax = one.plot("mean_gap", "contact_area")
@@ -464,6 +512,7 @@ class Pictures(ValuesTest):
         for other in results[0].plot_map("gap"), results[0].plot_map("regions"), ax:
             self.assertGreater(other.get_xlim()[1], 490)
         self.assertEqual("contact area [m²]", results.plot("contact_area").get_ylabel())
+        self.assertEqual("elastic energy [J]", results.plot("elastic_energy").get_ylabel())
 
     def test_tables_of_the_surface(self):
         """All loads have the same surface."""
@@ -526,6 +575,7 @@ class Problems(ValuesTest):
         with wc.problem(wc.wave_2d(), accuracy=1e-6) as p:
             one = p.find(contact_area_fraction=0.3)
             self.assertAlmostEqual(0.3, one.contact_area_fraction, delta=1e-6)
+            self.assertEqual([p.p_star]*2, [one.p_star, one.mean_pressure/one.pbar_over_pstar])
             self.assertEqual(one.mean_pressure, p.find(mean_pressure=one.mean_pressure).mean_pressure)
         # Results stay when the problem has ended.
         self.assertEqual(0, one.gap.min())
@@ -546,7 +596,7 @@ class Problems(ValuesTest):
             self.refuse("percolates must be one word", p.find, percolates=3)
             self.refuse("percolates must be one word", p.find, percolates=None)
             self.refuse("percolates must be one word", p.solve, percolates=["gap", "contact"])
-            self.refuse("'percolate' in &load; did you mean 'percolates'", p.find, percolate="gap")
+            self.refuse("no key 'percolate'; did you mean 'percolates'", p.find, percolate="gap")
             self.refuse("find needs one value", p.find, percolates=["gap", "contact"])
             self.refuse("find needs one value", p.find, mean_pressure=[0.1, 0.2])
             self.refuse("mean_pressure needs a number, got 'gap'", p.find, mean_pressure="gap")
@@ -558,6 +608,8 @@ class Problems(ValuesTest):
         self.refuse("did you mean 'e_star'", wc.problem, self.rough, e_sta=1)
         with wc.problem(self.rough) as p:
             self.refuse("did you mean 'mean_pressure'", p.solve, mean_presure=1)
+            self.refuse("no key 'foo'", p.find, contact_area_fraction=0.3, foo=1)
+            self.refuse(r"no key 'gap'; did you mean 'mean_gap'\?", p.find, gap=0.5)
             self.refuse("by one of", p.solve)
             self.refuse("by one of", p.solve, mean_pressure=1, mean_gap=1)
             self.refuse("number", p.solve, mean_pressure=[[1]])
@@ -651,4 +703,5 @@ if __name__ == "__main__":
     import matplotlib.pyplot
     import numpy
     import wavycon as wc
+    from wavycon import files as files_of_package
     main()

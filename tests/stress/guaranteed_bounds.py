@@ -44,7 +44,7 @@ def campaign(settings, work):
                 if "hardness" not in case.body:
                     part.limit("own numbers", max(lower - own, own - upper, 0.0)/max(error, ROUNDING), LARGEST_RATIO,
                                complaints, f"the solver's {own!r} is not in [{lower!r}, {upper!r}]")
-            for fault, bounds in library.bounds(work, stream, answer.units, case.scene.edges == "mirror"):
+            for fault, bounds in library.bounds(work, stream, answer.units):
                 complaints += outside(fault, bounds, truth)
                 if fault == "none":
                     right = bounds
@@ -165,9 +165,10 @@ class Library:
         import numpy as np
         import wavycon
         self.np, self.run, self.call, self.address = np, wavycon.run, wavycon.library.call, wavycon.library.address
+        self.number = wavycon.library.number
         self.call("set_threads", 1)
 
-    def bounds(self, work, stream, units, is_mirrored):
+    def bounds(self, work, stream, units):
         """Solves the deck; the names of faults, `none` first, and bounds from the fields with the fault."""
         np = self.np
         with warnings.catch_warnings():
@@ -175,7 +176,7 @@ class Library:
             one, = self.run(work/"deck.nml", progress=False)
         p, g = one.pressure, one.gap
         other = np.empty([2] + [n if n == 1 else stream.randint(17, MOST) for n in p.shape])
-        offset = np.full(2, 0.5 if is_mirrored else 0.0)
+        offset = np.array([self.number(one._solution, f"map_offset_{axis}") for axis in "xy"])
         self.call("get_grid", one._solution, *other.shape[:0:-1], *map(self.address, (offset, *other)), None)
         random = np.random.default_rng(stream.getrandbits(32))
         # A contact may lie between other points.
@@ -184,7 +185,7 @@ class Library:
             fields = [np.ascontiguousarray(field, float) for field in fields]
             bounds = np.empty(6)
             self.call("get_bounds", one._scene, one.mean_pressure, *fields[0].shape[::-1],
-                      *map(self.address, (*fields, bounds)))
+                      *map(self.address, (offset, *fields, bounds)))
             yield fault, [[float(end/unit) for end in ends] for ends, unit in zip(bounds.reshape(3, 2), units)]
 
     def faults(self, p, g, random):

@@ -5,7 +5,8 @@
 module wavycon_energy_bounds
    use wavycon_alias_sums, only: alias_sums
    use wavycon_assertion, only: assert
-   use wavycon_fourier_series, only: fourier_series
+   use wavycon_constants, only: pi
+   use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp, ieee_is_finite, ieee_is_nan, not_a_number
@@ -26,6 +27,7 @@ module wavycon_energy_bounds
    type :: bounding_grid
       integer :: points(2) = 0          !! points of the grid, as in `start`
       integer :: cell(2) = 0            !! points of the grid on the whole cell
+      real(dp), private :: place(2) = 0.0_dp   !! X, Y of the first point; 0 for a quarter
       logical :: is_fine_enough = .false.   !! whether the grid has all waves of the surface; if not there are no bounds
       type(grid_transform), private :: transform
       type(alias_sums), private :: sums
@@ -48,13 +50,16 @@ module wavycon_energy_bounds
 contains
 
    !> Makes the tables of a grid, if the grid is fine enough.
-   subroutine start(self, surface, points, even)
+   subroutine start(self, surface, points, even, offset)
       class(bounding_grid), intent(out) :: self
       type(surface_type), intent(in) :: surface   !! periodic or mirrored, not distributed
-      !> Points M, N on the whole cell, the first at X = Y = 0, N = 1 in 1-D; or on a quarter of an even surface's cell,
+      !> Points M, N on the whole cell, N = 1 in 1-D; or on a quarter of an even surface's cell,
       !> see wavycon_grid_points.
       integer, intent(in) :: points(2)
       logical, intent(in) :: even                 !! whether the points are those of a quarter
+      !> X, Y of the first point on the whole cell, in steps, at most 1 in size: larger ones turn waves with larger
+      !> rounding errors. Absent: 0.
+      real(dp), intent(in), optional :: offset(2)
 
       type(fourier_series) :: series
 
@@ -65,6 +70,7 @@ contains
       self%points = points
       self%cell = points
       where (even .and. points > 1) self%cell = 2*points
+      if (present(offset) .and. .not. even) self%place = 2*pi*offset/points
       self%eta = transform_rounding*(2 + sum(log(real(self%cell, dp)))/log(2.0_dp))
       self%is_fine_enough = all(surface%shape%last([1, 2]) <= series%last([1, 2]))
       if (self%is_fine_enough) call self%sums%start(self%cell, surface%length, series%last([1, 2]), surface%kernel)
@@ -147,7 +153,7 @@ contains
       real(dp), intent(out) :: ph                 !! bound of <p h> [p* Delta]
       real(dp), intent(out) :: half_uq            !! bound of <u S^-1 u>/2 [p* Delta], u = g - h less its mean
 
-      complex(dp), allocatable, dimension(:) :: of_g, of_p, of_shape
+      complex(dp), allocatable, dimension(:) :: of_g, of_p, of_shape, turn_x
       integer :: k, l, last(2), with_shape
       ! `folded` is 2 for a wave that is its own alias along one axis, 4 along both, otherwise 1. `half` has the weights
       ! with which squared amplitudes give mean squares.
@@ -161,6 +167,7 @@ contains
       with_shape = surface%shape%last(1)
       allocate (half, source=[1.0_dp, (0.5_dp, k=1, last(1))])
       allocate (of_shape(0:last(1)), source=(0.0_dp, 0.0_dp))
+      turn_x = turn([(k*self%place(1), k=0, with_shape)])   ! the surface is moved, so that the first point is at 0
       sums = 0.0_dp
       largest = 0.0_dp
       do l = merge(0, -last(2), pressure%is_even()), last(2)
@@ -172,7 +179,8 @@ contains
             of_p = pressure%row(l, last(1))
             of_g = gap%row(l, last(1))
             of_shape = 0.0_dp
-            if (abs(l) <= surface%shape%last(2)) of_shape(:with_shape) = surface%shape%row(l, with_shape)
+            if (abs(l) <= surface%shape%last(2)) &
+               of_shape(:with_shape) = surface%shape%row(l, with_shape)*turn_x*turn(l*self%place(2))
             sums(1) = sums(1) + sum(half*folded*compliance*abs(of_p)**2)
             sums(2) = sums(2) + sum(half*folded*w*real(of_p*conjg(of_shape)))
             sums(3) = sums(3) + sum(half*(f*abs(folded*w*of_g + of_shape)**2 &

@@ -6,9 +6,9 @@ module wavycon_foreign_format
 
    public :: remedy_of_content, remedy_of_name
 
-   character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As), or read it '// &
-      'in Python with SurfaceTopography and write numpy.save(file, z.T), z = numpy.ma.filled(topography.heights(), '// &
-      'numpy.nan), of a profile numpy.savetxt(file, numpy.c_[topography.positions(), z])'
+   character(*), parameter :: by_gwyddion = 'open it in Gwyddion and save it as .gsf (File > Save As)'
+   character(*), parameter :: by_python = 'the command wavycon-convert writes a .gsf or .npy of many such files, '// &
+      'and wavycon.read reads them in Python; otherwise '//by_gwyddion
 
    !> Endings of names by group; below, for each group, what such a file is and how to convert it.
    character(*), parameter :: endings(*) = [character(160) :: &
@@ -18,7 +18,7 @@ module wavycon_foreign_format
       ' mat h5 hdf5 nc ', ' zip gz bz2 xz ', ' xls xlsx ods ', ' npz ']
    character(*), parameter :: remedies(*) = [character(400) :: &
       'a picture, whose colours are no lengths: '//by_gwyddion, &
-      'a file of an instrument or of Gwyddion: '//by_gwyddion, &
+      'a file of an instrument or of Gwyddion: '//by_python, &
       'a file of HDF5, NetCDF or MATLAB: read it in Python and write its heights by numpy.save', &
       'a compressed file: expand it first', &
       'a spreadsheet: save the heights as text (.csv)', &

@@ -149,6 +149,7 @@ def main():
         file.write(make_keys("Settings", "Keys of all groups but &surface and &load, and these groups.", settings,
                              groups=[group for group in others if group != "load"]))
         file.write(make_keys("Options", "Settings and loads: the options of solve.", [], "Settings, Load", ["load"]))
+        file.write(f"Column = Literal[{', '.join(map(repr, columns))}]\n\n\n")
         file.writelines(make_columns(columns, meanings))
         public = [*(FUNCTIONS.get(kind, kind) for kind in kinds), "Load", "Options", "Settings"]
         file.write(f"\n__all__ = {public}\n")

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import names
-from .library import keys, reals
+from .library import Handle, address, call, keys, reals
 from .surfaces import Surface, meanings, slips, unknown
 
 
@@ -23,7 +23,8 @@ def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps:
     h = reals(h)
     if h.ndim not in (1, 2) or h.size == 0:
         raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
-    return Surface(names.file(file="heights", **keys_of_maps).keys, np.atleast_2d(h), length_unit)
+    h = h if h.ndim == 2 and h.shape[1] > 1 else h.reshape(1, -1)   # a column is a profile
+    return Surface(names.file(file="heights", **keys_of_maps).keys, h, length_unit)
 
 
 def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -58,6 +59,15 @@ def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[st
         raise ValueError(f"the lengths of this surface are in {surface.length_unit}, and length_unit={unit!r} would "
                          "only rename them: leave it out, or give it to the function that made the surface")
     return groups
+
+
+def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) -> Handle:
+    """The scene of a surface and of options as of solve."""
+    deck, h = deck_text(groups_of(surface, options)).encode(), surface.heights
+    rows, columns = (0, 0) if h is None else h.shape
+    scene: Handle = call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows,
+                         None if h is None else address(h))
+    return scene
 
 
 def deck_text(groups: Mapping[str, Mapping[str, Any]]) -> str:

@@ -14,15 +14,15 @@ from typing import IO, Any, cast
 import numpy as np
 
 from . import names
-from .deck import deck_text, heights
+from .deck import deck_text, heights, scene_of
 from .library import Array, need, reals, tell
 from .surfaces import Surface
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
-# Texts that the program reads, and SurfaceTopography not or otherwise than they are meant: the grids of ESRI, by their
-# steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
-ESRI = re.compile(rb"\s*ncols\s", re.IGNORECASE)
+# What the program reads, and SurfaceTopography not or otherwise than it is meant: Gwyddion's simple field, the grids of
+# ESRI, by their steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
+GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
 DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
                             re.MULTILINE)
@@ -38,56 +38,76 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
     profile of unequal steps is resampled to equal ones, with a warning. Files .gsf, grids of ESRI and numbers with a
     decimal comma, which the program reads, and .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or
-    (x,), as in wavycon.heights.
+    (x,), as in wavycon.heights. The program also reads other texts of numbers, as wavycon.file does.
     """
-    if os.path.isfile(file) and (first_bytes(file).startswith(b"Gwyddion Simple Field 1.") or is_of_program(file)):
+    opened = open_file(file, channel, length_unit)
+    if not opened:
         if channel not in (None, 0):
-            raise ValueError(f"there is no channel {channel!r}: a file of this kind has one, which has no name")
-        return Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
-    x, z, sides, unit = open_file(file, channel, length_unit)
+            raise ValueError(f"there is no channel {channel!r}: such a file has one, which has no name")
+        return checked(os.path.abspath(file), length_unit, **keys_of_maps)
+    x, z, sides, unit = opened
     for key, side in sides.items():
         if keys_of_maps.get(key) is not None:
             raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
     if x is None:
         return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
-    folder = tempfile.TemporaryDirectory(prefix="wavycon-")
-    profile = Path(folder.name, "profile.txt")
-    write_profile(profile, x, z)
-    return Surface(names.file(file=str(profile), **keys_of_maps).keys, None, unit, folder)
+    with tempfile.TemporaryDirectory(prefix="wavycon-") as folder:
+        profile = os.path.join(folder, "profile.txt")
+        write_profile(profile, x, z)
+        return checked(profile, unit, **keys_of_maps).prepared()
+
+
+def checked(file: str, unit: str | None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
+    """A surface of a file that the program reads. Errors: as of solve, if it cannot."""
+    surface = Surface(names.file(file=file, **keys_of_maps).keys, None, unit)
+    scene_of(surface, {}, keep_fields=False)
+    return surface
 
 
 def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,
-              ) -> tuple[Array | None, Array, dict[str, float], str | None]:
+              ) -> tuple[Array | None, Array, dict[str, float], str | None] | None:
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
     heights (y, x) or (x,), NaN where they are missing, the sides as keys, none where the file lacks them, and the unit
-    (None: unknown). Errors: ValueError for what SurfaceTopography cannot read."""
-    if os.path.isfile(file) and first_bytes(file).startswith(b"\x93NUMPY"):
-        # SurfaceTopography takes the first index of an array for x, the program for y.
-        return None, reals(np.load(file)), {}, unit
-    opened = need("SurfaceTopography", "files").open_topography
+    (None: unknown). None for a file that the program reads, or tells best what is wrong with it. Errors: ValueError."""
     if not os.path.isfile(file):
-        raise FileNotFoundError(f"{file}: there is no such file")
-    if not os.path.getsize(file):
+        raise FileNotFoundError(f"{file}: {'this is no file' if os.path.exists(file) else 'there is no such file'}")
+    if not (start := first_bytes(file, 65536)):
         raise ValueError(f"{file}: the file is empty")
+    if GSF_OR_ESRI.match(start) or DECIMAL_COMMAS.search(start):
+        return None
+    if start.startswith(b"\x93NUMPY"):
+        # SurfaceTopography takes the first index of an array for x, the program for y.
+        try:
+            return None, reals(np.load(file)), {}, unit
+        except ValueError as error:
+            raise ValueError(f"{file}: {error}") from None
+    opened, ending = need("SurfaceTopography", "files").open_topography, Path(file).suffix[1:].lower()
     try:
         with opened(os.fspath(file)) as reader:
+            if reader.format() == "hgt" != ending:   # a format that is known by the number of bytes alone
+                return None
             info = choose(reader.channels, channel)
             known, are_lines = info.physical_sizes is not None, reader.format() == "asc"
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
-            if unit and topography.unit:
-                topography = topography.to_unit(unit)
+            if unit and not is_length(unit) and topography.unit:
+                raise NoHeights(f"{unit!r} is no unit of length to which it can be converted, such as m, mm, um, nm")
+            topography = topography.to_unit(unit) if unit and topography.unit else topography
             z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             x = None if topography.is_uniform else np.asarray(topography.positions())
             sides = map(float, topography.physical_sizes if known else ())
     except NoHeights as error:
         raise ValueError(f"{file}: {error}") from None
     except Exception as error:
-        # Its readers raise whatever their formats bring about.
-        raise ValueError(f"{file}: SurfaceTopography cannot read it: {reason(error)}") from error
+        # Its readers raise whatever their formats bring about. Where none knows the file, one may have its ending.
+        words = f"{type(error).__name__}: {str(error).strip()}".splitlines()[:1]
+        if words[0].startswith("CannotDetectFileFormat"):
+            words = re.findall(rf"(?i)tried ({re.escape(ending)}reader: *\n.*)", str(error))
+            if not words:
+                return None
+        raise ValueError(f"{file}: SurfaceTopography cannot read it: {' '.join(words[0].split())}") from error
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
-        raise ValueError(f"{file}: its lines have three numbers, as those of points x, y, z with missing ones have: "
-                         "wavycon.file(file=...) reads them")
+        return None   # lines of points x, y, z with missing ones
     # Of one name, so that length_unit="um" is that of the surface.
     return x, z, dict(zip(("length_x", "length_y"), sides)), unit or (topography.unit or "").replace("µ", "u") or None
 
@@ -95,21 +115,6 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
     with open(file, "rb") as opened:
         return opened.read(number)
-
-
-def is_of_program(file: str | os.PathLike[str]) -> bool:
-    """Whether decks read a text better than SurfaceTopography."""
-    start = first_bytes(file, 65536)
-    return ESRI.match(start) is not None or DECIMAL_COMMAS.search(start) is not None
-
-
-def reason(error: Exception) -> str:
-    """Why a file cannot be read, in one line; if it has none of the formats these, and what else reads numbers."""
-    if type(error).__name__ != "CannotDetectFileFormat":
-        return f"{type(error).__name__}: {''.join(str(error).strip().splitlines()[:1])}"
-    readers = need("SurfaceTopography.IO", "files").readers
-    return (f"the formats that can be read are gsf, {', '.join(sorted(one.format() for one in readers))}; "
-            "wavycon.file(file=...) reads numbers with commas or semicolons, also below a head in words")
 
 
 class NoHeights(Exception):
@@ -142,14 +147,16 @@ def unit_of(channel: Any) -> str | None:
 
 def has_heights(channel: Any) -> bool:
     """Whether the values of a channel, and its sides, are lengths as far as its file tells."""
+    return all(not unit or is_length(unit) for unit in (unit_of(channel), channel.unit)) and bool(
+        getattr(channel, "is_height_channel", True))
+
+
+def is_length(unit: Any) -> bool:
     conversion = need("SurfaceTopography.Support.UnitConversion", "files").get_unit_conversion_factor
     try:
-        for unit in unit_of(channel), channel.unit:
-            if unit and conversion(unit, "m") is None:
-                return False
+        return conversion(unit, "m") is not None
     except (TypeError, ValueError):
         return False
-    return bool(getattr(channel, "is_height_channel", True))
 
 
 @contextlib.contextmanager
@@ -204,9 +211,10 @@ def convert(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
-        if os.path.isfile(given.file) and is_of_program(given.file):
+        if not (opened := open_file(given.file, channel, given.unit)):
+            checked(given.file, None, fill_missing="harmonic")
             raise ValueError(f"{given.file}: decks read this file as it is")
-        x, z, sides, unit = open_file(given.file, channel, given.unit)
+        x, z, sides, unit = opened
         kind, rows = Path(given.map).suffix, np.atleast_2d(z)
         if x is not None and kind != ".txt":
             raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")

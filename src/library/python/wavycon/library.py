@@ -34,7 +34,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "get_column": (c_int, [POINTER, TEXT, c_int, POINTER]),
     "get_fields": (c_int, [POINTER, c_int] + [POINTER]*5),
     "get_grid": (c_int, [POINTER, c_int, c_int] + [POINTER]*4),
-    "get_bounds": (c_int, [POINTER, c_double, c_int, c_int] + [POINTER]*3),
+    "get_bounds": (c_int, [POINTER, c_double, c_int, c_int] + [POINTER]*4),
     "get_stresses": (c_int, [POINTER, c_int] + [POINTER]*3 + [c_double, TEXT] + [POINTER]*2),
     "get_invariants": (c_int, [c_int] + [POINTER]*4),
 }

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from . import regions
 from .library import need
+from .names import Column
 from .surfaces import unknown
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ def scaled(facts: Facts, column: str) -> tuple[float, str]:
     if unit in ("Pa", "m") and size > 0:
         power = 3*int(np.clip(np.floor(np.log10(size/3)/3), -8, 8))
         return 10.0**-power, f"{words} [{need('matplotlib.ticker', 'plot').EngFormatter.ENG_PREFIXES[power]}{unit}]"
+    unit = {"Pa*m^2": "N", "Pa*m^2*m": "J"}.get(unit, unit)
     unit = re.sub(r"\bum\b", "\u00b5m", unit).replace("^2", "\u00b2").replace("*", " ")
     return 1.0, f"{words} [{unit}]" if unit else words
 
@@ -45,7 +47,7 @@ def title(result: Result) -> str:
     return words.replace("[", f"{factor*result.mean_pressure:.4g} ").rstrip("]") + status
 
 
-def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pressure", ax: Any = None,
+def plot(results: Results, y: Column = "contact_area_fraction", x: Column = "mean_pressure", ax: Any = None,
          **style: Any) -> Any:
     """Draws a column of the summary over another, with its error estimates, on matplotlib's Axes, made if not given,
     and returns these. Loads that are not resolved or not solved as requested are open symbols, those whose error is
@@ -72,7 +74,8 @@ def plot(results: Results, y: str = "contact_area_fraction", x: str = "mean_pres
     return ax
 
 
-def plot_map(result: Result, field: str = "pressure", ax: Any = None, **style: Any) -> Any:
+def plot_map(result: Result, field: Literal["pressure", "gap", "displacement", "regions"] = "pressure", ax: Any = None,
+             **style: Any) -> Any:
     """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these;
     or 'regions': each spot of contact in a colour, and what percolates. style: options of pcolormesh, such as vmax in
     the units that are drawn, for a profile of plot."""
@@ -114,7 +117,7 @@ def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
         said = dict(zip(table.dtype.names or (), table[0]))
     for words, colour in regions.legend(colours, said):
         ax.plot([], [], "s", color=colour, label=words)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=4, ncols=2, frameon=False)
     ax.set(title=title(result), aspect="equal", **{f"{axis}label": scaled(facts, axis)[1] for axis in "xy"})
     return ax
 

@@ -6,6 +6,7 @@ import dataclasses
 import html
 import json
 import os
+import re
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import IO, TYPE_CHECKING, Any, cast, overload
@@ -24,8 +25,8 @@ HDF5 = (".h5", ".hdf5")
 # In a file: the number of the load that has the columns, where there are no loads.
 MODEL = 0
 # The columns that notebooks show.
-SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "approach", "approach_error",
-         "peak_pressure", "peak_pressure_error", "status")
+SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "approach",
+         "approach_error", "peak_pressure", "peak_pressure_error", "status")
 
 
 class Units(dict[str, str]):
@@ -125,9 +126,10 @@ class Result(Named, Columns[float, str]):
 
     def _live(self, what: str) -> Handle:
         if self._solution is None:
+            heights = "the heights to that which it names, " if "kind = 'file'" in self._facts.deck else ""
             raise ValueError(f"'{what}' was not saved: a copy or a file has no solver, but the tables that were asked "
                              "for before, and pressure, gap and displacement at x and y if fields were kept. For more "
-                             "write results.deck to a file and solve it by wavycon.run")
+                             f"write results.deck to a file, {heights}and solve it by wavycon.run")
         return self._solution
 
     @cached_property
@@ -141,6 +143,11 @@ class Result(Named, Columns[float, str]):
         sides = self._facts.length_x, self._facts.length_y
         places = [side*(np.arange(number) + first)/number for side, number, first in zip(sides, points, offset)]
         return {name: locked(values) for name, values in zip(("x", "y", *FIELDS), [*places, *fields])}
+
+    @property
+    def p_star(self) -> float:
+        """[pressure] Mean pressure that just closes the gap everywhere."""
+        return self._facts.p_star
 
     @property
     def x(self) -> Array:
@@ -176,9 +183,10 @@ class Result(Named, Columns[float, str]):
         call("get_fields", solution, x.size, address(x), address(y), *map(address, fields.values()))
         return fields
 
-    def stresses_at(self, x: npt.ArrayLike, y: npt.ArrayLike, depth: npt.ArrayLike, nu: float,
+    def stresses_at(self, x: npt.ArrayLike, y: npt.ArrayLike, depth: npt.ArrayLike, nu: float | None = None,
                     lateral: str = "constrained") -> dict[str, Array]:
-        """Stresses [pressure] at points x, y, depth [length], arrays of one shape, in a body with Poisson's ratio nu.
+        """Stresses [pressure] at points x, y, depth [length], arrays of one shape, in a body with Poisson's ratio nu;
+        without it nu of stress={...} in the solve, or nu1.
 
         Depths are 0 or more and point into the body, tension is positive. lateral: as the key of &stress. The answer
         has stress, with six components xx, yy, zz, xy, xz, yz along a last axis, stress_error, the estimate of its
@@ -188,6 +196,10 @@ class Result(Named, Columns[float, str]):
                                                   "largest_shear": (), "principal": (3,)}
         parts = {name: np.empty(places[0].shape + axis) for name, axis in components.items()}
         stress, error, *invariants = map(address, parts.values())
+        if nu is None:
+            if not (found := re.search(r"(?:&stress[^&]*\n +nu|\n +nu1) = (\S+)", self._facts.deck)):
+                raise ValueError("give nu, Poisson's ratio of the body: this deck has neither nu1 nor nu of &stress")
+            nu = float(found[1])
         call("get_stresses", solution, places[0].size, *map(address, places), float(nu), lateral.encode(),
              stress, error)
         call("get_invariants", places[0].size, stress, *invariants)

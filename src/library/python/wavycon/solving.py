@@ -10,12 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from . import library
-from .deck import deck_text, groups_of, value_text
+from .deck import groups_of, scene_of, value_text
 from .library import Handle, address, call, keys, reals
 from .names import Load, Options, Settings, Unpack
 from .progress import Watch
 from .results import Facts, Result, Results, note_news
-from .surfaces import Surface
+from .surfaces import SIDES, Surface, meanings, unknown
+
+NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
 
 def solve(surface: Surface, *, keep_fields: bool = True, progress: bool = True, **options: Unpack[Options]) -> Results:
@@ -42,29 +44,43 @@ class Bounds(NamedTuple):
     mean_gap: tuple[float, float]   # [length]
 
 
-def certify(surface: Surface, pressure: npt.ArrayLike, gap: npt.ArrayLike, *, mean_pressure: float,
+def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLike | None = None, *,
+            mean_pressure: float, x: npt.ArrayLike | None = None, y: npt.ArrayLike | None = None,
             **options: Unpack[Settings]) -> Bounds:
     """Guaranteed bounds of the contact of a surface under a mean pressure, from any pressure and gap, also those of
     another code. They hold for the surface itself, not for its points, and whatever is given: the right answer makes
     them close, a wrong one makes them wide.
 
     pressure [pressure], gap [length]: of the shape (y, x) or, of a profile, (x,), at equal steps over the whole
-    surface, of a height map at its own points or at more. The first point is at x = y = 0, that of a map with
-    edges="mirror" half a step further. Negative pressures count as 0, and so do negative gaps unless there is a
-    hardness; the pressure is scaled to the mean. options: as of solve, such as e_star.
+    surface, of a height map at its own points or at more; or a Result in place of both, which has x and y too. x, y
+    [length]: their places. The first one is at most a step from 0, on a map with edges="mirror" half a step; without
+    x and y it is at 0, on such a map at half a step. Negative pressures count as 0, and so do negative gaps unless
+    there is a hardness; the pressure is scaled to the mean. options: as of solve, such as e_star.
 
         one = wc.solve(surface, e_star=2e11, mean_pressure=1e7)[0]
-        wc.certify(surface, one.pressure, one.gap, e_star=2e11, mean_pressure=1e7).mean_gap
+        wc.certify(surface, one, e_star=2e11, mean_pressure=1e7).mean_gap
     """
-    p, g = np.atleast_2d(reals(pressure), reals(gap))
+    fields: Any = pressure, gap
+    if isinstance(pressure, Result):
+        fields, x, y = (pressure.pressure, pressure.gap), pressure.x, pressure.y
+    p, g = np.atleast_2d(*map(reals, fields))
     if p.ndim != 2 or p.shape != g.shape:
         raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {p.shape} and {g.shape}")
     if mean_pressure is None or np.ndim(mean_pressure):
         raise ValueError(f"mean_pressure must be one number, got {mean_pressure!r}")
     scene = scene_of(surface, {"mean_pressure": mean_pressure, **options}, keep_fields=False)
     library.tell(library.text(scene, "notes").splitlines())
-    bounds = np.empty((3, 2))
-    call("get_bounds", scene, float(mean_pressure), *p.shape[::-1], *map(address, (p, g, bounds)))
+    offset, bounds = np.zeros(2), np.empty((3, 2))
+    for axis, (places, points) in enumerate(zip((x, y), p.shape[::-1])):
+        if places is not None and points > 1:
+            side = library.number(scene, SIDES[axis])
+            steps = reals(places)*points/side
+            if steps.shape != (points,) or abs(steps - steps[0] - np.arange(points)).max() > NEAR:
+                raise ValueError(f"{'xy'[axis]} must have the places of {points} points, at equal steps over the whole "
+                                 f"side {side:g}")
+            offset[axis] = steps[0]
+    call("get_bounds", scene, float(mean_pressure), *p.shape[::-1], None if x is y is None else address(offset),
+         *map(address, (p, g, bounds)))
     return Bounds(*((float(lower), float(upper)) for lower, upper in bounds))
 
 
@@ -91,13 +107,22 @@ class Problem:
     def __exit__(self, *_: object) -> None:
         self._scene = None
 
+    @property
+    def p_star(self) -> float:
+        """[pressure] Mean pressure that just closes the gap everywhere."""
+        return self._facts.p_star
+
     def solve(self, *, progress: bool = True, **load: Unpack[Load]) -> Results:
         """Solves loads, a number or a list of one key of &load, such as mean_pressure=[1e6, 1e7], or its word, such as
         percolates="gap". A solver may start from the load before, so that last digits depend on it."""
         if self._scene is None:
             raise ValueError("this problem has ended with its `with`")
+        known = keys()["load"]
+        for key in load:
+            if key not in known:
+                raise ValueError(unknown("key", key, known, meanings(["load"])))
         if len(load) != 1:
-            raise ValueError(f"give the loads by one of {', '.join(keys()['load'])}")
+            raise ValueError(f"give the loads by one of {', '.join(known)}")
         given: Any
         (name, given), = load.items()
         if isinstance(given, str):
@@ -112,26 +137,16 @@ class Problem:
         return solve_all(self._scene, self._facts, order.tolist(), progress,
                          lambda scene, load: call("solve", scene, name.encode(), values[load - 1]))
 
-    def find(self, **load: Unpack[Load]) -> Result:
+    def find(self, *, progress: bool = True, **load: Unpack[Load]) -> Result:
         """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3, or percolates: its
-        table "percolation" has the error of the load."""
+        table "percolation" has the error of the load. progress: as of solve."""
         values: Any = load.values()
         if any(map(np.ndim, values)):
             raise ValueError("find needs one value, not a list; solve takes lists")
-        return self.solve(**load)[0]
+        return self.solve(progress=progress, **load)[0]
 
 
 problem = Problem
-
-
-def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) -> Handle:
-    """The scene of a surface and of options as of solve."""
-    groups = groups_of(surface, options)
-    rows, columns = (0, 0) if surface.heights is None else surface.heights.shape
-    heights = None if surface.heights is None else address(surface.heights)
-    deck = deck_text(groups).encode()
-    scene: Handle = call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows, heights)
-    return scene
 
 
 def run(deck: str | os.PathLike[str], set: Mapping[str, object] = MappingProxyType({}), *, keep_fields: bool = True,

@@ -5,8 +5,6 @@ import dataclasses
 import difflib
 import functools
 import inspect
-import os
-import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ParamSpec
@@ -14,14 +12,13 @@ from typing import Any, ParamSpec
 import numpy as np
 import numpy.typing as npt
 
-from .library import keys
+from .library import address, call, keys, number, tell, text
 
 FEW = 30          # names that a message lists
 MOST = 3          # names that a message proposes
 CLOSE = 0.75      # least similarity of names, by difflib, that differ by slips
 SHORTEST = 3, 4   # letters of a part of a name, and of a word of a meaning, that is looked for
-# Keys that each of two maps has for itself: the key of the second one, and its value if none is given.
-OF_SECOND = {"height_scale": ("file2_scale", 1.0), "detrend": ("file2_detrend", "none")}
+SIDES = "length_x", "length_y"
 Parameters = ParamSpec("Parameters")
 
 
@@ -29,59 +26,64 @@ Parameters = ParamSpec("Parameters")
 class Surface:
     """A surface: keys of &surface, heights in memory, and the unit of length of its file, if it names one.
 
-    Two surfaces of heights in memory make one, which has the sum of their heights: first + second.flipped()."""
+    Two surfaces of maps make one, which has the sum of their heights: first + second.flipped()."""
 
     keys: dict[str, Any]
     heights: npt.NDArray[np.float64] | None = None
     length_unit: str | None = None
-    folder: object = None   # of files that were made, which live as long as the surface
+    __array_ufunc__ = None   # array + surface is an error of __radd__, not of each number
 
     def __repr__(self) -> str:
         shape = "" if self.heights is None else f"array of shape {self.heights.shape}, "
         return f"Surface({shape}{', '.join(f'{key}={value!r}' for key, value in self.keys.items())})"
 
+    def prepared(self) -> Surface:
+        """The map as it is solved, its heights in memory: read, without its trend, filled, filtered. Of its keys the
+        sides and the edges remain. Errors: ValueError for a surface that is no map, and as of solve."""
+        from .deck import scene_of   # which needs this module
+        if self.keys.get("kind") != "file":
+            raise ValueError("only maps can be turned over and added, heights in memory and files")
+        own = {key: value for key, value in self.keys.items() if key in (*SIDES, "edges") and value != "window"}
+        if self.heights is not None and len(own) == len(self.keys) - len(("kind", "file")):
+            return self
+        scene = scene_of(self, {}, keep_fields=False)
+        tell(text(scene, "notes").splitlines())
+        table = call("new_table", call("solve", scene, b"mean_pressure", 0.0), b"height")
+        heights = np.empty((int(number(scene, "points_y")), int(number(scene, "points_x"))))
+        call("get_column", table, b"height", heights.size, address(heights))
+        own |= {side: number(scene, side) for side in SIDES[:1 if len(heights) == 1 else 2]}
+        unit = text(scene, "length_unit")
+        return Surface({"kind": "file", "file": "heights", **own}, heights, None if unit == "length" else unit)
+
     def flipped(self) -> Surface:
         """The map turned over about the y axis, as that of the second body is when it is laid on the first one: the
-        last point along x becomes the first. Its heights still rise out of their body. Errors: ValueError for a surface
-        without heights in memory."""
-        if self.heights is None:
-            raise ValueError("only heights in memory can be turned over: wavycon.file(file=..., file2=...) turns the "
-                             "map of a second file")
-        along_x = self.heights.ndim - 1 if self.heights.shape[-1] > 1 else 0   # a column is a profile
-        return dataclasses.replace(self, heights=np.flip(self.heights, along_x).copy())
+        last point along x becomes the first. Its heights still rise out of their body. A file is prepared before."""
+        whole = self if self.heights is not None else self.prepared()
+        return dataclasses.replace(whole, heights=np.flip(np.asarray(whole.heights), 1).copy())
 
     def __add__(self, other: Surface) -> Surface:
-        """The surface of two bodies: the sum of two maps, each prepared before they are added, with its own detrend
-        and height_scale. Errors: ValueError for a surface without heights in memory, and for other keys, points and
-        units that are not the same."""
+        """The surface of two bodies: the sum of two maps, each prepared before by its own keys. Errors: ValueError for
+        points, sides, edges and units that are not the same."""
         if not isinstance(other, Surface):
-            return NotImplemented
-        if self.heights is None or other.heights is None:
-            raise ValueError("only two surfaces of heights in memory can be added: wavycon.file(file=..., file2=...) "
-                             "adds the maps of two files")
-        if self.heights.shape != other.heights.shape:
-            raise ValueError("two maps must have the same points, got the shapes "
-                             f"{self.heights.shape} and {other.heights.shape}")
-        first, second = ({name: value for name, value in {"length_unit": surface.length_unit, **surface.keys}.items()
-                          if value is not None} for surface in (self, other))
-        points = dict(zip(("length_y", "length_x"), self.heights.shape))
-        for name in {**first, **second}:
-            one: Any = first.get(name)
-            two: Any = second.get(name)
-            # A map without sides or unit has those of the other one. Sides of instruments may differ by half a step.
-            if one == two or name in OF_SECOND or (name.startswith("length_") and None in (one, two)) or (
-                    name in points and 2*points[name]*abs(one - two) <= one):
-                continue
-            raise ValueError(f"two maps must have the same {name}, got {one!r} and {two!r}")
-        own = {key: second.get(name, default) for name, (key, default) in OF_SECOND.items()
-               if name in {**first, **second}}
-        folder = tempfile.TemporaryDirectory(prefix="wavycon-")
-        files = {name: os.path.join(folder.name, f"{name}.npy") for name in ("file", "file2")}
-        for file, heights in zip(files.values(), (self.heights, other.heights)):
-            np.save(file, heights)
-        both = {**{name: value for name, value in second.items() if name not in OF_SECOND}, **first, **files,
-                "file2_flip": False, **own}
-        return Surface(both, None, both.pop("length_unit", None), folder)
+            raise TypeError(f"a surface and {type(other).__name__} cannot be added: wavycon.heights makes a surface of "
+                            "an array")
+        maps = [one if one.heights is not None else one.prepared() for one in (self, other)]
+        # A map without sides or unit has those of the other one.
+        maps = [Surface({**{side: more.keys[side] for side in SIDES if side in more.keys}, **one.keys}, one.heights,
+                        one.length_unit or more.length_unit).prepared() for one, more in zip(maps, maps[::-1])]
+        first, second = (np.asarray(one.heights) for one in maps)
+        facts: list[dict[str, Any]] = [{"shape": np.asarray(one.heights).shape, "length_unit": one.length_unit,
+                                        "edges": "periodic", **dict.fromkeys(SIDES), **one.keys} for one in maps]
+        points = dict(zip(SIDES, first.shape[::-1]))
+        for name in "shape", "length_unit", *SIDES, "edges":
+            own, others = (one[name] for one in facts)
+            # Sides of instruments may differ by half a step.
+            is_near = name in points and (None in (own, others) or 2*points[name]*abs(own - others) <= own)
+            if own != others and not is_near:
+                raise ValueError(f"two maps must have the same {name}, got {own!r} and {others!r}")
+        return Surface({**maps[1].keys, **maps[0].keys}, first + second, maps[0].length_unit)
+
+    __radd__ = __add__
 
 
 def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surface]:
@@ -93,7 +95,7 @@ def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surfa
         for name in given:
             if name not in known:
                 raise ValueError(f"{function.__name__}: {unknown_key(name, list(known))}")
-        return Surface({**function(*none, **given).keys, **given})
+        return Surface({**function(*none, **given).keys, **{key: one for key, one in given.items() if one is not None}})
 
     return make
 
