@@ -36,7 +36,8 @@ contains
       logical, intent(in) :: resume    !! whether to continue from the checkpoint of an interrupted run
       !> Whether a checkpoint is to say that this deck is done, until remove_done removes it.
       logical, intent(in) :: is_one_of_many
-      !> Complete on the first rank if there is no error; its loads are not allocated if the interrupted run had done all.
+      !> Complete on the first rank if there is no error; its loads are not allocated if the interrupted run had done
+      !> them all.
       type(results_type), intent(out) :: results
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
