@@ -170,10 +170,13 @@ contains
                end associate
                do l = 1, map%points(2)
                   ! The state is 0 where the gap is open, 1 where the contact slips and 2 where it sticks.
-                  state = [(real(count([p(k, l), p_of_stick(k, l)] > 0.0_dp), dp), k=1, map%points(1))]
-                  values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
-                                              p_star*p(:, l), state], [map%points(1), 3]))
-                  if (.not. results%slip(i, load)%stick%has_numbers()) values = not_a_number()
+                  if (results%slip(i, load)%stick%has_numbers()) then
+                     state = [(real(count([p(k, l), p_of_stick(k, l)] > 0.0_dp), dp), k=1, map%points(1))]
+                     values = transpose(reshape([friction*p_star*max(p(:, l) - p_of_stick(:, l), 0.0_dp), &
+                                                 p_star*p(:, l), state], [map%points(1), 3]))
+                  else
+                     values = reshape([real(dp) ::], [3, map%points(1)], pad=[not_a_number()])
+                  end if
                   call map%put_row([load, i], l, values)
                end do
             end do

@@ -7,7 +7,7 @@ module wavycon_results
    use wavycon_contact_spots, only: contact_spots
    use wavycon_contact_tuning, only: largest_stress_error
    use wavycon_head_lines, only: head_lines
-   use wavycon_kinds, only: dp, ieee_is_nan, not_a_number
+   use wavycon_kinds, only: dp, ieee_is_finite, ieee_is_nan, not_a_number
    use wavycon_largest_stress, only: largest_stress
    use wavycon_memory_table, only: column_list, column_type, memory_table
    use wavycon_output_file, only: output_file
@@ -231,7 +231,7 @@ contains
       real(dp), intent(in) :: number
 
       in_p_star = number
-      if (self%solver%surface%has_free_edges .or. (self%scene%p_star <= 0.0_dp .and. number <= huge(number))) &
+      if (self%solver%surface%has_free_edges .or. (self%scene%p_star <= 0.0_dp .and. ieee_is_finite(number))) &
          in_p_star = not_a_number()
    end function in_p_star
 
