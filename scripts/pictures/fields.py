@@ -340,8 +340,8 @@ def spectra(picture):
         sizes = [c for some in of_kind for _, c in some if c > 0] or [1.0]
         y = decades(sizes, f"spectrum {{/:Italic C}}{index}" + (unit and f" [{unit}^{power}]"), 1.001)
         several, few = len(of_kind) == 2, len(sizes) <= FEW
-        picture.panel(n, x, y, [picture.curve(f"linespoints ls {31 + k} ps {1.6 - 0.7*k if few else 0.5}*mark", *zip(*some),
-                                              title=f"along {(X, Y)[k]}" if several else None)
+        picture.panel(n, x, y, [picture.curve(f"linespoints ls {31 + k} ps {1.6 - 0.7*k if few else 0.5}*mark",
+                                              *zip(*some), title=f"along {(X, Y)[k]}" if several else None)
                                 for k, some in enumerate(of_kind)], key="top right samplen 2" if several else "")
 
 

@@ -15,8 +15,8 @@ module wavycon_notes
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
       target_words
-   use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, iteration_limit, not_accurate, not_found, &
-      solution_record, solver_names, status_name, unresolved
+   use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, iteration_limit, not_accurate, &
+      not_found, solution_record, solver_names, status_name, unresolved
    implicit none (type, external)
    private
 
