@@ -5,11 +5,10 @@
 module wavycon_energy_bounds
    use wavycon_alias_sums, only: alias_sums
    use wavycon_assertion, only: assert
-   use wavycon_constants, only: pi
    use wavycon_fourier_series, only: fourier_series, turn
    use wavycon_full_contact, only: mean_compliance
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp, ieee_is_finite, ieee_is_nan, not_a_number
+   use wavycon_kinds, only: dp, ieee_is_finite, ieee_is_nan, not_a_number, pi
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private

@@ -35,7 +35,7 @@ def scaled(facts: Facts, column: str) -> tuple[float, str]:
     if unit in ("Pa", "m") and size > 0:
         power = 3*int(np.clip(np.floor(np.log10(size/3)/3), -8, 8))
         return 10.0**-power, f"{words} [{need('matplotlib.ticker', 'plot').EngFormatter.ENG_PREFIXES[power]}{unit}]"
-    unit = {"Pa*m^2": "N", "Pa*m^2*m": "J"}.get(unit, unit)
+    unit = {"N*m": "J"}.get(unit, unit)
     unit = re.sub(r"\bum\b", "\u00b5m", unit).replace("^2", "\u00b2").replace("*", " ")
     return 1.0, f"{words} [{unit}]" if unit else words
 
