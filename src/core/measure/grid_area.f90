@@ -154,7 +154,6 @@ contains
 
       real(dp), allocatable :: sums(:, :)
       real(dp), dimension(0:edge%slab%points(1) + 1) :: here, next
-      real(dp) :: total(1)
       integer :: i, j
 
       allocate (sums(1, edge%slab%columns()), source=0.0_dp)
@@ -170,8 +169,7 @@ contains
             end do
          end associate
       end do
-      total = edge%slab%column_totals(sums)
-      spread = total(1)
+      spread = sum(edge%slab%column_totals(sums))
 
    contains
 

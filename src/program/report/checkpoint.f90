@@ -46,7 +46,7 @@ module wavycon_checkpoint
       integer, private :: loads = 0                            !! number of loads of the run
       integer(int64), private :: bytes = 0                     !! length of the file so far
       character(:), allocatable, private :: name               !! path of the file
-      character(:), allocatable, private :: text               !! the description of the run
+      character(:), allocatable, private :: description        !! of the run, from describe
    contains
       procedure :: create
       procedure :: add
@@ -93,34 +93,47 @@ contains
    !> Creates the checkpoint of a run with the solutions that are known already. The file replaces the checkpoint of an
    !> earlier run only when it holds all of these. An error of writing does not stop the run: `is_complete` is then
    !> .false.
-   subroutine create(self, results, known, text)
+   subroutine create(self, results, known)
       class(checkpoint_file), intent(out) :: self
       type(results_type), intent(in) :: results   !! its directory exists
       logical, intent(in) :: known(:)             !! whether the solution of each load is known
-      character(*), intent(in), optional :: text  !! the description; absent: all ranks together make it here
 
       integer :: load
 
-      if (present(text)) then
-         self%text = text
-      else
-         self%text = description(results)
-      end if
       self%name = checkpoint_name(results)
-      call remove_others(results)
-      self%file = open_written(self%name//c_null_char)
-      self%is_complete = .true.
-      self%bytes = len(mark)
       self%loads = size(results%loads)
-      if (put_text(self%file, mark, len(mark, c_size_t)) /= 0) call close_file(self)
-      call put(self, transfer(self%text//repeat(' ', modulo(-len(self%text), bytes_of_word)), [0_int64]))
+      self%description = describe(results)
+      call remove_others(results)
+      call begin(self)
       do load = 1, size(results%loads)
          if (known(load)) call self%add(load, results%loads(load))
       end do
+      call give_name(self)
+   end subroutine create
+
+   !> Begins a file with the description of the run. It has no name yet.
+   subroutine begin(self)
+      type(checkpoint_file), intent(inout) :: self
+
+      self%file = open_written(self%name//c_null_char)
+      self%is_complete = .true.
+      self%has_name = .false.
+      self%kept = -1
+      self%bytes = len(mark)
+      if (put_text(self%file, mark, len(mark, c_size_t)) /= 0) call close_file(self)
+      associate (text => self%description)
+         call put(self, transfer(text//repeat(' ', modulo(-len(text), bytes_of_word)), [0_int64]))
+      end associate
+   end subroutine begin
+
+   !> Gives a file its name. It replaces the checkpoint that has this name.
+   subroutine give_name(self)
+      type(checkpoint_file), intent(inout) :: self
+
       self%has_name = .true.
       if (.not. self%is_complete) return
       if (end_written(self%file, 1_c_int, 1_c_int) /= 0) call close_file(self)
-   end subroutine create
+   end subroutine give_name
 
    !> Adds a solution, if it took long (contact_solution%is_kept).
    subroutine add(self, load, solution)
@@ -147,16 +160,12 @@ contains
       integer, intent(in) :: status      !! exit status of the deck
       logical, intent(in) :: says_done   !! whether a checkpoint that says so stays, until remove_done
 
-      character(:), allocatable :: text
-      integer(int64) :: bytes
-
-      bytes = self%bytes
-      text = self%text
       call close_file(self)
-      if (file_size(self%name) == bytes) then
+      if (file_size(self%name) == self%bytes) then
          if (says_done .and. results%sharing%is_first) then
-            call self%create(results, spread(.false., 1, size(results%loads)), text)
+            call begin(self)
             call put(self, [0_int64, int(status, int64)])
+            call give_name(self)
             call close_file(self)
          else
             call remove_file(self%name)
@@ -245,7 +254,7 @@ contains
 
       known = .false.
       status = -1
-      now = description(results)
+      now = describe(results)
       number = alone
       do while (.not. allocated(error))
          name = checkpoint_name(results, number)
@@ -308,13 +317,13 @@ contains
 
    !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
    !> results.
-   function description(results) result(text)
+   function describe(results) result(text)
       type(results_type), intent(in) :: results
       character(:), allocatable :: text
 
       text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//integer_text(surface_checksum(results))// &
              newline//results%scene%fingerprint
-   end function description
+   end function describe
 
    !> A sentence that says how the descriptions of two runs differ; empty if they are equal.
    function difference(before, now) result(words)
