@@ -33,6 +33,17 @@ module wavycon_measure_tuning
    real(dp), parameter, public :: cell_edge_offset = 0.160_dp
    real(dp), parameter, public :: cell_turn_area = 0.80_dp
 
+   ! The peak on grids that do not resolve the waves of the surface, (C13a).
+
+   !> A local maximum of the points is raised by this times what cubic interpolation midway to its larger neighbour adds
+   !> to linear interpolation. A kink of the surface on a mirror line makes the pressure rise this much more.
+   real(dp), parameter, public :: rise_factor = 4.0_dp
+   !> Number of raised local maxima about which the pressure is interpolated.
+   integer, parameter, public :: most_crests = 4
+   !> Points to a wave of the surface's shortest ones, from which on the polynomial of degree 5 through the points is
+   !> enough: it misses the crest of such a wave by 1e-3 of its amplitude.
+   integer, parameter, public :: resolved_points = 8
+
    ! Histograms, (A7) of README.md in this directory.
 
    !> Number of points in 1-D at which solutions without a grid are sampled. Bins of 1 % of the period then have errors

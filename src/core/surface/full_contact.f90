@@ -1,16 +1,18 @@
 !> The pressure that belongs to a displacement of the bodies' surface, and the inverse, in the units of a surface; and
 !> full contact, where the displacement is the shape.
 module wavycon_full_contact
-   use wavycon_fourier_series, only: divide_series, fourier_series, weighted
+   use wavycon_fourier_series, only: divide_series, fourier_series, turn, weighted
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp
+   use wavycon_lapack, only: dgemm
    use wavycon_roughness, only: roughness_of, roughness_type
    use wavycon_series_peak, only: find_peak
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
 
-   public :: displacement_of, full_contact_energy, full_contact_series, mean_compliance, pressure_of, set_closure
+   public :: displacement_of, full_contact_energy, full_contact_patches, full_contact_series, mean_compliance, &
+      pressure_of, set_closure
 
 contains
 
@@ -41,6 +43,81 @@ contains
       pressure = pressure_of(surface, surface%shape)
       call pressure%set_mean(pbar_over_pstar)
    end function full_contact_series
+
+   !> The pressure (p - pbar)/p* in full contact at the crossings of few lines: on each patch those of some lines along
+   !> y with some along x. First the waves of each wave number in X are added for all lines along x, by products of
+   !> matrices; rows of the series are weighted as they are needed, so that no second series is in memory.
+   function full_contact_patches(surface, highest, x, y) result(pressure)
+      type(surface_type), intent(in) :: surface   !! the shape may be distributed
+      integer, intent(in) :: highest(2)           !! waves with larger wave numbers in X or Y are left out
+      real(dp), intent(in) :: x(:, :), y(:, :)    !! X and Y of the lines [rad], shapes (any, patches)
+      real(dp) :: pressure(size(x, 1), size(y, 1), size(x, 2))
+
+      integer, parameter :: most_rows = 32        ! of the series in one product
+      complex(dp) :: phase(size(x, 1))
+      real(dp), allocatable :: factor(:), rows(:, :, :), sums(:, :), terms(:, :)
+      real(dp) :: turns(most_rows, size(y), 2)    ! cos lY, sin lY
+      integer :: first, i, k, l, last(2), n, numbers, p, r
+
+      associate (shape => surface%shape, length => surface%length)
+         first = shape%first()
+         last = min(shape%last([1, 2]), highest)
+         ! For l > 0 the waves of l and -l are (W_l + W_-l) cos lY + i (W_l - W_-l) sin lY; real ones have no sine.
+         numbers = 2
+         if (shape%is_even()) numbers = 1
+         n = numbers*max(last(1) - first + 1, 0)
+         allocate (rows(n, most_rows, numbers), sums(n, size(y)))
+         sums = 0.0_dp
+         do l = 0, last(2), most_rows
+            r = min(most_rows, last(2) - l + 1)
+            do i = 1, r
+               factor = [((k/length(1))**2 + ((l + i - 1)/length(2))**2, k=first, last(1))]
+               call surface%kernel%of(factor)
+               turns(i, :, 1) = reshape(cos((l + i - 1)*y), [size(y)])
+               if (shape%is_even()) then
+                  rows(:, i, 1) = factor*shape%c(:last(1), l + i - 1)
+               else
+                  associate (ahead => shape%wave(:last(1), l + i - 1), back => shape%wave(:last(1), -(l + i - 1)))
+                     if (l + i == 1) factor = 0.5_dp*factor
+                     turns(i, :, 2) = reshape(sin((l + i - 1)*y), [size(y)])
+                     rows(1::2, i, 1) = factor*(ahead%re + back%re)
+                     rows(2::2, i, 1) = factor*(ahead%im + back%im)
+                     rows(1::2, i, 2) = factor*(back%im - ahead%im)
+                     rows(2::2, i, 2) = factor*(ahead%re - back%re)
+                  end associate
+               end if
+            end do
+            do i = 1, numbers
+               if (n > 0) call dgemm('N', 'N', n, size(y), r, 1.0_dp, rows(:, :, i), n, turns(:, :, i), most_rows, &
+                                     1.0_dp, sums, n)
+            end do
+         end do
+         allocate (terms(size(x, 1)*size(y, 1), first:shape%last(1)), source=0.0_dp)
+         do p = 1, size(x, 2)
+            associate (own => sums(:, (p - 1)*size(y, 1) + 1:p*size(y, 1)))
+               do k = first, last(1)
+                  phase = turn(k*x(:, p))
+                  i = numbers*(k - first) + 1
+                  if (shape%is_even()) then
+                     terms(:, k) = reshape(outer(phase%re, own(i, :)), [size(terms, 1)])
+                  else
+                     terms(:, k) = reshape(outer(phase%re, own(i, :)) - outer(phase%im, own(i + 1, :)), &
+                                           [size(terms, 1)])
+                  end if
+               end do
+            end associate
+            pressure(:, :, p) = surface%stiffness*reshape(shape%rows%column_totals(terms), [size(x, 1), size(y, 1)])
+         end do
+      end associate
+   end function full_contact_patches
+
+   !> The products of all numbers of one list with all of another, shape (size(a), size(b)).
+   pure function outer(a, b)
+      real(dp), intent(in) :: a(:), b(:)
+      real(dp) :: outer(size(a), size(b))
+
+      outer = spread(a, 2, size(b))*spread(b, 1, size(a))
+   end function outer
 
    !> The elastic energy per nominal area in full contact [p* Delta]: half the mean of p times the shape, as a sum over
    !> waves by Parseval's theorem, (M25a) of src/core/map/README.md.
