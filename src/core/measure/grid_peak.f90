@@ -47,36 +47,46 @@ contains
       real(dp), intent(out) :: peak         !! the peak pressure, in the unit of the edge's pressure; with a surface p*
       !> For the error estimate (C16): zero if all points of the polynomial are in contact. Otherwise minus half the
       !> sum of the pressure's second differences at the largest pressure, or `unknown` if one of its four neighbours is
-      !> not in contact. With a surface at least the difference between polynomials of two degrees.
+      !> not in contact. With a surface at least the difference between polynomials of two degrees, and how much higher
+      !> than the peak a local maximum may be that was left out.
       real(dp), intent(out) :: bend
       !> The surface, without free edges, if the grid does not resolve its waves.
       type(surface_type), intent(in), optional :: surface
 
-      integer :: best(2, most_crests), i, number
+      integer :: place(2)
       real(dp) :: highest
-      real(dp), allocatable :: full(:, :, :)
-      type(crest_type) :: crests(most_crests)
 
       if (present(surface)) then
-         call find_crests(edge, best, number)
+         call find_peak_between(edge, surface, peak, bend)
       else
-         number = 1
-         call edge%slab%find_largest(edge%pressure_or_gap, highest, best(:, 1))
+         call edge%slab%find_largest(edge%pressure_or_gap, highest, place)
+         call climb(crest_at(edge, place), edge%slab%points(2) > 1, peak, bend)
       end if
+   end subroutine grid_peak_pressure
+
+   !> The same by (C13a).
+   subroutine find_peak_between(edge, surface, peak, bend)
+      type(grid_edge), intent(in) :: edge
+      type(surface_type), intent(in) :: surface
+      real(dp), intent(out) :: peak, bend
+
+      integer :: i, number, places(2, most_crests(surface%dimension))
+      real(dp) :: left
+      real(dp), allocatable :: full(:, :, :)
+      type(crest_type) :: crests(size(places, 2))
+
+      call find_crests(edge, places, number, left)
       do i = 1, number
-         crests(i) = crest_at(edge, best(:, i))
+         crests(i) = crest_at(edge, places(:, i))
       end do
-      if (.not. present(surface)) then
-         call climb(crests(1), edge%slab%points(2) > 1, peak, bend)
-         return
-      end if
-      full = full_pressures(edge, surface, crests(:number))
+      call find_full_pressures(edge, surface, crests(:number), full)
       peak = 0.0_dp
       bend = unknown
       do i = 1, number
          call climb_between(crests(i), full(:, :, i), peak, bend)
       end do
-   end subroutine grid_peak_pressure
+      bend = max(bend, left - peak)
+   end subroutine find_peak_between
 
    !> What is about a point. The process that has the point looks, and all get its numbers.
    function crest_at(edge, place) result(crest)
@@ -132,7 +142,7 @@ contains
    !> to points a fifth of a step apart.
    pure subroutine climb_between(crest, full, peak, bend)
       type(crest_type), intent(in) :: crest
-      real(dp), intent(in) :: full(:, :)          !! pressure of full contact on the patch of `full_pressures`
+      real(dp), intent(in) :: full(:, :)          !! pressure of full contact on the patch of `find_full_pressures`
       real(dp), intent(inout) :: peak, bend       !! as of grid_peak_pressure, of the crests before
 
       !> Lines of the patch: those of the polynomial, and those from one end of the middle step to the other, for the
@@ -211,11 +221,11 @@ contains
 
    !> The pressure of full contact, less its mean, about each crest: at the crossings of 15 lines along y with 15 along
    !> x. Lines 1 to 7 pass through points of the grid, 8 to 15 through the fifths of the two steps beside the crest.
-   function full_pressures(edge, surface, crests) result(full)
+   subroutine find_full_pressures(edge, surface, crests, full)
       type(grid_edge), intent(in) :: edge
       type(surface_type), intent(in) :: surface
       type(crest_type), intent(in) :: crests(:)
-      real(dp), allocatable :: full(:, :, :)
+      real(dp), allocatable, intent(out) :: full(:, :, :)   !! shape (15, 15 or in 1-D 1, crests)
 
       real(dp), parameter :: lines(*) = [-3.0_dp, -2.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 2.0_dp, 3.0_dp, &
                                          -0.8_dp, -0.6_dp, -0.4_dp, -0.2_dp, 0.2_dp, 0.4_dp, 0.6_dp, 0.8_dp]
@@ -231,53 +241,61 @@ contains
       if (edge%even) highest = edge%slab%points - 1
       crossed = size(lines)
       if (surface%dimension == 1) crossed = 1
-      full = full_contact_patches(surface, highest, angles(:, :, 1), angles(:crossed, :, 2))
-   end function full_pressures
+      allocate (full(size(lines), crossed, size(crests)), &
+                source=full_contact_patches(surface, highest, angles(:, :, 1), angles(:crossed, :, 2)))
+   end subroutine find_full_pressures
 
-   !> Finds the local maxima near which the largest pressure may be. They are the highest ones after each has been
-   !> raised by what its neighbours along x and y let expect between the points.
-   subroutine find_crests(edge, best, number)
+   !> Finds the local maxima near which the largest pressure may be: the highest point, and those that are the highest
+   !> after each has been raised by what its neighbours along x and y let expect between the points.
+   subroutine find_crests(edge, best, number, left)
       type(grid_edge), intent(in) :: edge
-      integer, intent(out) :: best(:, :)   !! their points (k, l), the most hopeful first, shape (2, n)
+      integer, intent(out) :: best(:, :)   !! their points (k, l), shape (2, n)
       integer, intent(out) :: number       !! how many there are, at most n
+      real(dp), intent(out) :: left        !! the highest raised pressure of those that are left out, or 0
 
-      !> Maxima below this part of the largest pressure are left out, to save time.
-      real(dp), parameter :: least_part = 0.5_dp
-      real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
-      real(dp) :: expected, least, minus_number(1), raised(size(best, 2) + 1), top(1)
-      integer :: i, j, m, own(2, size(best, 2) + 1), place(2)
+      !> Maxima below this part of the largest pressure are left out, to save time. With 0.6 no peak changes, with 0.8
+      !> the root mean square error of peaks is 1.3 times as large.
+      real(dp), parameter :: least_part = 0.7_dp
+      real(dp) :: expected, highest, minus_number(1), top(1)
+      real(dp) :: raised(size(best, 2) + 1)          ! of the own points, falling; then 0
+      integer :: own(2, size(best, 2) + 1)           ! their places
+      integer :: i, j, k, l, m, most
 
       m = edge%slab%points(1)
-      call edge%slab%find_largest(edge%pressure_or_gap, least, place)
-      least = least_part*max(least, 0.0_dp)
+      most = size(best, 2)
+      call edge%slab%find_largest(edge%pressure_or_gap, highest, best(:, 1))
       raised = 0.0_dp
       own = 0
+      left = 0.0_dp
       do j = edge%slab%first, edge%slab%last
          if (.not. edge%may_touch(j)) cycle
-         before = edge%column(j - 1)
-         here = edge%column(j)
-         next = edge%column(j + 1)
-         do i = 1, m
-            if (here(i) <= least) cycle
-            if (here(i) < max(here(i - 1), here(i + 1), maxval(before(i - 1:i + 1)), maxval(next(i - 1:i + 1)))) cycle
-            expected = here(i) + rise([(edge%value_at(i + number, j), number=-2, 2)]) + &
-                       rise([(edge%value_at(i, j + number), number=-2, 2)])
-            if (expected <= raised(size(best, 2))) cycle
-            number = count(raised >= expected) + 1
-            raised(number + 1:) = raised(number:size(best, 2))
-            own(:, number + 1:) = own(:, number:size(best, 2))
-            raised(number) = expected
-            own(:, number) = [i, j]
-         end do
+         associate (p => edge%pressure_or_gap(:, j - edge%slab%first + 1))
+            do i = 1, m
+               ! One neighbour after the other: most points are no maxima along x.
+               if (p(i) <= least_part*max(highest, 0.0_dp)) cycle
+               if (p(i) < p(max(i - 1, 1))) cycle
+               if (p(i) < p(min(i + 1, m))) cycle
+               if (any(p(i) < [((edge%value_at(i + k, j + l), k=-1, 1), l=-1, 1)])) cycle
+               if (all([i, j] == best(:, 1))) cycle
+               expected = p(i) + rise([(edge%value_at(i + k, j), k=-2, 2)]) + rise([(edge%value_at(i, j + l), l=-2, 2)])
+               if (expected <= raised(most)) cycle
+               k = count(raised >= expected) + 1
+               raised(k + 1:) = raised(k:most)
+               own(:, k + 1:) = own(:, k:most)
+               raised(k) = expected
+               own(:, k) = [i, j]
+            end do
+         end associate
       end do
-      raised(size(raised)) = 0.0_dp
+      raised(most + 1) = 0.0_dp
       ! The most hopeful one of all processes, one after the other. Of equal ones the first in the order of the grid.
       i = 1
-      do number = 0, size(best, 2) - 1
+      do number = 1, most
          top = edge%slab%largest(raised(i:i))
-         if (.not. top(1) > 0.0_dp) return
+         left = top(1)
+         if (number == most .or. .not. left > 0.0_dp) return
          minus_number = -huge(minus_number)
-         if (raised(i) >= top(1)) minus_number = -(own(1, i) - 1.0_dp + real(m, dp)*(own(2, i) - 1))
+         if (raised(i) >= left) minus_number = -(own(1, i) - 1.0_dp + real(m, dp)*(own(2, i) - 1))
          top = edge%slab%largest(minus_number)
          if (minus_number(1) >= top(1)) i = i + 1
          best(2, number + 1) = int(-top(1)/m)
