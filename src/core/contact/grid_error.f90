@@ -84,7 +84,7 @@ contains
    function unresolved_errors(surface, edge, bend) result(errors)
       type(surface_type), intent(in) :: surface
       type(grid_edge), intent(in) :: edge    !! after `fetch_neighbours`
-      real(dp), intent(in) :: bend           !! bend of (C16) [p*], from grid_peak_pressure; 0: the polynomial exists
+      real(dp), intent(in) :: bend           !! bend of (C16) [p*], from grid_peak_pressure; 0: the polynomial is enough
       real(dp) :: errors(3)
 
       integer(int64) :: crossings, points

@@ -13,9 +13,11 @@ module wavycon_grid_sequence
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
+   use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: solve_on_grid
    use wavycon_grid_state, only: grid_state
    use wavycon_kinds, only: dp
+   use wavycon_measure_tuning, only: resolved_points
    use wavycon_pressure_load, only: has_points_at, set_load
    use wavycon_quantities, only: approach, area_at_hardness, contact_area, contact_area_corrected, &
       contact_area_counted, elastic_energy, is_known, known_errors, main_quantities, mean_gap, &
@@ -240,7 +242,11 @@ contains
       answer%value(contact_area) = area
       if (surface%dimension == 2 .and. estimated) &
          answer%value(contact_area_corrected) = corrected_area_fraction(answer%edge)
-      call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend)
+      if (resolves_waves(surface, answer%state%slab)) then
+         call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend)
+      else
+         call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend, surface)
+      end if
       if (answer%value(peak_pressure) >= surface%hardness) bend = 0.0_dp
       answer%value(peak_pressure) = min(answer%value(peak_pressure), surface%hardness)
       call answer%history%push(answer%main_values(surface))
@@ -273,6 +279,21 @@ contains
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
       answer%error(area_at_hardness) = capped_errors(2)
    end subroutine measure_level
+
+   !> Whether the peak pressure needs no interpolation by the pressure of full contact, (C13a). With free edges the
+   !> pressure is uniform on cells of the grid, and is never interpolated so.
+   pure logical function resolves_waves(surface, slab)
+      type(surface_type), intent(in) :: surface
+      type(grid_slab), intent(in) :: slab   !! the grid, on a quarter of the cell of an even surface
+
+      integer :: waves(2)
+
+      waves = surface%points/2
+      if (.not. surface%is_height_map()) waves = surface%shape%last([1, 2])
+      if (surface%shape%is_even()) waves = (waves + 1)/2
+      if (surface%dimension == 1) waves(2) = 0
+      resolves_waves = surface%has_free_edges .or. all(slab%points >= resolved_points*waves)
+   end function resolves_waves
 
    !> Whether contact ends at the border of a map with free edges or at a step of its heights. The pressure is infinite
    !> there, as at the edge of a punch.

@@ -33,6 +33,19 @@ module wavycon_measure_tuning
    real(dp), parameter, public :: cell_edge_offset = 0.160_dp
    real(dp), parameter, public :: cell_turn_area = 0.80_dp
 
+   ! The peak on grids that do not resolve the waves of the surface, (C13a).
+
+   !> A local maximum of the points is raised by this times what cubic interpolation midway to its larger neighbour adds
+   !> to linear interpolation. Beside a kink on a mirror line the pressure rises so much more. With 2 the peak of rough
+   !> maps may exceed all that were raised and left out, with 4 the told errors grow.
+   real(dp), parameter, public :: rise_factor = 3.0_dp
+   !> Number of local maxima about which the pressure is interpolated, in 1-D and 2-D, where each takes 0.3 % of the
+   !> time of a load on 1024 x 1024 points.
+   integer, parameter, public :: most_crests(2) = [6, 2]
+   !> Points to a wave of the surface's shortest ones, from which on the polynomial of degree 5 through the points is
+   !> enough: it misses the crest of such a wave by 1e-3 of its amplitude.
+   integer, parameter, public :: resolved_points = 8
+
    ! Histograms, (A7) of README.md in this directory.
 
    !> Number of points in 1-D at which solutions without a grid are sampled. Bins of 1 % of the period then have errors
