@@ -3,11 +3,15 @@
 
 usage: campaign.py --program WAVYCON --programs FOLDER --results FOLDER [--quick] [--seed N] [--only PART ...]
 
-scripts/stress builds the programs and calls it; scripts/stress --help says what the parts are.
+scripts/stress builds the programs and calls it; scripts/stress --help says what the parts are. So many lines of the table
+as there are processors are made at a time.
 
 Exit status: 0 if every case passed, else 1.
 """
 import argparse
+import concurrent.futures
+import copy
+import os
 import pathlib
 import shutil
 import sys
@@ -37,7 +41,7 @@ PARTS = {
     "tests": [long_tests.campaign],
     "qp": [quadratic_programmes.campaign],
     "loads": [quadratic_programmes.loads, extremes.campaign],
-    "solvers": [contact_conditions.campaign, honest_estimates.campaign, growing_loads.campaign,
+    "solvers": [contact_conditions.campaign, *honest_estimates.CAMPAIGNS, growing_loads.campaign,
                 same_contact.order_and_symmetry, same_contact.alone_and_again, rough_surfaces.campaign,
                 ball_adhesion.campaign],
     "bounds": [guaranteed_bounds.campaign],
@@ -51,16 +55,15 @@ PARTS = {
 }
 
 
-def line_of(procedure, settings):
-    """Runs a procedure in a folder of its own, and prints its line. Returns the number of failures."""
+def part_of(procedure, settings):
+    """Runs a procedure in a folder of its own. Returns the part, and the seconds that it took."""
     begun = time.monotonic()
     # With blanks in its name, as folders of users have, and without the name of the program.
     with tempfile.TemporaryDirectory(prefix="a stress case ") as folder:
         # Some faults run the program as another user, who must be able to enter.
         pathlib.Path(folder).chmod(0o755)
         part = procedure(settings, pathlib.Path(folder).resolve()/"work")
-    part.show(time.monotonic() - begun)
-    return len(part.failures)
+    return part, time.monotonic() - begun
 
 
 def main():
@@ -76,15 +79,22 @@ def main():
     results = settings.results.resolve()
 
     print(f"seed {settings.seed}{', the short form' if settings.quick else ''}")
-    print(f'{"":32}{"tried":>8}{"passed":>8}{"failed":>8}{"seconds":>9}  worst', flush=True)
+    print(f'{"":40}{"tried":>8}{"passed":>8}{"failed":>8}{"seconds":>9}  worst', flush=True)
     failed = 0
-    for name in [name for name in PARTS if name in settings.only]:
-        settings.results = results/name
-        shutil.rmtree(settings.results, ignore_errors=True)
-        found = sum(line_of(procedure, settings) for procedure in PARTS[name])
-        if found:
-            print(f"   cases that failed: {settings.results}", flush=True)
-        failed += found
+    # A process each: the processor time of the programs that it ran is its own.
+    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+        runs = []
+        for name in [name for name in PARTS if name in settings.only]:
+            settings.results = results/name
+            shutil.rmtree(settings.results, ignore_errors=True)
+            runs += [(settings.results, pool.submit(part_of, procedure, copy.copy(settings)))
+                     for procedure in PARTS[name]]
+        for kept_in, run in runs:
+            part, seconds = run.result()
+            part.show(seconds)
+            if part.failures:
+                print(f"   cases that failed: {kept_in}", flush=True)
+            failed += len(part.failures)
     sys.exit(1 if failed else 0)
 
 

@@ -95,7 +95,7 @@ class Part:
     def show(self, seconds):
         """Prints the line, the notes and the failures."""
         worst = self.worst or ", ".join(f"{what} {value:.2g}" for what, value in self.numbers.items())
-        print(f"{self.name:32}{self.tried:8d}{self.passed:8d}{len(self.failures):8d}{seconds:9.0f}  {worst}")
+        print(f"{self.name:40}{self.tried:8d}{self.passed:8d}{len(self.failures):8d}{seconds:9.0f}  {worst}")
         for line in self.notes:
             print(f"   {line}")
         for case, words in self.failures[:MOST_SHOWN]:

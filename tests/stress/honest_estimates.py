@@ -1,4 +1,5 @@
 """Error estimates of random scenes against true errors, from a much finer solution, a closed form or a fitted one."""
+import functools
 import math
 
 from common import Table
@@ -176,40 +177,50 @@ def ratios_of(row, truth, names):
         yield name, max(abs(value - true) - own, 0.0)/allowed if known else None, allowed
 
 
-def campaign(settings, work):
-    """Scenes of each kind with each solver for it, lattices next to merging, maps with a hardness, and surfaces with
-    free edges."""
-    part = settings.part("error estimates")
-    kinds, scenes, rare = settings.amount((KINDS, 5, 300), (QUICK, 1, 6))
-    for solver, case, kinds_of_it, number, values in (
-            ("grid", grid_case, kinds, scenes, VALUES),
-            ("fitted", fitted_case, [kind for kind in kinds if kind in FITTED], scenes, VALUES),
-            ("grid next to merging", merging_case, tuple(MERGING), scenes, VALUES),
-            ("grid of a map's points", map_case, ("elastic",), rare, VALUES),
-            ("grid with a hardness", map_case, ("hard",), rare, VALUES + OF_HARDNESS),
-            ("grid with free edges", free_case, ("free edges", "patch"), rare, OF_FREE_EDGES),
-            ("grid on a layer", layer_case, ("layer",), rare, VALUES),
-            ("derivatives on grids", interface_case, ("wave_2d", "hexagonal", "self_affine"), rare, OF_INTERFACE)):
-        largest = LARGEST_RATIO_OF_INTERFACE if values is OF_INTERFACE else LARGEST_RATIO
-        ratios, unknown = [], 0
-        for name, stream, kind in settings.cases(f"estimates-{solver}", kinds_of_it, number):
-            files, finer = case(stream, kind)
-            rows, complaints = solve_with_interface(settings.program, files, work)
-            truths, more = solve_with_interface(settings.program, finer, work)
-            # Where spots have merged there are no numbers.
-            for row, truth in [pair for pair in zip(rows, truths) if pair[0].has_numbers and pair[1].has_numbers]:
-                for value, ratio, allowed in ratios_of(row, truth, values):
-                    if ratio is None:
-                        unknown += 1
-                        continue
-                    ratios.append(ratio)
-                    if ratio > largest:
-                        complaints.append(f"{value} of load {row.words['load']} is off by {ratio:.1f} times its "
-                                          f"estimate, {allowed:.1e}")
-            part.count(name, complaints + more, files)
-        held = sum(ratio <= 1.0 for ratio in ratios)/max(len(ratios), 1)
-        part.notes.append(f"{solver} {max(ratios, default=0.0):.2f} times, {100*held:.1f} % of {len(ratios)} hold, "
-                          f"{unknown} are unknown")
-        if len(ratios) >= FEWEST:
-            part.count(f"estimates of {solver}", [] if held >= CONFIDENCE else [f"only {100*held:.1f} % hold"])
+# Of each kind of solution the procedure that makes a case, the kinds of surfaces, how many cases of each, also with
+# --quick, and the values.
+FEW, MANY = (5, 1), (300, 6)
+SOLUTIONS = {
+    "grid": (grid_case, KINDS, FEW, VALUES),
+    "fitted": (fitted_case, FITTED, FEW, VALUES),
+    "grid next to merging": (merging_case, tuple(MERGING), FEW, VALUES),
+    "grid of a map's points": (map_case, ("elastic",), MANY, VALUES),
+    "grid with a hardness": (map_case, ("hard",), MANY, VALUES + OF_HARDNESS),
+    "grid with free edges": (free_case, ("free edges", "patch"), MANY, OF_FREE_EDGES),
+    "grid on a layer": (layer_case, ("layer",), MANY, VALUES),
+    "derivatives on grids": (interface_case, ("wave_2d", "hexagonal", "self_affine"), MANY, OF_INTERFACE)}
+
+
+def estimates_of(solution, settings, work):
+    """Cases of one kind of solution."""
+    part = settings.part(f"error estimates, {solution}")
+    case, kinds, numbers, values = SOLUTIONS[solution]
+    if settings.quick and case in (grid_case, fitted_case):
+        kinds = [kind for kind in kinds if kind in QUICK]
+    largest = LARGEST_RATIO_OF_INTERFACE if values is OF_INTERFACE else LARGEST_RATIO
+    ratios, unknown = [], 0
+    for name, stream, kind in settings.cases(f"estimates-{solution}", kinds, settings.amount(*numbers)):
+        files, finer = case(stream, kind)
+        rows, complaints = solve_with_interface(settings.program, files, work)
+        truths, more = solve_with_interface(settings.program, finer, work)
+        # Where spots have merged there are no numbers.
+        for row, truth in [pair for pair in zip(rows, truths) if pair[0].has_numbers and pair[1].has_numbers]:
+            for value, ratio, allowed in ratios_of(row, truth, values):
+                if ratio is None:
+                    unknown += 1
+                    continue
+                ratios.append(ratio)
+                if ratio > largest:
+                    complaints.append(f"{value} of load {row.words['load']} is off by {ratio:.1f} times its "
+                                      f"estimate, {allowed:.1e}")
+        part.count(name, complaints + more, files)
+    held = sum(ratio <= 1.0 for ratio in ratios)/max(len(ratios), 1)
+    if len(ratios) >= FEWEST:
+        part.count(f"estimates of {solution}", [] if held >= CONFIDENCE else [f"only {100*held:.1f} % hold"])
+    part.worst = (f"{max(ratios, default=0.0):.2f} times, {100*held:.1f} % of {len(ratios)} hold, "
+                  f"{unknown} are unknown")
     return part
+
+
+# Scenes of each kind with each solver for it, lattices next to merging, maps, layers, and surfaces with free edges.
+CAMPAIGNS = [functools.partial(estimates_of, solution) for solution in SOLUTIONS]
