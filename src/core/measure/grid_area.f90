@@ -83,7 +83,7 @@ contains
       real(dp), allocatable, intent(out) :: edges(:)   !! ascending [rad]
 
       real(dp) :: angle(2), distance, crossings(edge%slab%points(1))
-      integer :: found, i
+      integer :: found, i, outwards(2)
       type(edge_point) :: point
 
       call assert(edge%slab%points(2) == 1, 'the grid is one of 1-D')
@@ -94,11 +94,10 @@ contains
          found = found + 1
          ! Distance of the edge from the point in contact, in grid steps, (C11).
          distance = balance(edge, point, edge%rule%aligned_weight) - edge%rule%aligned_offset
-         associate (outwards => point%outer - point%inner)
-            ! Without this bound the two edges of a contact of one point could be exchanged.
-            if (.not. edge%in_contact(point%inner(1) - outwards(1), 1)) distance = max(distance, 0.0_dp)
-            angle = edge%angles(point%inner + distance*outwards)
-         end associate
+         outwards = point%outer - point%inner
+         ! Without this bound the two edges of a contact of one point could be exchanged.
+         if (.not. edge%in_contact(point%inner(1) - outwards(1), 1)) distance = max(distance, 0.0_dp)
+         angle = edge%angles(point%inner + distance*outwards)
          crossings(found) = angle(1)
       end do
       allocate (edges, source=crossings(:found))
