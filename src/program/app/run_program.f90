@@ -59,6 +59,14 @@ module wavycon_run_program
       end function show_job
    end interface
 
+   interface
+      !> C's function that ends the process. gfortran 11 does not know `stop` with `quiet`, without which it prints.
+      subroutine end_process(status) bind(c, name='exit')
+         import :: c_int
+         integer(c_int), value :: status
+      end subroutine end_process
+   end interface
+
    !> A deck with its scene.
    type, extends(collected_deck) :: scene_item
       type(scene_type), allocatable :: scene      !! not allocated for a bad deck
@@ -329,7 +337,7 @@ contains
          last_status = exit_file_trouble
       end if
       call end_ranks(last_status)
-      stop last_status, quiet=.true.
+      call end_process(int(last_status, c_int))
    end subroutine finish
 
 end module wavycon_run_program
