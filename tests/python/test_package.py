@@ -594,6 +594,16 @@ class Notes(PackageTest):
         self.assertEqual([0, 1], [len(found) for found in notes])
         self.assertIn("50 % of the heights are missing and filled", notes[1][0])
 
+    def test_other_words_for_units(self):
+        for unit, words in {"megapascal": "'MPa'", "N/mm2": "'N/mm^2'", "MPa": "", "N/mm^2": "", "psi": ""}.items():
+            results, notes = self.warned(wc.solve, wc.wave_2d(amplitude=1e-3), e_star=1, mean_pressure=1e-4,
+                                         pressure_unit=unit, length_unit="mm")
+            self.assertEqual([f"pressure_unit = '{unit}' is no unit that is known: it is shown as it is, and nothing is "
+                              f"converted to it. Did you mean {words}?"]*bool(words), notes)
+            self.assertEqual("N" if unit in ("MPa", "N/mm^2") else f"{unit}*mm^2", results.units["force"])
+        self.assertIn("length_unit = 'micrometer' is no unit", self.warned(
+            wc.solve, wc.wave_2d(amplitude=1e-3), pbar_over_pstar=0.1, length_unit="micrometer")[1][0])
+
     def test_what_has_nothing_to_note(self):
         results, notes = self.warned(wc.solve, wc.wave_2d(), pbar_over_pstar=[0.1, 0.5])
         self.assertEqual(([], []), (results.notes, notes))

@@ -419,7 +419,7 @@ class Values(ValuesTest):
         self.assertEqual(4, text.count("<tr"))
         self.assertIn("mean pressure [&lt;MPa&gt;]", text)
         self.assertIn("converged", text)
-        self.assertIn("<th>mean gap [length]</th>", text)
+        self.assertIn("<th>mean gap [length]</th><th>mean gap error [length]</th>", text)
         self.assertNotIn("red", text)
         failed = wc.solve(wc.wave_2d(), mean_pressure=[2, 0.5], hardness=1)._repr_html_()
         self.assertEqual(1, failed.count("color:red"))

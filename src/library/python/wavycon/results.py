@@ -25,8 +25,8 @@ HDF5 = (".h5", ".hdf5")
 # In a file: the number of the load that has the columns, where there are no loads.
 MODEL = 0
 # The columns that notebooks show.
-SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "approach",
-         "approach_error", "peak_pressure", "peak_pressure_error", "status")
+SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "mean_gap_error",
+         "approach", "approach_error", "peak_pressure", "peak_pressure_error", "status")
 
 
 class Units(dict[str, str]):
