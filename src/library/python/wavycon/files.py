@@ -70,6 +70,8 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
     heights (y, x) or (x,), NaN where they are missing, the sides as keys, none where the file lacks them, and the unit
     (None: unknown). None for a file that the program reads, or tells best what is wrong with it. Errors: ValueError."""
+    if not isinstance(file, (str, os.PathLike)):
+        raise ValueError(f"the name of a file is needed, got {type(file).__name__}: wavycon.heights takes an array")
     if not os.path.isfile(file):
         raise FileNotFoundError(f"{file}: {'this is no file' if os.path.exists(file) else 'there is no such file'}")
     if not (start := first_bytes(file, 65536)):

@@ -7,6 +7,7 @@ import html
 import json
 import os
 import re
+import zipfile
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import IO, TYPE_CHECKING, Any, cast, overload
@@ -22,7 +23,7 @@ from .surfaces import unknown
 
 FIELDS = ("pressure", "gap", "displacement")
 HDF5 = (".h5", ".hdf5")
-# In a file: the number of the load that has the columns, where there are no loads.
+# In a file loads have numbers from 1; this is that of the load that has the columns, where there are none.
 MODEL = 0
 # The columns that notebooks show.
 SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "mean_gap_error",
@@ -200,7 +201,7 @@ class Result(Named, Columns[float, str]):
             if not (found := re.search(r"(?:&stress[^&]*\n +nu|\n +nu1) = (\S+)", self._facts.deck)):
                 raise ValueError("give nu, Poisson's ratio of the body: this deck has neither nu1 nor nu of &stress")
             nu = float(found[1])
-        call("get_stresses", solution, places[0].size, *map(address, places), float(nu), lateral.encode(),
+        call("get_stresses", solution, places[0].size, *map(address, places), library.one_number("nu", nu), str(lateral).encode(),
              stress, error)
         call("get_invariants", places[0].size, stress, *invariants)
         return parts
@@ -209,7 +210,7 @@ class Result(Named, Columns[float, str]):
     plot_stress_section = pictures.plot_stress_section
 
 
-class Roughness:
+class Roughness(Named):
     """The surface that was solved: its heights, root mean squares, and the table 'spectrum'. Errors: ValueError for
     what follows from the spectrum with free edges."""
 
@@ -289,6 +290,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         if isinstance(load, slice):
             return Results(self._loads[load], self._facts, self._model)
         if np.ndim(load):
+            if np.asarray(load).dtype.kind == "U":
+                raise KeyError(f"one name gives a column, got {load!r}: to_dataframe() takes lists of names")
             # Masks and numbers, as numpy takes them.
             chosen = np.arange(len(self))[np.asarray(load, dtype=None if np.size(load) else int)]
             return Results([self._loads[place] for place in chosen], self._facts, self._model)
@@ -368,13 +371,15 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         self._keep_spectrum()
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
-        for number, one in [(one._load, one) for one in self] or [(MODEL, self._model)]:
+        for number, one in [*enumerate(self, 1)] or [(MODEL, self._model)]:
             content |= {f"{number}/{name}": rows for name, rows in one._tables.items()}
             content |= {f"{number}/fields/{name}": values for name, values in one._fields.items()} if fields else {}
         if hasattr(file, "write"):
             np.savez(file, **content)
             return
         path = os.fspath(file)
+        if os.path.isdir(path):
+            raise IsADirectoryError(f"{path}: this is a directory, not a file")
         if not path.endswith((".npz", *HDF5)):
             if (ending := os.path.splitext(path)[1]) and not ending[1:].isdigit():
                 raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; "
@@ -395,12 +400,16 @@ def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
     content: dict[str, Any] = {}
     if not hasattr(file, "read") and not os.path.exists(file) and os.path.exists(f"{os.fspath(file)}.npz"):
         file = f"{os.fspath(file)}.npz"
-    if not hasattr(file, "read") and os.fspath(file).endswith(HDF5):
-        with need("h5py", "h5").File(file, "r") as saved:
-            saved.visititems(lambda name, one: content.update({name: one[()]} if hasattr(one, "dtype") else {}))
-    else:
-        with contextlib.suppress(AttributeError, TypeError, ValueError), np.load(file, allow_pickle=False) as saved:
-            content = dict(saved)
+    try:
+        if not hasattr(file, "read") and os.fspath(file).endswith(HDF5):
+            with need("h5py", "h5").File(file, "r") as saved:
+                saved.visititems(lambda name, one: content.update({name: one[()]} if hasattr(one, "dtype") else {}))
+        else:
+            with np.load(file, allow_pickle=False) as saved:
+                content = dict(saved)
+    except (AttributeError, EOFError, OSError, TypeError, ValueError, zipfile.BadZipFile) as error:
+        if getattr(error, "errno", None):   # of the system
+            raise
     if "facts" not in content:
         raise ValueError(f"{file}: this is no file that Results.save has written")
     told = json.loads(np.asarray(content.pop("facts")).item())   # a text, of HDF5 bytes
