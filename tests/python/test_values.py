@@ -119,7 +119,7 @@ class Names(ValuesTest):
         self.refuse("'pressure' here: one load has it", lambda: results.pressure, error=AttributeError)
         for name in "save", "method":
             self.refuse(f"'{name}' here: all loads together have it", getattr, results[0], name, error=AttributeError)
-        self.refuse("load is a group: it must be a dictionary of its keys, got 3", wc.solve, self.rough, load=3)
+        self.refuse("load is a group: it must be a dictionary of keys and their values, got 3", wc.solve, self.rough, load=3)
         results.save("units.npz")
         for one in results, results[:2], wc.load("units.npz"), pickle.loads(pickle.dumps(results)):
             self.refuse("'mean_gapp'; did you mean 'mean_gap'", one.units.__getitem__, "mean_gapp", error=KeyError)
@@ -166,6 +166,10 @@ class Names(ValuesTest):
                                    "xarray": results.to_xarray, "h5py": lambda: results.save("a.h5", fields=False)}.items():
                 self.refuse(rf"this needs {name}: pip install 'wavycon\[\w+\]'", function, error=ImportError)
         self.assertEqual([], list(self.folder.glob("*.h5")))
+
+    def test_keys_are_the_callers(self):
+        wc.keys()["load"].clear()
+        self.assertIn("mean_pressure", wc.keys()["load"])
 
 
 @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed: types are not checked")
@@ -655,8 +659,8 @@ class Sweeps(ValuesTest):
             self.refuse("did you mean 'e_star'", wc.sweep, self.rough, e_sta=1)
             self.refuse("must be a surface", wc.sweep, [1], pbar_over_pstar=1)
             self.refuse("has its own keys", wc.sweep, "deck.nml", e_star=1)
-            self.refuse("values must be a dictionary .*, got list", wc.sweep, self.rough, ["surface.seed"])
-            self.refuse("surface.seed: a value must be a number", wc.sweep, self.rough, {"surface.seed": None})
+            self.refuse("values must be a dictionary .*, got .'surface.seed'", wc.sweep, self.rough, ["surface.seed"])
+            self.refuse("surface.seed must be a number", wc.sweep, self.rough, {"surface.seed": None})
             for jobs in -1, 0, 1.5:
                 self.refuse(f"jobs must be a whole number, 1 or more, got {jobs}", wc.sweep, self.rough, jobs=jobs)
 

@@ -24,7 +24,7 @@ def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps:
     """
     if isinstance(h, (str, os.PathLike)):
         raise ValueError(f"heights takes an array, got {h!r}: wavycon.read takes a file")
-    h = reals(h.T if getattr(h, "dims", None) == ("x", "y") else h)
+    h = reals(h).T.copy() if getattr(h, "dims", None) == ("x", "y") else reals(h)
     if h.ndim not in (1, 2) or h.size == 0:
         raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
     h = h if h.ndim == 2 and h.shape[1] > 1 else h.reshape(1, -1)   # a column is a profile
@@ -56,7 +56,7 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 def dictionary(name: str, given: Any) -> Mapping[str, Any]:
     """The keys that are given as a dictionary. Errors: ValueError for anything else."""
     if not isinstance(given, Mapping):
-        raise ValueError(f"{name} must be a dictionary of its keys, got {given!r}")
+        raise ValueError(f"{name} must be a dictionary of keys and their values, got {given!r}")
     return given
 
 

@@ -10,7 +10,7 @@ import re
 import zipfile
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import IO, TYPE_CHECKING, Any, cast, overload
+from typing import IO, TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -283,19 +283,18 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     @overload
     def __getitem__(self, load: str) -> Rows: ...
 
-    def __getitem__(self, load: int | slice | str | list[int] | list[bool] | npt.NDArray[Any],
-                    ) -> Result | Results | Rows:
+    def __getitem__(self, load: Any) -> Any:
         if isinstance(load, str):
             return column(self.table(), load)
         if isinstance(load, slice):
             return Results(self._loads[load], self._facts, self._model)
         if np.ndim(load):
             if np.asarray(load).dtype.kind == "U":
-                raise KeyError(f"one name gives a column, got {load!r}: to_dataframe() takes lists of names")
+                raise IndexError(f"one name gives a column, got {load!r}: to_dataframe() takes lists of names")
             # Masks and numbers, as numpy takes them.
             chosen = np.arange(len(self))[np.asarray(load, dtype=None if np.size(load) else int)]
             return Results([self._loads[place] for place in chosen], self._facts, self._model)
-        return self._loads[cast(int, load)]
+        return self._loads[load]
 
     def __contains__(self, one: object) -> bool:
         """Whether there is a column of this name, or this load."""
