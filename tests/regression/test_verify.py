@@ -112,7 +112,7 @@ class Verify(ProgramTest):
                           self.verify(text, "wave_2d", *words))
         for words, name in ((area, "perimeter"), (others, "contact_area_fraction")):
             found = self.verify(text, "wave_2d", *words, status=1)
-            self.assertRegex(found, rf"(?s)\nDIFFERS by more than .* error:\s{name} in 4 of 4 rows\n$")
+            self.assertRegex(found, rf"(?s)\nDIFFERS by more than .* error:\s{name} in [34] of 4 rows\n$")
         for word, message in (("mean_gap=1", "there is no quantity 'mean_gap' in wave_2d; did you mean "
                                "'mean_gap_over_amplitude'?"), ("contact_aera_fraction=1", "'contact_area_fraction'?"),
                               ("pbar_over_pstar=1", "There are mean_gap_over_amplitude, "), ("perimeter=", "'' is no "),
