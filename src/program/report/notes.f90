@@ -114,8 +114,8 @@ contains
       subroutine note_unit(key, label)
          character(*), intent(in) :: key, label
 
-         if (meant_unit(label) /= '') call logger%note(key//" = '"//escaped(label)//"' is no unit that is known: it "// &
-            'is shown as it is, and nothing is converted to it. Did you mean '//in_quotes(meant_unit(label))//'?')
+         if (meant_unit(label) /= '') call logger%note(key//" = '"//escaped(label)//"' is no unit that is known: "// &
+            'it is shown as it is, and nothing is converted to it. Did you mean '//in_quotes(meant_unit(label))//'?')
       end subroutine note_unit
 
    end subroutine note_scene

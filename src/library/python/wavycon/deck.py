@@ -64,7 +64,7 @@ def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[st
     """The groups of a deck of a surface and of options as of solve."""
     if not isinstance(surface, Surface):
         raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}"
-                         + "; run takes the file of a deck, read one of heights"*isinstance(surface, (str, os.PathLike)))
+                         + "; run takes the file of a deck, read one of heights"*isinstance(surface, str))
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
     unit = groups["scene"].setdefault("length_unit", surface.length_unit)
     if surface.length_unit not in (None, unit):

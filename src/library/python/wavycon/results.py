@@ -201,8 +201,8 @@ class Result(Named, Columns[float, str]):
             if not (found := re.search(r"(?:&stress[^&]*\n +nu|\n +nu1) = (\S+)", self._facts.deck)):
                 raise ValueError("give nu, Poisson's ratio of the body: this deck has neither nu1 nor nu of &stress")
             nu = float(found[1])
-        call("get_stresses", solution, places[0].size, *map(address, places), library.one_number("nu", nu), str(lateral).encode(),
-             stress, error)
+        call("get_stresses", solution, places[0].size, *map(address, places), library.one_number("nu", nu),
+             str(lateral).encode(), stress, error)
         call("get_invariants", places[0].size, stress, *invariants)
         return parts
 

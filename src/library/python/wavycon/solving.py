@@ -68,7 +68,8 @@ def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLi
     p, g = np.atleast_2d(*map(reals, fields))
     if p.ndim != 2 or p.shape != g.shape:
         raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {p.shape} and {g.shape}")
-    scene = scene_of(surface, {"mean_pressure": one_number("mean_pressure", mean_pressure), **options}, keep_fields=False)
+    mean_pressure = one_number("mean_pressure", mean_pressure)
+    scene = scene_of(surface, {"mean_pressure": mean_pressure, **options}, keep_fields=False)
     library.tell(library.text(scene, "notes").splitlines())
     offset, bounds = np.zeros(2), np.empty((3, 2))
     for axis, (places, points) in enumerate(zip((x, y), p.shape[::-1])):
@@ -79,7 +80,7 @@ def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLi
                 raise ValueError(f"{'xy'[axis]} must have the places of {points} points, at equal steps over the whole "
                                  f"side {side:g}")
             offset[axis] = steps[0]
-    call("get_bounds", scene, float(mean_pressure), *p.shape[::-1], None if x is y is None else address(offset),
+    call("get_bounds", scene, mean_pressure, *p.shape[::-1], None if x is y is None else address(offset),
          *map(address, (p, g, bounds)))
     return Bounds(*((float(lower), float(upper)) for lower, upper in bounds))
 
