@@ -128,8 +128,6 @@ def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
     none is given. Errors: NoHeights."""
     heights = {place: one for place, one in enumerate(channels) if has_heights(one)}
     there_are = ", ".join(f"{place} {one.name!r}" for place, one in heights.items()) or "none"
-    if channel is None and heights:
-        return next(iter(heights.values()))
     named = {place: one for place, one in enumerate(channels) if channel in (None, place, one.name)}
     if chosen := [one for place, one in named.items() if place in heights]:
         return chosen[0]

@@ -126,9 +126,8 @@ def reals(array: npt.ArrayLike) -> Array:
     """An array of real numbers, contiguous doubles, masked ones NaN. Errors: ValueError for anything else."""
     given: Any = np.ma.asanyarray(array)
     if given.dtype.kind not in "biuf":
-        remedy = ": array.astype(float) may make them so"*(given.dtype.kind == "O" and given.ndim > 0)
-        raise ValueError(f"an array of real numbers is needed, got {type(array).__name__}, numbers of the type "
-                         f"{given.dtype}{remedy}")
+        raise ValueError(f"an array of real numbers is needed, got {type(array).__name__} of the type {given.dtype}; "
+                         "array.astype(float) may make one")
     filled: Array = np.ma.filled(given.astype(float), np.nan)   # a copy
     return np.asarray(filled, order="C")
 
