@@ -368,6 +368,7 @@ class Digits(PackageTest):
             again = wc.load("chosen.npz")
             for name in "load", "mean_pressure", "contact_area":
                 numpy.testing.assert_array_equal(chosen[name], again[name])
+            self.assertEqual(results.surface.rms_slope, again[::-1].surface.rms_slope)
             for one, other in zip(chosen, again):
                 numpy.testing.assert_array_equal(one.pressure, other.pressure)
 
@@ -734,6 +735,7 @@ except ImportError as error: print(error)"""
 
     def test_solve(self):
         wave = wc.wave_2d()
+        self.assertEqual("converged", wc.solve(wave, pbar_over_pstar=0.1, keep_fields=numpy.bool_(False))[0].status)
         self.refuse("got str; run takes the file of a deck", wc.solve, "wave_2d", pbar_over_pstar=0.1)
         self.refuse("'amplitude' is a key of surfaces", wc.solve, wave, pbar_over_pstar=0.1, amplitude=2)
         self.refuse("e_star must be a number, .* got None", wc.solve, wave, pbar_over_pstar=0.1,

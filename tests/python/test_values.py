@@ -141,7 +141,8 @@ class Names(ValuesTest):
                             "youngs_modulus": "'e1', 'e2' or 'base_e'", "poisson_ratio": "'nu1', 'nu2' or 'layer_nu'",
                             "yiield": "'yield'"}.items():
             self.refuse(rf"no key '{name}'; did you mean {words}\?", wc.solve, wave, **{name: 1})
-        self.refuse("no key 'tolerance'$", wc.solve, wave, tolerance=1)
+        for name in "tolerance", "E":
+            self.refuse(f"no key '{name}'$", wc.solve, wave, **{name: 1})
         self.refuse("several groups have a key 'nu': .*, or nu1, or nu2", wc.solve, wave, nu=0.3)
         self.refuse("did you mean 'length_unit', an option of solve", wc.heights, numpy.eye(8), lenght_unit="m")
         self.refuse("no key 'length_unit': it is an option of solve", wc.wave_2d, length_unit="m")

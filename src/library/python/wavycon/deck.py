@@ -77,7 +77,7 @@ def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) ->
     """The scene of a surface and of options as of solve."""
     deck, h = deck_text(groups_of(surface, options)).encode(), surface.heights
     rows, columns = (0, 0) if h is None else h.shape
-    scene: Handle = call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows,
+    scene: Handle = call("new_scene", deck, b"wavycon.solve", bool(keep_fields), columns, rows,
                          None if h is None else address(h))
     return scene
 

@@ -25,6 +25,8 @@ FIELDS = ("pressure", "gap", "displacement")
 HDF5 = (".h5", ".hdf5")
 # In a file loads have numbers from 1; this is that of the load that has the columns, where there are none.
 MODEL = 0
+# Tables that belong to no load.
+OF_SURFACE = ("spectrum", "height")
 # The columns that notebooks show.
 SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "mean_gap_error",
          "approach", "approach_error", "peak_pressure", "peak_pressure_error", "status")
@@ -269,8 +271,10 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     fields."""
 
     def __init__(self, loads: Sequence[Result], facts: Facts, model: Result) -> None:
-        """model: a load that has the columns of the tables, where there is none here."""
+        """model: a load that has the columns of the tables, where there is none here, and the tables of the surface."""
         super().__init__(**vars(facts))
+        for one in loads[:1]:
+            one._tables.update({name: model._tables[name] for name in OF_SURFACE if name in model._tables})
         self._loads, self._facts, self._model = loads, facts, loads[0] if loads else model
 
     def __len__(self) -> int:

@@ -157,7 +157,7 @@ def run(deck: str | os.PathLike[str], set: Mapping[str, object] = MappingProxyTy
     set: keys in place of those of the deck, such as {"surface.amplitude": 2e-6, "load.mean_pressure": [1e6, 1e7]}.
     """
     settings = "\n".join(f"{key}={value_text(key, value)}" for key, value in dictionary("set", set).items())
-    return solve_deck(call("read_scene", os.fsencode(deck), settings.encode(), keep_fields), progress)
+    return solve_deck(call("read_scene", os.fsencode(deck), settings.encode(), bool(keep_fields)), progress)
 
 
 def solve_deck(scene: Handle, progress: bool) -> Results:
