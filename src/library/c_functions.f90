@@ -27,7 +27,7 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, are_there=[present(deck), present(path)])) then
+      if (this%begins(error, needs='wavycon_new_scene deck path', are_there=[present(deck), present(path)])) then
          this%made => new_handle('scene')
          if (present(heights) .and. min(points_x, points_y) < 1) then
             call fatal_error(this%trouble, exit_bad_input, 'points_x and points_y must be 1 or more')
@@ -48,7 +48,8 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, are_there=[present(path), present(settings)])) then
+      if (this%begins(error, needs='wavycon_read_scene path settings', &
+                      are_there=[present(path), present(settings)])) then
          this%made => new_handle('scene')
          call this%made%scene%open_file(text_at(path), text_at(settings), keep_fields /= 0, this%trouble)
       end if
@@ -82,7 +83,7 @@ contains
       character(:), allocatable :: key
       type(c_call) :: this
 
-      if (this%begins(error, scene, 'scene', [present(quantity)])) then
+      if (this%begins(error, scene, 'scene', 'wavycon_solve quantity', [present(quantity)])) then
          key = text_at(quantity)   ! copied before the solver runs, as other threads call the library meanwhile
          this%made => new_handle('solution', this%contents)
          call this%contents%scene%solve(key, value, this%made%solution, this%trouble)
@@ -111,7 +112,7 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, object, are_there=[present(name), present(value)])) then
+      if (this%begins(error, object, needs='wavycon_get name value', are_there=[present(name), present(value)])) then
          select case (this%contents%kind)
          case ('scene')
             call this%contents%scene%number(text_at(name), value, this%trouble)
@@ -165,7 +166,7 @@ contains
       integer(c_int) :: ignored
       type(c_call) :: this
 
-      if (this%begins(error, object, are_there=[present(name)])) then
+      if (this%begins(error, object, needs='wavycon_get_text name', are_there=[present(name)])) then
          text_name = text_at(name)
          select case (this%contents%kind)
          case ('scene')
@@ -192,7 +193,7 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, solution, 'solution', [present(name)])) then
+      if (this%begins(error, solution, 'solution', 'wavycon_new_table name', [present(name)])) then
          this%made => new_handle('table')
          call this%contents%owner%scene%make_table(text_at(name), this%contents%solution, this%made%table, this%trouble)
       end if
@@ -208,7 +209,7 @@ contains
       integer :: column
       type(c_call) :: this
 
-      if (this%begins(error, table, 'table', [present(name), present(values)])) then
+      if (this%begins(error, table, 'table', 'wavycon_get_column name values', [present(name), present(values)])) then
          column = this%contents%table%find_column(text_at(name))
          if (column == 0) then
             call fatal_error(this%trouble, exit_bad_input, "the table has no column '"//text_at(name)//"'")
@@ -230,7 +231,7 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, solution, 'solution', [present(x), present(y)])) &
+      if (this%begins(error, solution, 'solution', 'wavycon_get_fields x y', [present(x), present(y)])) &
          call fields_at(this%contents%owner%scene, this%contents%solution, int(points), x, y, this%trouble, pressure, &
                         gap, displacement)
       get_fields = this%code()
@@ -261,7 +262,8 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, scene, 'scene', [present(pressure), present(gap), present(bounds)])) &
+      if (this%begins(error, scene, 'scene', 'wavycon_get_bounds pressure gap bounds', &
+                      [present(pressure), present(gap), present(bounds)])) &
          call bounds_from_fields(this%contents%scene, mean_pressure, [points_x, points_y], offset, pressure, &
                                  gap, this%trouble, bounds)
       get_bounds = this%code()
@@ -278,7 +280,7 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, solution, 'solution', &
+      if (this%begins(error, solution, 'solution', 'wavycon_get_stresses x y depth lateral stress', &
                       [present(x), present(y), present(depth), present(lateral), present(stress)])) &
          call stresses_at(this%contents%owner%scene, this%contents%solution, int(points), x, y, depth, nu, &
                           text_at(lateral), stress, this%trouble, stress_error)
@@ -296,7 +298,8 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, solution, 'solution', [present(lateral), present(stress)])) &
+      if (this%begins(error, solution, 'solution', 'wavycon_get_stress_plane lateral stress', &
+                      [present(lateral), present(stress)])) &
          call stresses_on_plane(this%contents%owner%scene, this%contents%solution, [points_x, points_y], offset, &
                                 depth, nu, text_at(lateral), stress, this%trouble, stress_error)
       get_stress_plane = this%code()
@@ -312,7 +315,8 @@ contains
       type(c_call) :: this
       integer :: i
 
-      if (this%begins(error, are_there=[present(stress)])) call check_number(int(points), this%trouble)
+      if (this%begins(error, needs='wavycon_get_invariants stress', are_there=[present(stress)])) &
+         call check_number(int(points), this%trouble)
       if (.not. allocated(this%trouble)) then
          do i = 1, points
             if (present(to_von_mises)) to_von_mises(i) = von_mises(stress(:, i))
@@ -331,7 +335,8 @@ contains
 
       type(c_call) :: this
 
-      if (this%begins(error, are_there=[present(path), present(directory), present(exit_status)])) &
+      if (this%begins(error, needs='wavycon_run_deck path directory exit_status', &
+                      are_there=[present(path), present(directory), present(exit_status)])) &
          call run_deck(text_at(path), text_at(directory), quiet /= 0, exit_status, this%trouble)
       c_run_deck = this%code()
    end function c_run_deck

@@ -88,12 +88,16 @@ contains
 
    !> Begins a call: waits for the lock and checks the arguments. The result is whether they are right. Errors:
    !> exit_bad_input if `object` is no handle or one of another kind, or if another pointer is null.
-   logical function begins(self, error, object, object_kind, are_there)
+   logical function begins(self, error, object, object_kind, needs, are_there)
       class(c_call), intent(inout) :: self
       type(c_ptr), intent(in) :: error                     !! handle of the caller's error object; null: there is none
       type(c_ptr), intent(in), optional :: object          !! handle of the object that the call works on
       character(*), intent(in), optional :: object_kind    !! kind that it must have; absent: any, also no object
-      logical, intent(in), optional :: are_there(:)        !! whether each other pointer that is needed is not null
+      !> The C function and those of its other arguments that must not be null, separated by blanks.
+      character(*), intent(in), optional :: needs
+      logical, intent(in), optional :: are_there(:)        !! whether each of these is not null
+
+      integer :: first, i, missing
 
       call lock()
       self%error = error
@@ -103,7 +107,13 @@ contains
             call fatal_error(self%trouble, exit_bad_input, not_a_handle//object_kind)
       end if
       if (present(are_there) .and. .not. allocated(self%trouble)) then
-         if (.not. all(are_there)) call fatal_error(self%trouble, exit_bad_input, 'an argument is NULL')
+         missing = findloc(are_there, .false., dim=1)
+         first = 1
+         do i = 1, missing
+            first = first + index(needs(first:), ' ')
+         end do
+         if (missing > 0) call fatal_error(self%trouble, exit_bad_input, needs(:index(needs, ' ') - 1)//': '// &
+                                           needs(first:first + index(needs(first:)//' ', ' ') - 2)//' is NULL')
       end if
       begins = .not. allocated(self%trouble)
    end function begins

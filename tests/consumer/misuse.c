@@ -33,6 +33,16 @@ static int has_error(void)
 #define FINE(call) check((call) == 0 && wavycon_get_code(error) == 0, #call, __LINE__)
 #define MADE(object) check((object) != NULL && wavycon_get_code(error) == 0, #object, __LINE__)
 
+/* The call must fail with the message that this argument is NULL. */
+#define IS_NULL(call, argument) check(((void)(call), has_message(argument " is NULL")), #call, __LINE__)
+
+static int has_message(const char *words)
+{
+    char message[200] = "";
+    wavycon_get_message(error, message, sizeof message);
+    return strcmp(message, words) == 0;
+}
+
 static double number(const void *object, const char *name)
 {
     double value = 0;
@@ -76,12 +86,13 @@ static void decks(void)
         "&surface kind = 'wave_2d' / &stress nu = 0.6 /", "&surface kind = 'wave_2d' / &load yield = 1 /"};
     for (size_t i = 0; i < COUNT(bad); i++)
         NOTHING(scene_of(bad[i]));
-    NOTHING(wavycon_new_scene(error, wave, NULL, 1, 0, 0, NULL));
+    IS_NULL(wavycon_new_scene(error, NULL, NULL, 1, 0, 0, NULL), "wavycon_new_scene: deck");
+    IS_NULL(wavycon_new_scene(error, wave, NULL, 1, 0, 0, NULL), "wavycon_new_scene: path");
     NOTHING(wavycon_new_scene(error, wave, "misuse", 1, 16, 16, NULL));
     int status;
-    REFUSED(wavycon_run_deck(error, NULL, "", 1, &status));
-    REFUSED(wavycon_run_deck(error, "there is no such deck.nml", NULL, 1, &status));
-    REFUSED(wavycon_run_deck(error, "there is no such deck.nml", "", 1, NULL));
+    IS_NULL(wavycon_run_deck(error, NULL, "", 1, &status), "wavycon_run_deck: path");
+    IS_NULL(wavycon_run_deck(error, "no.nml", NULL, 1, &status), "wavycon_run_deck: directory");
+    IS_NULL(wavycon_run_deck(error, "no.nml", "", 1, NULL), "wavycon_run_deck: exit_status");
     REFUSED(wavycon_run_deck(error, "there is no such deck.nml", "", 1, &status));
     check(status == WAVYCON_FILE_TROUBLE, "a missing deck is file trouble", __LINE__);
     const char loads[] = "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0.2, 0.3 /\n&method solver = 'beale' /\n"
@@ -99,7 +110,8 @@ static void decks(void)
     const char *const bad_settings[] = {NULL, "\n", "amplitude=2", "surface.amplitude=", "surface.height=2"};
     for (size_t i = 0; i < COUNT(bad_settings); i++)
         NOTHING(wavycon_read_scene(error, "misuse.nml", bad_settings[i], 0));
-    NOTHING(wavycon_read_scene(error, NULL, "", 0));
+    IS_NULL(wavycon_read_scene(error, NULL, "", 0), "wavycon_read_scene: path");
+    IS_NULL(wavycon_read_scene(error, "no.nml", NULL, 0), "wavycon_read_scene: settings");
     NOTHING(wavycon_read_scene(error, "there is no such deck.nml", "", 0));
     remove("misuse.nml");
     scene = scene_of(loads);
@@ -174,6 +186,7 @@ static void loads(wavycon_scene scene, wavycon_solution solution)
     const char *const quantities[] = {"pbar_over_pstar", "mean_pressure", "mean_gap_over_amplitude", "mean_gap",
                                       "contact_area_fraction", "yield"};
     const double bad_values[] = {NAN, INFINITY, -INFINITY, -0.1, 1e300};
+    IS_NULL(wavycon_solve(error, scene, NULL, 0.5), "wavycon_solve: quantity");
     NOTHING(wavycon_solve(error, NULL, "pbar_over_pstar", 0.5));
     NOTHING(wavycon_solve(error, (wavycon_scene)solution, "pbar_over_pstar", 0.5));
     NOTHING(wavycon_solve_load(error, NULL, 0));
@@ -219,16 +232,19 @@ static void names(wavycon_scene scene, wavycon_solution solution, wavycon_table 
         REFUSED(wavycon_get(error, bad[i].object, bad[i].number, &value));
         NOTHING(wavycon_get_text(error, bad[i].object, bad[i].text, NULL, 0));
     }
-    REFUSED(wavycon_get(error, scene, "p_star", NULL));
+    IS_NULL(wavycon_get(error, scene, NULL, &value), "wavycon_get: name");
+    IS_NULL(wavycon_get(error, scene, "p_star", NULL), "wavycon_get: value");
+    IS_NULL(wavycon_get_text(error, scene, NULL, NULL, 0), "wavycon_get_text: name");
+    IS_NULL(wavycon_new_table(error, solution, NULL), "wavycon_new_table: name");
     NOTHING(wavycon_new_table(error, NULL, "summary"));
     NOTHING(wavycon_new_table(error, (wavycon_solution)scene, "summary"));
     for (size_t i = 0; i < COUNT(tables); i++)
         NOTHING(wavycon_new_table(error, solution, tables[i]));
     REFUSED(wavycon_get_column(error, NULL, "load", 1, column));
     REFUSED(wavycon_get_column(error, (wavycon_table)scene, "load", 1, column));
-    REFUSED(wavycon_get_column(error, table, NULL, 1, column));
+    IS_NULL(wavycon_get_column(error, table, NULL, 1, column), "wavycon_get_column: name");
     REFUSED(wavycon_get_column(error, table, "stress", 1, column));
-    REFUSED(wavycon_get_column(error, table, "load", 1, NULL));
+    IS_NULL(wavycon_get_column(error, table, "load", 1, NULL), "wavycon_get_column: values");
     const int bad_rows[] = {0, 2, -1, 2147483647};
     for (size_t i = 0; i < COUNT(bad_rows); i++)
         REFUSED(wavycon_get_column(error, table, "load", bad_rows[i], column));
@@ -291,14 +307,18 @@ static void fields(wavycon_scene scene, wavycon_solution solution, wavycon_solut
     }
     REFUSED(GRID(solution, 8, 8, nans));
     REFUSED(PLANE(solution, 4, 4, nans, 0, 0.3, "free"));
-    REFUSED(FIELDS(solution, points, NULL, x));
-    REFUSED(FIELDS(solution, points, x, NULL));
-    REFUSED(STRESSES(solution, points, NULL, x, x, 0.3, "free"));
-    REFUSED(STRESSES(solution, points, x, NULL, x, 0.3, "free"));
-    REFUSED(STRESSES(solution, points, x, x, NULL, 0.3, "free"));
-    REFUSED(wavycon_get_stresses(error, solution, points, x, x, x, 0.3, "free", NULL, errors));
-    REFUSED(wavycon_get_stress_plane(error, solution, 4, 4, NULL, 0, 0.3, "free", NULL, errors));
-    REFUSED(wavycon_get_invariants(error, points, NULL, other, other, principal[0]));
+    IS_NULL(FIELDS(solution, points, NULL, x), "wavycon_get_fields: x");
+    IS_NULL(FIELDS(solution, points, x, NULL), "wavycon_get_fields: y");
+    IS_NULL(STRESSES(solution, points, NULL, x, x, 0.3, "free"), "wavycon_get_stresses: x");
+    IS_NULL(STRESSES(solution, points, x, NULL, x, 0.3, "free"), "wavycon_get_stresses: y");
+    IS_NULL(STRESSES(solution, points, x, x, NULL, 0.3, "free"), "wavycon_get_stresses: depth");
+    IS_NULL(STRESSES(solution, points, x, x, x, 0.3, NULL), "wavycon_get_stresses: lateral");
+    IS_NULL(wavycon_get_stresses(error, solution, points, x, x, x, 0.3, "free", NULL, errors),
+            "wavycon_get_stresses: stress");
+    IS_NULL(PLANE(solution, 4, 4, NULL, 0, 0.3, NULL), "wavycon_get_stress_plane: lateral");
+    IS_NULL(wavycon_get_stress_plane(error, solution, 4, 4, NULL, 0, 0.3, "free", NULL, errors),
+            "wavycon_get_stress_plane: stress");
+    IS_NULL(wavycon_get_invariants(error, points, NULL, other, other, principal[0]), "wavycon_get_invariants: stress");
     /* Results that are not wanted. */
     FINE(wavycon_get_fields(error, solution, 1, &far, &far, NULL, NULL, NULL));
     FINE(wavycon_get_grid(error, solution, 8, 8, NULL, NULL, NULL, NULL));
@@ -338,9 +358,9 @@ static void bounds(wavycon_scene scene, wavycon_solution solution)
     }
     REFUSED(wavycon_get_bounds(error, NULL, pbar, n, n, NULL, p, gap, b));
     REFUSED(wavycon_get_bounds(error, (wavycon_scene)solution, pbar, n, n, NULL, p, gap, b));
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, NULL, gap, b));
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, NULL, b));
-    REFUSED(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, NULL));
+    IS_NULL(wavycon_get_bounds(error, scene, pbar, n, n, NULL, NULL, gap, b), "wavycon_get_bounds: pressure");
+    IS_NULL(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, NULL, b), "wavycon_get_bounds: gap");
+    IS_NULL(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, NULL), "wavycon_get_bounds: bounds");
     REFUSED(wavycon_get_bounds(error, free, pbar, n, n, NULL, p, gap, b));
     check(b[0] == 0 && b[5] == 0, "no bounds are written", __LINE__);
     FINE(wavycon_get_bounds(error, scene, pbar, n, n, NULL, p, gap, b));

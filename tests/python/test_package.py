@@ -9,12 +9,14 @@ virtual environment in FOLDER, once. Exit status: 77 if they cannot be.
 """
 import concurrent.futures
 import contextlib
+import copy
 import gc
 import importlib.util
 import inspect
 import io
 import os
 import pathlib
+import pickle
 import re
 import shutil
 import signal
@@ -88,6 +90,16 @@ def read_page(name):
 
 def python_blocks(name):
     return re.findall(r"```python\n(.*?)```", read_page(name), re.DOTALL)
+
+
+class Named:
+    """An array with names of its axes, as xarray has them."""
+
+    def __init__(self, values, *dims):
+        self.values, self.dims = values, dims
+
+    def __array__(self, *arguments, **options):
+        return numpy.array(self.values, *arguments, **options)
 
 
 def solve_small():
@@ -349,6 +361,17 @@ class Digits(PackageTest):
         none[:0].save("none.npz", fields=False)
         self.assertEqual(0, len(wc.load("none.npz").table()))
 
+    def test_chosen_results_are_saved_in_their_order(self):
+        results = wc.run("rough.nml")
+        for chosen in results[::-1], results[[0, 0, 2]], results[1:]:
+            chosen.save("chosen.npz")
+            again = wc.load("chosen.npz")
+            for name in "load", "mean_pressure", "contact_area":
+                numpy.testing.assert_array_equal(chosen[name], again[name])
+            self.assertEqual(results.surface.rms_slope, again[::-1].surface.rms_slope)
+            for one, other in zip(chosen, again):
+                numpy.testing.assert_array_equal(one.pressure, other.pressure)
+
     def test_saved_results_replace_results_alone(self):
         results = wc.solve(wc.wave_1d(), pbar_over_pstar=0.5)
         results.save("run", fields=False)
@@ -523,6 +546,8 @@ class Certify(PackageTest):
         refuse("nan", mean_pressure=numpy.nan)
         refuse("must be one number", mean_pressure=[1, 2])
         refuse("must be one number", mean_pressure=None)
+        refuse("must be one number", mean_pressure="1")
+        refuse("give pressure and gap, or one load", gap=None)
         refuse("hardness", mean_pressure=1, hardness=1)
         refuse("free edges", surface=self.smooth_map((8, 12), edges="free"))
         refuse("flat", surface=wc.heights(p))
@@ -594,6 +619,16 @@ class Notes(PackageTest):
         self.assertEqual([0, 1], [len(found) for found in notes])
         self.assertIn("50 % of the heights are missing and filled", notes[1][0])
 
+    def test_other_words_for_units(self):
+        for unit, words in {"megapascal": "'MPa'", "N/mm2": "'N/mm^2'", "MPa": "", "N/mm^2": "", "psi": ""}.items():
+            results, notes = self.warned(wc.solve, wc.wave_2d(amplitude=1e-3), e_star=1, mean_pressure=1e-4,
+                                         pressure_unit=unit, length_unit="mm")
+            self.assertEqual([f"pressure_unit = '{unit}' is no unit that is known: it is shown as it is, and nothing is "
+                              f"converted to it. Did you mean {words}?"]*bool(words), notes)
+            self.assertEqual("N" if unit in ("MPa", "N/mm^2") else f"{unit}*mm^2", results.units["force"])
+        self.assertIn("length_unit = 'micrometer' is no unit", self.warned(
+            wc.solve, wc.wave_2d(amplitude=1e-3), pbar_over_pstar=0.1, length_unit="micrometer")[1][0])
+
     def test_what_has_nothing_to_note(self):
         results, notes = self.warned(wc.solve, wc.wave_2d(), pbar_over_pstar=[0.1, 0.5])
         self.assertEqual(([], []), (results.notes, notes))
@@ -657,6 +692,9 @@ except ImportError as error: print(error)"""
         numpy.save("h.npy", numpy.eye(8))
         for make, first in (wc.wave_2d, []), (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]):
             self.refuse("there is no key 'lengt_x'", make, *first, lengt_x=1)
+        self.refuse("heights takes an array, got 'scan.csv': wavycon.read takes a file", wc.heights, "scan.csv")
+        self.refuse("a file is needed, got ndarray: wavycon.heights takes an array", wc.read, numpy.eye(8))
+        self.refuse("array.astype.float. may", wc.heights, pandas.DataFrame({"h": [1, 2]}, dtype=object))
         with self.assertRaises(AttributeError):
             wc.wave_3d
         locked = numpy.eye(8)
@@ -668,8 +706,40 @@ except ImportError as error: print(error)"""
         h[:] = 0   # the surface has a copy
         self.assertEqual(first, wc.solve(surface, pbar_over_pstar=0.2)[0].contact_area)
 
+    def test_arrays_of_other_packages(self):
+        """Order in memory, type and owner of heights do not matter; of xarray's axes the names count."""
+        h = numpy.round(numpy.random.default_rng(1).normal(size=(16, 12))*100)
+
+        def area(heights):
+            return wc.solve(wc.heights(heights, length_x=2, length_y=3), pbar_over_pstar=0.2)[0].contact_area
+
+        expected = area(h)
+        for same in (numpy.asfortranarray(h), numpy.repeat(h, 2, 1)[:, ::2], h.astype("i2"), h.astype(">f4"), h.tolist(),
+                     numpy.ma.masked_array(h.astype("i2")), pandas.DataFrame(h), Named(h, "y", "x"), Named(h.T, "x", "y")):
+            self.assertEqual(expected, area(same))
+
+    def test_loads_of_any_kind(self):
+        """`solve` of a surface and of a problem take the same kinds of lists."""
+        loads = [0.1, 0.2]
+        with wc.problem(wc.wave_1d()) as problem:
+            for make in iter, set, tuple, numpy.array, pandas.Series, lambda values: Named(numpy.array(values), "load"):
+                for solve in problem.solve, lambda **load: wc.solve(wc.wave_1d(), **load):
+                    self.assertEqual(loads, sorted(solve(pbar_over_pstar=make(loads)).pbar_over_pstar))
+            for bad in True, None, [], iter([]), "0.1", {}, [[0.1]], numpy.ma.masked_array(loads, [False, True]):
+                self.refuse("pbar_over_pstar", problem.solve, pbar_over_pstar=bad)
+            for bad in loads, iter(loads), set(loads):
+                self.refuse("find needs one value", problem.find, mean_gap=bad)
+            self.refuse("there is no key 'sweep_from'; there are pbar", problem.solve, sweep_from=0.1)
+            for copied in pickle.dumps, copy.deepcopy:
+                self.refuse("cannot be copied or pickled: make a problem in each", copied, problem, error=TypeError)
+
     def test_solve(self):
         wave = wc.wave_2d()
+        self.assertEqual("converged", wc.solve(wave, pbar_over_pstar=0.1, keep_fields=numpy.bool_(False))[0].status)
+        self.refuse("got str; run takes the file of a deck", wc.solve, "wave_2d", pbar_over_pstar=0.1)
+        self.refuse("'amplitude' is a key of surfaces", wc.solve, wave, pbar_over_pstar=0.1, amplitude=2)
+        self.refuse("e_star must be a number, .* got None", wc.solve, wave, pbar_over_pstar=0.1,
+                    e_star=numpy.ma.masked_array(1, True))
         self.refuse("must be a surface", wc.solve, numpy.eye(8), pbar_over_pstar=0.1)
         self.refuse("there is no load", wc.solve, wave)
         self.refuse("did you mean 'mean_pressure'", wc.solve, wave, mean_presure=1)
@@ -694,7 +764,13 @@ except ImportError as error: print(error)"""
                 thing.contact_aera
         with self.assertRaises(IndexError):
             results[1]
+        self.refuse("to_dataframe.. takes lists of names", lambda: results[["mean_gap", "status"]], error=IndexError)
+        self.refuse("'rms_slop'; did you mean 'rms_slope'", lambda: results.surface.rms_slop, error=AttributeError)
+        self.refuse(": this is a directory", results.save, str(self.folder), error=IsADirectoryError)
         self.refuse("there is no table 'maps'", one.table, "maps")
+        self.refuse("there is no table 'None'", one.table, None)
+        self.refuse("got the text 'None'", one.stresses_at, 0, 0, 0, 0.3, None)
+        self.refuse("nu must be one number", one.stresses_at, 0, 0, 0, [0.3, 0.2])
         self.refuse("needs a group &stress", one.table, "stress_line")
         self.refuse("needs a group &stress", one.plot_stress_section)
         self.refuse("finite", one.fields_at, numpy.nan, 0)
@@ -714,12 +790,18 @@ except ImportError as error: print(error)"""
         self.refuse("there is no such file", wc.run, "none.nml", error=OSError)
         self.refuse("there is no key 'sed'", wc.run, "rough.nml", {"surface.sed": 1})
         self.refuse("group.key=value", wc.run, "rough.nml", {"seed": 1})
+        self.refuse("set must be a dictionary", wc.run, "rough.nml", ["surface.seed=1"])
+        self.refuse("must be a surface, .* got NoneType", wc.sweep, None)
         self.refuse("number", wc.set_threads, 0)
         for bad in 2.5, "2", None:
             self.refuse("", wc.set_threads, bad, error=TypeError)
         numpy.save("h.npy", numpy.eye(8))
         numpy.savez("h.npz", h=numpy.eye(8))
-        for name in "rough.nml", "h.npy", "h.npz":
+        solve_small().save("cut.npz")
+        with open("cut.npz", "r+b") as file:
+            file.truncate(5000)
+        open("empty.npz", "wb").close()
+        for name in "rough.nml", "h.npy", "h.npz", "cut.npz", "empty.npz":
             self.refuse(f"{name}: this is no file that Results.save", wc.load, name)
         self.refuse("", wc.load, "none.npz", error=OSError)
 
@@ -892,6 +974,7 @@ if __name__ == "__main__":
     matplotlib.use("agg")
     import matplotlib.pyplot
     import numpy
+    import pandas
     import wavycon as wc
     from wavycon import files
     from wavycon.files import convert

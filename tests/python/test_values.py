@@ -119,7 +119,7 @@ class Names(ValuesTest):
         self.refuse("'pressure' here: one load has it", lambda: results.pressure, error=AttributeError)
         for name in "save", "method":
             self.refuse(f"'{name}' here: all loads together have it", getattr, results[0], name, error=AttributeError)
-        self.refuse("load is a group: it must be a dictionary of its keys, got 3", wc.solve, self.rough, load=3)
+        self.refuse("load is a group: it must be a dictionary of keys and their values, got 3", wc.solve, self.rough, load=3)
         results.save("units.npz")
         for one in results, results[:2], wc.load("units.npz"), pickle.loads(pickle.dumps(results)):
             self.refuse("'mean_gapp'; did you mean 'mean_gap'", one.units.__getitem__, "mean_gapp", error=KeyError)
@@ -141,7 +141,8 @@ class Names(ValuesTest):
                             "youngs_modulus": "'e1', 'e2' or 'base_e'", "poisson_ratio": "'nu1', 'nu2' or 'layer_nu'",
                             "yiield": "'yield'"}.items():
             self.refuse(rf"no key '{name}'; did you mean {words}\?", wc.solve, wave, **{name: 1})
-        self.refuse("no key 'tolerance'$", wc.solve, wave, tolerance=1)
+        for name in "tolerance", "E":
+            self.refuse(f"no key '{name}'$", wc.solve, wave, **{name: 1})
         self.refuse("several groups have a key 'nu': .*, or nu1, or nu2", wc.solve, wave, nu=0.3)
         self.refuse("did you mean 'length_unit', an option of solve", wc.heights, numpy.eye(8), lenght_unit="m")
         self.refuse("no key 'length_unit': it is an option of solve", wc.wave_2d, length_unit="m")
@@ -166,6 +167,10 @@ class Names(ValuesTest):
                                    "xarray": results.to_xarray, "h5py": lambda: results.save("a.h5", fields=False)}.items():
                 self.refuse(rf"this needs {name}: pip install 'wavycon\[\w+\]'", function, error=ImportError)
         self.assertEqual([], list(self.folder.glob("*.h5")))
+
+    def test_keys_are_the_callers(self):
+        wc.keys()["load"].clear()
+        self.assertIn("mean_pressure", wc.keys()["load"])
 
 
 @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed: types are not checked")
@@ -419,7 +424,7 @@ class Values(ValuesTest):
         self.assertEqual(4, text.count("<tr"))
         self.assertIn("mean pressure [&lt;MPa&gt;]", text)
         self.assertIn("converged", text)
-        self.assertIn("<th>mean gap [length]</th>", text)
+        self.assertIn("<th>mean gap [length]</th><th>mean gap error [length]</th>", text)
         self.assertNotIn("red", text)
         failed = wc.solve(wc.wave_2d(), mean_pressure=[2, 0.5], hardness=1)._repr_html_()
         self.assertEqual(1, failed.count("color:red"))
@@ -655,8 +660,8 @@ class Sweeps(ValuesTest):
             self.refuse("did you mean 'e_star'", wc.sweep, self.rough, e_sta=1)
             self.refuse("must be a surface", wc.sweep, [1], pbar_over_pstar=1)
             self.refuse("has its own keys", wc.sweep, "deck.nml", e_star=1)
-            self.refuse("values must be a dictionary .*, got list", wc.sweep, self.rough, ["surface.seed"])
-            self.refuse("surface.seed: a value must be a number", wc.sweep, self.rough, {"surface.seed": None})
+            self.refuse("values must be a dictionary .*, got .'surface.seed'", wc.sweep, self.rough, ["surface.seed"])
+            self.refuse("surface.seed must be a number", wc.sweep, self.rough, {"surface.seed": None})
             for jobs in -1, 0, 1.5:
                 self.refuse(f"jobs must be a whole number, 1 or more, got {jobs}", wc.sweep, self.rough, jobs=jobs)
 

@@ -101,6 +101,24 @@ class Verify(ProgramTest):
                       found)
         self.verify(self.areas(1.001), "wave_2d", "--tolerance", "1.01e-3")
 
+    def test_tolerances_by_quantity(self):
+        """Each quantity has its own tolerance, in any order beside that of the others."""
+        text = "pbar_over_pstar,contact_area_fraction,perimeter\n" + "".join(
+            f"{row['pbar_over_pstar']},{1.001*float(row['contact_area_fraction'])!r},{1.00001*float(row['perimeter'])!r}\n"
+            for row in self.rows)
+        area, others = ["--tolerance", "contact_area_fraction=1.01e-3"], ["--tolerance", "1.01e-5"]
+        for words in area + others, others + area:
+            self.assertIn("\nagrees within 0.00101 (contact_area_fraction), 1.01e-05 (perimeter) of the value",
+                          self.verify(text, "wave_2d", *words))
+        for words, name in ((area, "perimeter"), (others, "contact_area_fraction")):
+            found = self.verify(text, "wave_2d", *words, status=1)
+            self.assertRegex(found, rf"(?s)\nDIFFERS by more than .* error:\s{name} in [34] of 4 rows\n$")
+        for word, message in (("mean_gap=1", "there is no quantity 'mean_gap' in wave_2d; did you mean "
+                               "'mean_gap_over_amplitude'?"), ("contact_aera_fraction=1", "'contact_area_fraction'?"),
+                              ("pbar_over_pstar=1", "There are mean_gap_over_amplitude, "), ("perimeter=", "'' is no "),
+                              ("-1", "'-1' is no number that is 0 or more"), ("nan", "'nan' is no"), ("inf", "is no")):
+            self.assertIn(message, self.verify(text, "wave_2d", "--tolerance", word, status=1))
+
     def test_loads(self):
         # One that is the same within 1e-9, one that is not, and one between.
         area = self.rows[0]["contact_area_fraction"]

@@ -8,9 +8,10 @@ module wavycon_gwyddion_map
    use wavycon_error, only: error_type
    use wavycon_file_bytes, only: byte_order_mark
    use wavycon_kinds, only: dp, int64, largest_number, smallest_number
-   use wavycon_length_unit, only: angstrom, find_factor, micro_sign
+   use wavycon_length_unit, only: find_factor
    use wavycon_measured_map, only: laid_along_x, measured_map
    use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, short_number
+   use wavycon_units, only: angstrom, micro_sign
    implicit none (type, external)
    private
 

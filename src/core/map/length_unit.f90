@@ -1,20 +1,14 @@
-!> The units of length that map files may have: the metre, its decimal multiples and parts, and the angstrom.
+!> Conversion of the lengths of map files from one unit to another.
 module wavycon_length_unit
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, excerpt, listed
+   use wavycon_units, only: length_powers, lengths
    implicit none (type, external)
    private
 
    public :: convert_lengths, find_factor
-
-   !> Units in UTF-8: the micrometre with the micro sign, the angstrom, the micrometre with the Greek letter mu.
-   character(*), parameter, public :: micro_sign = char(194)//char(181)//'m', angstrom = char(195)//char(133)
-   character(*), parameter :: greek_letter = char(206)//char(188)//'m'
-   character(*), parameter :: units(*) = [character(3) :: 'km', 'm', 'cm', 'mm', 'um', micro_sign, greek_letter, 'nm', &
-                                          angstrom, 'pm']
-   integer, parameter :: powers(*) = [3, 0, -2, -3, -6, -6, -6, -9, -10, -12]   !! each unit is this power of 10 m
 
 contains
 
@@ -29,10 +23,10 @@ contains
       factor = 1.0_dp
       is_found = from == to
       if (is_found) return
-      i = findloc(units == from, .true., dim=1)
-      j = findloc(units == to, .true., dim=1)
+      i = findloc(lengths == from, .true., dim=1)
+      j = findloc(lengths == to, .true., dim=1)
       is_found = i > 0 .and. j > 0
-      if (is_found) factor = 10.0_dp**(powers(i) - powers(j))
+      if (is_found) factor = 10.0_dp**(length_powers(i) - length_powers(j))
    end subroutine find_factor
 
    !> Converts steps and heights of a map from the units that its file names to one unit. A map without units does not
@@ -54,7 +48,7 @@ contains
       if (.not. is_known) then
          call fatal_error(error, exit_bad_input, escaped(path)//": its lengths are in '"// &
                           excerpt(map%length_unit)//"' and cannot be converted to '"//escaped(target)// &
-                          "': both must be one of "//listed(units, ' and ')// &
+                          "': both must be one of "//listed(lengths, ' and ')// &
                           ', or length_unit in &scene the same as in the file')
          return
       end if
@@ -66,7 +60,7 @@ contains
       call find_factor(map%height_unit, map%length_unit, factor, is_known)
       if (.not. is_known) call fatal_error(error, exit_bad_input, &
          escaped(path)//": its heights are in '"//excerpt(map%height_unit)//"' and cannot be "// &
-         "converted to '"//escaped(map%length_unit)//"': they must be lengths, in one of "//listed(units, ' and ')// &
+         "converted to '"//escaped(map%length_unit)//"': they must be lengths, in one of "//listed(lengths, ' and ')// &
          ' (Gwyddion: Data Process > Basic Operations > Dimensions and Units)')
       if (factor > 1.0_dp .or. factor < 1.0_dp) map%height = factor*map%height
       map%height_unit = map%length_unit

@@ -8,7 +8,7 @@ module wavycon_notes
    use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_map_statistics, only: map_statistics
    use wavycon_methods, only: solvers_for
-   use wavycon_plain_text, only: escaped, integer_text, listed, percent, short_number
+   use wavycon_plain_text, only: escaped, in_quotes, integer_text, listed, percent, short_number
    use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, last_before, &
       main_quantities, mean_gap, peak_pressure, percolation
    use wavycon_results, only: results_type, status_tables
@@ -17,6 +17,7 @@ module wavycon_notes
       target_words
    use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, iteration_limit, not_accurate, &
       not_found, solution_record, solver_names, status_name, unresolved
+   use wavycon_units, only: meant_unit
    implicit none (type, external)
    private
 
@@ -73,9 +74,9 @@ contains
       end associate
    end subroutine show_scene
 
-   !> Notes what is suspicious in a scene, before its loads are solved: decimal commas; a doubtful height map; if the
-   !> deck has units, a surface that is too steep for the theory; a surface that is almost flat, most likely by a
-   !> mistake of units.
+   !> Notes what is suspicious in a scene, before its loads are solved: other words for units; decimal commas; a
+   !> doubtful height map; if the deck has units, a surface that is too steep for the theory; a surface that is almost
+   !> flat, most likely by a mistake of units.
    subroutine note_scene(scene, logger)
       type(scene_type), intent(in) :: scene
       type(run_log), intent(inout) :: logger
@@ -88,6 +89,8 @@ contains
       character(:), allocatable :: borders, cause, verdict
       logical :: is_flat
 
+      call note_unit('pressure_unit', scene%pressure_unit)
+      call note_unit('length_unit', scene%length_unit)
       if (scene%decimal_commas /= '') call logger%note('commas separate some numbers of '// &
          scene%decimal_commas(3:)//", blanks alone others: '0,2 0.5' is 0, 2 and 0.5. Write decimals with a point")
       if (allocated(scene%map)) call note_map(scene, scene%map, logger)
@@ -104,6 +107,17 @@ contains
       end if
       call logger%note('the slopes of the surface are '//short_number(scene%roughness%slope)//' (rms)'//borders// &
                    verdict//' '//cause)
+
+   contains
+
+      !> Notes that a label is another word for a unit.
+      subroutine note_unit(key, label)
+         character(*), intent(in) :: key, label
+
+         if (meant_unit(label) /= '') call logger%note(key//" = '"//escaped(label)//"' is no unit that is known: "// &
+            'it is shown as it is, and nothing is converted to it. Did you mean '//in_quotes(meant_unit(label))//'?')
+      end subroutine note_unit
+
    end subroutine note_scene
 
    !> Notes what is suspicious in a height map: a missing_value that does not occur, spikes, borders that do not fit

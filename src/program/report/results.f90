@@ -17,6 +17,7 @@ module wavycon_results
       number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: is_good_status, not_accurate, status_code, status_name, unresolved
+   use wavycon_units, only: makes_newton
    use wavycon_work_sharing, only: work_sharing
    implicit none (type, external)
    private
@@ -163,7 +164,8 @@ contains
          if (names(k) == 'pressure') label = self%scene%pressure_unit
          if (k > 2 .and. self%solver%surface%dimension == 2) label = label//'^2'
          if (names(k) == 'force') label = self%scene%pressure_unit//'*'//label
-         if (label == 'Pa*m^2' .or. label == 'MPa*mm^2') label = 'N'
+         if (names(k) == 'force' .and. self%solver%surface%dimension == 2 .and. &
+             makes_newton(self%scene%pressure_unit, self%scene%length_unit)) label = 'N'
          words = trim(self%unit_in_words(unit(:first - 1)))//label// &
                  self%unit_in_words(unit(first + len_trim(names(k)):))
          return

@@ -9,13 +9,15 @@ read for files of instruments; solve, run and sweep; problem for many loads one 
 of any code; load for saved results; Settings and Load, all keys of decks, and keys, the same as dictionaries; Note, the
 warnings. Lengths are in any one unit, pressures in any one unit.
 """
+import copy as _copy
 import operator as _operator
+from typing import Any as _Any
 
 from . import library as _library
 from . import names as _names
 from .deck import heights
 from .files import read
-from .library import Note, keys
+from .library import Note
 from .names import *  # noqa: F403
 from .programs import sweep
 from .results import Result, Results, Roughness, load
@@ -26,6 +28,11 @@ __all__ = ["Bounds", "Note", "Problem", "Result", "Results", "Roughness", "Surfa
            "load", "problem", "read", "run", "set_threads", "solve", "sweep"]
 __all__ += _names.__all__
 __version__ = _library.text(None, "version")
+
+
+def keys() -> dict[str, dict[str, dict[str, _Any]]]:
+    """All keys of decks: keys()[group][key] has type, unit, default, bounds, choices and meaning."""
+    return _copy.deepcopy(_library.keys())
 
 
 def set_threads(number: int) -> None:

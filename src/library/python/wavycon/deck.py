@@ -1,6 +1,7 @@
 """Decks in memory. Groups and keys are those of the library."""
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping
 from numbers import Integral, Real
 from typing import Any
@@ -16,11 +17,14 @@ from .surfaces import Surface, meanings, slips, unknown
 def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
     """A surface of heights in memory.
 
-    h: heights [length] upwards to the other body, shape (y, x) or, of a profile, (x,). NaN and masked values are
-    missing heights. length_unit: the unit of all lengths, a label. keys_of_maps: those of a map, such as length_x,
-    length_y [length], height_scale, detrend, fill_missing and edges; help(wavycon.file) has them all.
+    h: heights [length] upwards to the other body, shape (y, x) or, of a profile, (x,); of xarray's axes the names x and
+    y tell which is which. NaN and masked values are missing heights. length_unit: the unit of all lengths, a label.
+    keys_of_maps: those of a map, such as length_x, length_y [length], height_scale, detrend, fill_missing and edges;
+    help(wavycon.file) has them all.
     """
-    h = reals(h)
+    if isinstance(h, (str, os.PathLike)):
+        raise ValueError(f"heights takes an array, got {h!r}: wavycon.read takes a file")
+    h = reals(h).T.copy() if getattr(h, "dims", None) == ("x", "y") else reals(h)
     if h.ndim not in (1, 2) or h.size == 0:
         raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
     h = h if h.ndim == 2 and h.shape[1] > 1 else h.reshape(1, -1)   # a column is a profile
@@ -33,13 +37,13 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     others = {group: known for group, known in keys().items() if group != "surface"}
     for name, value in given.items():
         if name in others:
-            if not isinstance(value, Mapping):
-                raise ValueError(f"{name} is a group: it must be a dictionary of its keys, got {value!r}")
-            groups.setdefault(name, {}).update(value)
+            groups.setdefault(name, {}).update(dictionary(f"{name} is a group: it", value))
             continue
         owners = [group for group, known in others.items() if name in known]
         if len(owners) != 1:
             known_keys = [key for known in others.values() for key in known]
+            if name in keys()["surface"]:
+                raise ValueError(f"{name!r} is a key of surfaces: give it to the function that makes the surface")
             if not owners:
                 raise ValueError(unknown("key", name, known_keys, meanings(others)))
             near = "".join(f", or {key}" for key in sorted(slips(name, [key for key in known_keys if key != name])))
@@ -49,10 +53,18 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     return groups
 
 
+def dictionary(name: str, given: Any) -> Mapping[str, Any]:
+    """The keys that are given as a dictionary. Errors: ValueError for anything else."""
+    if not isinstance(given, Mapping):
+        raise ValueError(f"{name} must be a dictionary of keys and their values, got {given!r}")
+    return given
+
+
 def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """The groups of a deck of a surface and of options as of solve."""
     if not isinstance(surface, Surface):
-        raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}")
+        raise ValueError(f"the first argument must be a surface, such as heights(h), got {type(surface).__name__}"
+                         + "; run takes the file of a deck, read one of heights"*isinstance(surface, str))
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
     unit = groups["scene"].setdefault("length_unit", surface.length_unit)
     if surface.length_unit not in (None, unit):
@@ -65,7 +77,7 @@ def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) ->
     """The scene of a surface and of options as of solve."""
     deck, h = deck_text(groups_of(surface, options)).encode(), surface.heights
     rows, columns = (0, 0) if h is None else h.shape
-    scene: Handle = call("new_scene", deck, b"wavycon.solve", keep_fields, columns, rows,
+    scene: Handle = call("new_scene", deck, b"wavycon.solve", bool(keep_fields), columns, rows,
                          None if h is None else address(h))
     return scene
 
@@ -74,19 +86,19 @@ def deck_text(groups: Mapping[str, Mapping[str, Any]]) -> str:
     """The text of a deck. Keys that are None are left out, and groups of nothing else."""
     lines = []
     for group, given in groups.items():
-        values = [f"  {key} = {value_text(value)}" for key, value in given.items() if value is not None]
+        values = [f"  {key} = {value_text(key, value)}" for key, value in given.items() if value is not None]
         if values or not given:
             lines += [f"&{group}", *values, "/"]
     return "\n".join(lines) + "\n"
 
 
-def value_text(value: object, in_list: bool = False) -> str:
-    """A value as a deck has it."""
-    if isinstance(value, (np.ndarray, np.generic)):
-        value = value.tolist()
+def value_text(key: str, value: object, in_list: bool = False) -> str:
+    """The value of a key as a deck has it."""
+    if hasattr(value, "__array__"):   # of numpy, pandas, xarray
+        value = np.ma.asanyarray(value).tolist()
     if isinstance(value, str):
         if not value.isprintable():
-            raise ValueError(f"a text must not have control characters, got {value!r}")
+            raise ValueError(f"{key} must not have control characters, got {value!r}")
         return "'" + value.replace("'", "''") + "'"
     if isinstance(value, bool):
         return f".{value}.".lower()
@@ -95,5 +107,5 @@ def value_text(value: object, in_list: bool = False) -> str:
     if isinstance(value, Real):
         return repr(float(value))
     if isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping)) and not in_list:
-        return ", ".join(value_text(one, in_list=True) for one in value)
-    raise ValueError(f"a value must be a number, a text, a truth value or a list of these, got {value!r}")
+        return ", ".join(value_text(key, one, in_list=True) for one in value)
+    raise ValueError(f"{key} must be a number, a text, a truth value or a list of these, got {value!r}")

@@ -70,6 +70,8 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
     heights (y, x) or (x,), NaN where they are missing, the sides as keys, none where the file lacks them, and the unit
     (None: unknown). None for a file that the program reads, or tells best what is wrong with it. Errors: ValueError."""
+    if not isinstance(file, (str, os.PathLike)):
+        raise ValueError(f"the name of a file is needed, got {type(file).__name__}: wavycon.heights takes an array")
     if not os.path.isfile(file):
         raise FileNotFoundError(f"{file}: {'this is no file' if os.path.exists(file) else 'there is no such file'}")
     if not (start := first_bytes(file, 65536)):
@@ -126,8 +128,6 @@ def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
     none is given. Errors: NoHeights."""
     heights = {place: one for place, one in enumerate(channels) if has_heights(one)}
     there_are = ", ".join(f"{place} {one.name!r}" for place, one in heights.items()) or "none"
-    if channel is None and heights:
-        return next(iter(heights.values()))
     named = {place: one for place, one in enumerate(channels) if channel in (None, place, one.name)}
     if chosen := [one for place, one in named.items() if place in heights]:
         return chosen[0]

@@ -60,6 +60,9 @@ class Handle:
     def __init__(self, pointer: int | None) -> None:
         self._as_parameter_ = POINTER(pointer)
 
+    def __reduce__(self) -> str:
+        raise TypeError("what the library holds in memory cannot be copied or pickled: make a problem in each process")
+
     def __del__(self, delete: Any = lib.wavycon_delete) -> None:
         delete(byref(self._as_parameter_))
 
@@ -105,7 +108,7 @@ def tell(notes: list[str]) -> list[str]:
 
 def table(solution: Handle, name: str, load: int) -> tuple[Rows, dict[str, str]]:
     """A table of a solution, the load of this number, as a structured array, and the units of its columns."""
-    handle = call("new_table", solution, name.encode())
+    handle = call("new_table", solution, str(name).encode())
     words = np.array(text(handle, "words").splitlines() or [""])
     units = dict(column.rstrip("]").split("[") for column in text(handle, "columns").splitlines())
     kinds: list[Any] = [words.dtype if unit == "word" else int if column == "load" else float
@@ -123,9 +126,17 @@ def reals(array: npt.ArrayLike) -> Array:
     """An array of real numbers, contiguous doubles, masked ones NaN. Errors: ValueError for anything else."""
     given: Any = np.ma.asanyarray(array)
     if given.dtype.kind not in "biuf":
-        raise ValueError(f"an array of real numbers is needed, got numbers of the type {given.dtype}")
+        raise ValueError(f"an array of real numbers is needed, got {type(array).__name__} of the type {given.dtype}; "
+                         "array.astype(float) may make one")
     filled: Array = np.ma.filled(given.astype(float), np.nan)   # a copy
     return np.asarray(filled, order="C")
+
+
+def one_number(name: str, value: Any) -> float:
+    """The value of this name. Errors: ValueError if it is not one number."""
+    if value is None or isinstance(value, str) or np.ndim(value):
+        raise ValueError(f"{name} must be one number, got {value!r}")
+    return float(value)
 
 
 def locked(array: Rows) -> Rows:

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from .deck import deck_text, groups_of, value_text
+from .deck import deck_text, dictionary, groups_of, value_text
 from .library import keys, need
 from .names import Options, Unpack
 from .progress import new_bar
@@ -54,13 +54,10 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     key is a ValueError before anything starts.
     """
     pandas = need("pandas", "frames")
-    if not isinstance(values, Mapping):
-        raise ValueError("values must be a dictionary of keys and their values, such as {'surface.seed': [1, 2]}, got "
-                         f"{type(values).__name__}")
     if jobs is not None and not (isinstance(jobs, Integral) and jobs >= 1):
         raise ValueError(f"jobs must be a whole number, 1 or more, got {jobs!r}")
     known = [f"{group}.{key}" for group, own in keys().items() for key in own]
-    for key in values:
+    for key in dictionary("values", values):
         if str(key).lower() not in known:
             raise ValueError(unknown("key", key, known))
     points = [dict(zip(values, one)) for one in itertools.product(*itertools.starmap(values_of, values.items()))]
@@ -73,7 +70,7 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
         def run(number: int) -> Any:
             deck, title, settings = combinations[number]
             table = Path(own, f"{number}.dat")
-            sets = [f"--set={key}={value_text(value)}" for key, value in settings.items()]
+            sets = [f"--set={key}={value_text(key, value)}" for key, value in settings.items()]
             output = Path(directory or own, "" if directory else str(number))
             with subprocess.Popen([program(), deck, *sets, f"--output={output}", f"--table={table}"], text=True,
                                   errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -115,11 +112,8 @@ def values_of(key: str, given: object) -> list[object]:
     """The values of a key of a sweep; a number or a text is the only one."""
     is_one = isinstance(given, (str, bytes, Mapping)) or getattr(given, "ndim", None) == 0
     values = [given] if is_one or not isinstance(given, Iterable) else list(given)
-    try:
-        for value in values:
-            value_text(value)
-    except ValueError as trouble:
-        raise ValueError(f"{key}: {trouble}") from None
+    for value in values:
+        value_text(key, value)   # which is right, or an error
     return values
 
 
@@ -130,7 +124,7 @@ def decks_of(what: Any, folder: str, options: Mapping[str, Any]) -> Iterator[tup
             raise ValueError(f"the deck has its own keys: give values for {', '.join(options)}")
         yield os.fspath(what), {}
         return
-    surfaces = what if isinstance(what, Mapping) else {0: what} if isinstance(what, Surface) else dict(enumerate(what))
+    surfaces = what if isinstance(what, Mapping) else dict(enumerate(what if isinstance(what, Iterable) else [what]))
     for number, (name, surface) in enumerate(surfaces.items()):
         groups = groups_of(surface, options)
         if surface.heights is not None:

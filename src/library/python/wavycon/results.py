@@ -7,9 +7,10 @@ import html
 import json
 import os
 import re
+import zipfile
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import IO, TYPE_CHECKING, Any, cast, overload
+from typing import IO, TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -22,11 +23,13 @@ from .surfaces import unknown
 
 FIELDS = ("pressure", "gap", "displacement")
 HDF5 = (".h5", ".hdf5")
-# In a file: the number of the load that has the columns, where there are no loads.
+# In a file loads have numbers from 1; this is that of the load that has the columns, where there are none.
 MODEL = 0
+# Tables that belong to no load.
+OF_SURFACE = ("spectrum", "height")
 # The columns that notebooks show.
-SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "approach",
-         "approach_error", "peak_pressure", "peak_pressure_error", "status")
+SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "mean_gap_error",
+         "approach", "approach_error", "peak_pressure", "peak_pressure_error", "status")
 
 
 class Units(dict[str, str]):
@@ -200,8 +203,8 @@ class Result(Named, Columns[float, str]):
             if not (found := re.search(r"(?:&stress[^&]*\n +nu|\n +nu1) = (\S+)", self._facts.deck)):
                 raise ValueError("give nu, Poisson's ratio of the body: this deck has neither nu1 nor nu of &stress")
             nu = float(found[1])
-        call("get_stresses", solution, places[0].size, *map(address, places), float(nu), lateral.encode(),
-             stress, error)
+        call("get_stresses", solution, places[0].size, *map(address, places), library.one_number("nu", nu),
+             str(lateral).encode(), stress, error)
         call("get_invariants", places[0].size, stress, *invariants)
         return parts
 
@@ -209,7 +212,7 @@ class Result(Named, Columns[float, str]):
     plot_stress_section = pictures.plot_stress_section
 
 
-class Roughness:
+class Roughness(Named):
     """The surface that was solved: its heights, root mean squares, and the table 'spectrum'. Errors: ValueError for
     what follows from the spectrum with free edges."""
 
@@ -268,8 +271,10 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     fields."""
 
     def __init__(self, loads: Sequence[Result], facts: Facts, model: Result) -> None:
-        """model: a load that has the columns of the tables, where there is none here."""
+        """model: a load that has the columns of the tables, where there is none here, and the tables of the surface."""
         super().__init__(**vars(facts))
+        for one in loads[:1]:
+            one._tables.update({name: model._tables[name] for name in OF_SURFACE if name in model._tables})
         self._loads, self._facts, self._model = loads, facts, loads[0] if loads else model
 
     def __len__(self) -> int:
@@ -282,17 +287,18 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
     @overload
     def __getitem__(self, load: str) -> Rows: ...
 
-    def __getitem__(self, load: int | slice | str | list[int] | list[bool] | npt.NDArray[Any],
-                    ) -> Result | Results | Rows:
+    def __getitem__(self, load: Any) -> Any:
         if isinstance(load, str):
             return column(self.table(), load)
         if isinstance(load, slice):
             return Results(self._loads[load], self._facts, self._model)
         if np.ndim(load):
+            if np.asarray(load).dtype.kind == "U":
+                raise IndexError(f"one name gives a column, got {load!r}: to_dataframe() takes lists of names")
             # Masks and numbers, as numpy takes them.
             chosen = np.arange(len(self))[np.asarray(load, dtype=None if np.size(load) else int)]
             return Results([self._loads[place] for place in chosen], self._facts, self._model)
-        return self._loads[cast(int, load)]
+        return self._loads[load]
 
     def __contains__(self, one: object) -> bool:
         """Whether there is a column of this name, or this load."""
@@ -368,13 +374,15 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         self._keep_spectrum()
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
-        for number, one in [(one._load, one) for one in self] or [(MODEL, self._model)]:
+        for number, one in [*enumerate(self, 1)] or [(MODEL, self._model)]:
             content |= {f"{number}/{name}": rows for name, rows in one._tables.items()}
             content |= {f"{number}/fields/{name}": values for name, values in one._fields.items()} if fields else {}
         if hasattr(file, "write"):
             np.savez(file, **content)
             return
         path = os.fspath(file)
+        if os.path.isdir(path):
+            raise IsADirectoryError(f"{path}: this is a directory, not a file")
         if not path.endswith((".npz", *HDF5)):
             if (ending := os.path.splitext(path)[1]) and not ending[1:].isdigit():
                 raise ValueError(f"{path}: the name must end in .npz or .h5, not in {ending}; "
@@ -395,12 +403,16 @@ def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
     content: dict[str, Any] = {}
     if not hasattr(file, "read") and not os.path.exists(file) and os.path.exists(f"{os.fspath(file)}.npz"):
         file = f"{os.fspath(file)}.npz"
-    if not hasattr(file, "read") and os.fspath(file).endswith(HDF5):
-        with need("h5py", "h5").File(file, "r") as saved:
-            saved.visititems(lambda name, one: content.update({name: one[()]} if hasattr(one, "dtype") else {}))
-    else:
-        with contextlib.suppress(AttributeError, TypeError, ValueError), np.load(file, allow_pickle=False) as saved:
-            content = dict(saved)
+    try:
+        if not hasattr(file, "read") and os.fspath(file).endswith(HDF5):
+            with need("h5py", "h5").File(file, "r") as saved:
+                saved.visititems(lambda name, one: content.update({name: one[()]} if hasattr(one, "dtype") else {}))
+        else:
+            with np.load(file, allow_pickle=False) as saved:
+                content = dict(saved)
+    except (AttributeError, EOFError, OSError, TypeError, ValueError, zipfile.BadZipFile) as error:
+        if getattr(error, "errno", None):   # of the system
+            raise
     if "facts" not in content:
         raise ValueError(f"{file}: this is no file that Results.save has written")
     told = json.loads(np.asarray(content.pop("facts")).item())   # a text, of HDF5 bytes

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -10,12 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import library
-from .deck import groups_of, scene_of, value_text
-from .library import Handle, address, call, keys, reals
+from .deck import dictionary, groups_of, scene_of, value_text
+from .library import Handle, address, call, keys, one_number, reals
 from .names import Load, Options, Settings, Unpack
 from .progress import Watch
 from .results import Facts, Result, Results, note_news
-from .surfaces import SIDES, Surface, meanings, unknown
+from .surfaces import SIDES, Surface, unknown
 
 NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
@@ -63,11 +63,12 @@ def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLi
     fields: Any = pressure, gap
     if isinstance(pressure, Result):
         fields, x, y = (pressure.pressure, pressure.gap), pressure.x, pressure.y
+    elif gap is None:
+        raise ValueError("give pressure and gap, or one load, such as results[0], in place of both")
     p, g = np.atleast_2d(*map(reals, fields))
     if p.ndim != 2 or p.shape != g.shape:
         raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {p.shape} and {g.shape}")
-    if mean_pressure is None or np.ndim(mean_pressure):
-        raise ValueError(f"mean_pressure must be one number, got {mean_pressure!r}")
+    mean_pressure = one_number("mean_pressure", mean_pressure)
     scene = scene_of(surface, {"mean_pressure": mean_pressure, **options}, keep_fields=False)
     library.tell(library.text(scene, "notes").splitlines())
     offset, bounds = np.zeros(2), np.empty((3, 2))
@@ -79,7 +80,7 @@ def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLi
                 raise ValueError(f"{'xy'[axis]} must have the places of {points} points, at equal steps over the whole "
                                  f"side {side:g}")
             offset[axis] = steps[0]
-    call("get_bounds", scene, float(mean_pressure), *p.shape[::-1], None if x is y is None else address(offset),
+    call("get_bounds", scene, mean_pressure, *p.shape[::-1], None if x is y is None else address(offset),
          *map(address, (p, g, bounds)))
     return Bounds(*((float(lower), float(upper)) for lower, upper in bounds))
 
@@ -117,18 +118,18 @@ class Problem:
         percolates="gap". A solver may start from the load before, so that last digits depend on it."""
         if self._scene is None:
             raise ValueError("this problem has ended with its `with`")
-        known = keys()["load"]
+        known = [key for key in keys()["load"] if not key.startswith("sweep_")]
         for key in load:
             if key not in known:
-                raise ValueError(unknown("key", key, known, meanings(["load"])))
+                raise ValueError(unknown("key", key, known))
         if len(load) != 1:
             raise ValueError(f"give the loads by one of {', '.join(known)}")
         given: Any
         (name, given), = load.items()
         if isinstance(given, str):
             name, given = f"{name}={given}", 0.0
-        values = np.atleast_1d(given)
-        if name == "percolates" or values.dtype.kind not in "biuf" or values.ndim != 1 or not values.size:
+        values = np.atleast_1d(list(given) if isinstance(given, (Iterator, Set)) else given)
+        if name == "percolates" or values.dtype.kind not in "iuf" or values.ndim != 1 or not values.size:
             words = "one word, such as 'gap'" if name == "percolates" else "a number or a list of numbers"
             raise ValueError(f"{name} must be {words}, got {given!r}")
         values = reals(values)
@@ -141,7 +142,7 @@ class Problem:
         """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3, or percolates: its
         table "percolation" has the error of the load. progress: as of solve."""
         values: Any = load.values()
-        if any(map(np.ndim, values)):
+        if any(np.ndim(value) or isinstance(value, (Iterator, Set)) for value in values):
             raise ValueError("find needs one value, not a list; solve takes lists")
         return self.solve(progress=progress, **load)[0]
 
@@ -155,8 +156,8 @@ def run(deck: str | os.PathLike[str], set: Mapping[str, object] = MappingProxyTy
 
     set: keys in place of those of the deck, such as {"surface.amplitude": 2e-6, "load.mean_pressure": [1e6, 1e7]}.
     """
-    settings = "\n".join(f"{key}={value_text(value)}" for key, value in set.items())
-    return solve_deck(call("read_scene", os.fsencode(deck), settings.encode(), keep_fields), progress)
+    settings = "\n".join(f"{key}={value_text(key, value)}" for key, value in dictionary("set", set).items())
+    return solve_deck(call("read_scene", os.fsencode(deck), settings.encode(), bool(keep_fields)), progress)
 
 
 def solve_deck(scene: Handle, progress: bool) -> Results:

@@ -141,12 +141,14 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
                 if all(any(is_same(word, part) for part in parts) for word in words)]
         return sorted(have, key=lambda one: (not is_same(words[-1], split[one][-1]), len(one)))[:1]
 
-    is_long = len(low) >= SHORTEST[0]
-    if near := (with_words(str.__eq__) if is_long else []) or slips(name, names)[:1] or with_words(
-            lambda word, part: bool(slips(word, [part]))):
-        return near[:MOST]
-    if is_long and (parts := [one for one in names if low in one.lower()]):
-        return [min(parts, key=lambda one: (not one.lower().startswith(low), len(one)))]
+    near = slips(name, names)[:1]
+    if len(low) >= SHORTEST[0]:
+        parts = sorted((one for one in names if low in one.lower()),
+                       key=lambda one: (not one.lower().startswith(low), len(one)))
+        near = (with_words(str.__eq__) or near or with_words(lambda word, part: bool(slips(word, [part])))
+                or parts[:1])
+    if near:
+        return near
     meant = [[one for one in names if word in meanings.get(one, "").lower().replace("'", "")]
              for word in words if len(word) >= SHORTEST[1]]
     rarest = min(filter(None, meant), key=len, default=[])
