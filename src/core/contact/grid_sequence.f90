@@ -222,8 +222,8 @@ contains
       logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend, capped_errors(3), errors(3)
-      real(dp) :: deepest   ! mean indentation if the highest and all other points are pressed down to the lowest [Delta]
+      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3)
+      real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
       logical :: has_corners
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
       type(grid_edge) :: uncertain   ! 1 at points whose contact does not follow from their height, elsewhere -h
@@ -287,8 +287,8 @@ contains
       answer%error(area_at_hardness) = capped_errors(2)
       ! With free edges the errors are those of the approach.
       if (surface%has_free_edges) return
-      capped_errors = max(capped_errors, implied_errors( &
-         surface%dimension, [answer%state%residual_indentation/deepest, 1.0_dp - area, 0.0_dp], capped_errors(2), 0.0_dp))
+      capped_values = [answer%state%residual_indentation/deepest, 1.0_dp - area, 0.0_dp]
+      capped_errors = max(capped_errors, implied_errors(surface%dimension, capped_values, capped_errors(2), 0.0_dp))
       answer%error(approach) = scaled(capped_errors(1), deepest)
    end subroutine measure_level
 
