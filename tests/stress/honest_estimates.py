@@ -22,7 +22,7 @@ MERGING = {"wave_2d": ("kind = 'wave_2d'", 0.22, 0.24), "hexagonal": ("kind = 'h
            **{f"wave_2d {ratio} to 1": (f"{LONG} {ratio}", 0.15, 0.35) for ratio in (1.5, 2, 3)}}
 # Maps with a hardness, and what they have besides VALUES.
 LOAD_OVER_HARDNESS = (0.05, 0.95)
-OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction")
+OF_HARDNESS = ("area_at_hardness_fraction", "load_at_hardness_fraction", "approach", "elastic_energy")
 # Values of balls, of rough maps on balls, of patches and of punches, with free edges.
 OF_FREE_EDGES = ("approach", "contact_area", "peak_pressure")
 # Of the table of the interface, and their largest error over its estimate: next to merging derivatives have no bound.

@@ -5,7 +5,7 @@ module wavycon_contact_solver
    use wavycon_contact_solution, only: contact_solution
    use wavycon_full_contact, only: mean_compliance
    use wavycon_kinds, only: dp, ieee_is_nan
-   use wavycon_quantities, only: approach, elastic_energy
+   use wavycon_quantities, only: approach, elastic_energy, mean_gap
    use wavycon_solution_record, only: above_hardness, full_contact, interrupted, no_load, no_solution, no_solver, &
       not_finite, not_found
    use wavycon_solver_progress, only: solver_progress
@@ -54,6 +54,7 @@ module wavycon_contact_solver
    contains
       procedure :: solve
       procedure(solve_load), deferred :: solve_partial_contact
+      procedure :: measure_full_contact
       procedure(traits_of_solver), deferred :: traits
       procedure :: forget_last_load
       procedure :: begin_search
@@ -114,6 +115,7 @@ contains
                    pbar_over_pstar + surface%full_contact_peak <= surface%hardness)) then
             solution%status = full_contact
             solution%quantities = full_contact_quantities(surface, pbar_over_pstar)
+            call self%measure_full_contact(solution)
             call add_mean_compression(surface, solution)
          else
             shall_stop = .false.
@@ -122,12 +124,21 @@ contains
                solution%solution_record = no_solution(pbar_over_pstar, traits%solver, interrupted)
             else
                call self%solve_partial_contact(pbar_over_pstar, solution)
+               solution%error(approach) = max(solution%error(approach), solution%error(mean_gap))
                call add_mean_compression(surface, solution)
                if (allocated(solution%source)) solution%source%record = solution%solution_record
             end if
          end if
       end associate
    end subroutine solve
+
+   !> Measures between its points a height map that is closed at them. By default there is nothing to measure.
+   subroutine measure_full_contact(self, solution)
+      class(contact_solver), intent(in) :: self
+      type(contact_solution), intent(inout) :: solution   !! of full contact, with the values at the points
+
+      associate (unused => self, unused_too => solution); end associate
+   end subroutine measure_full_contact
 
    !> Adds what the mean pressure does to the layer below, if there is one: (E31) of src/core/half_space/README.md.
    subroutine add_mean_compression(surface, solution)

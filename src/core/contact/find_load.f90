@@ -123,9 +123,7 @@ contains
          end if
          if (solution%status == interrupted) return
          reached = solution%value(search%quantity)
-         ! An approach has the error of the mean gap.
-         error = solution%error(mean_gap)
-         if (search%quantity == contact_area) error = solution%error(contact_area)
+         error = solution%error(search%quantity)
          allowed = max(min(max(fraction_of_error*error, least_fraction*least_part), largest_fraction*least_part), &
                        value_roundings*spacing(search%target))
          if (solver%level > 0) allowed = max(allowed, min(error, coarse_fraction*least_part))

@@ -9,14 +9,17 @@ module wavycon_grid_contact
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_sequence, only: grid_start, sequence_answer, solve_by_sequence
-   use wavycon_grid_edge, only: grid_edge
+   use wavycon_full_contact, only: full_contact_series
+   use wavycon_grid_edge, only: grid_edge, make_grid_edge, pressure_per_gap
+   use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
+   use wavycon_grid_transform, only: grid_transform
    use wavycon_grid_area, only: load_concentration
    use wavycon_kinds, only: dp, int64
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
-      min_pressure, unknown
+      min_pressure, peak_pressure, unknown
    use wavycon_solution_record, only: by_grid, converged, interrupted, iteration_limit, no_memory, no_solution, &
       not_accurate, unresolved
    use wavycon_surface, only: surface_type
@@ -46,6 +49,7 @@ module wavycon_grid_contact
    contains
       procedure :: start
       procedure :: solve_partial_contact
+      procedure :: measure_full_contact
       procedure :: set_search
       procedure :: traits
    end type grid_contact
@@ -112,6 +116,33 @@ contains
       traits%lacks_waves = plan%lacks_waves
       if (all(self%options%points > 0)) traits%given_grid = traits%finest_grid
    end function traits
+
+   !> The peak pressure of a map that is closed at its points lies between them: (C13a), where p is the series p_full.
+   subroutine measure_full_contact(self, solution)
+      class(grid_contact), intent(in) :: self
+      type(contact_solution), intent(inout) :: solution
+
+      !> Largest error of the polynomials through fifths of a step over that of a constant, in 1-D and 2-D: (C13b).
+      real(dp), parameter :: interpolation_error(2) = [1.45e-3_dp, 5.93e-3_dp]
+      type(grid_edge) :: edge
+      type(grid_transform) :: transform
+      real(dp), allocatable :: pressure(:, :)
+      real(dp) :: bend, peak
+
+      associate (surface => self%surface)
+         if (.not. (surface%is_height_map() .and. surface%amplitude > 0.0_dp)) return
+         call transform%start(surface%points/surface%maps_in_cell(), even=surface%mirrored)
+         allocate (pressure(transform%points(1), transform%slab%columns()))
+         call transform%sample(full_contact_series(surface, solution%pbar_over_pstar), pressure)
+         call make_grid_edge(edge, pressure, surface%mirrored, pressure_per_gap(surface, transform%slab%points), &
+                             transform%slab, .false.)
+         call edge%fetch_neighbours()
+         call grid_peak_pressure(edge, peak, bend, surface)
+         solution%value(peak_pressure) = min(peak, surface%hardness)
+         solution%error(peak_pressure) = max(bend, interpolation_error(surface%dimension) &
+                                             *0.5_dp*(peak - solution%value(min_pressure)))
+      end associate
+   end subroutine measure_full_contact
 
    !> Solves one load by solve_by_sequence, measures the edge of contact and sets the status. The status is no_memory or
    !> interrupted if not even the coarsest grid was solved.

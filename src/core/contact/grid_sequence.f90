@@ -9,7 +9,7 @@ module wavycon_grid_sequence
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, join, make_grid_edge, pressure_per_gap, start_grid_edge
-   use wavycon_grid_error, only: change_history, estimate_errors, unresolved_errors
+   use wavycon_grid_error, only: change_history, estimate_errors, implied_errors, unresolved_errors
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: fits_memory, grid_plan, plan_grids
    use wavycon_grid_refinement, only: refine_pressure
@@ -42,7 +42,9 @@ module wavycon_grid_sequence
       type(grid_edge), allocatable :: edge
       !> Main values on the last three grids. With a hardness the area is that before its bound P/H is applied.
       type(change_history) :: history
-      type(change_history), private :: at_hardness   !! area at the hardness on the last three grids; (2) alone is used
+      !> Mean residual indentation over the largest that the surface can have, and the area at the hardness, on the last
+      !> three grids; (3) is not used.
+      type(change_history), private :: at_hardness
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
       integer :: grids = 0                 !! number of grids that were solved
@@ -142,7 +144,10 @@ contains
               [surface%has_free_edges, surface%has_free_edges, .true.]) .or. .not. is_known(values)) &
          errors = unknown
       answer%error(main_quantities) = errors
-      answer%error(elastic_energy) = scaled(errors(1), 2*mean_pressure)
+      ! (C22a): so far this is the error of the residual indentation.
+      answer%error(approach) = answer%error(approach) + errors(1)
+      if (.not. all(is_known([errors(1), answer%error(approach)]))) answer%error(approach) = unknown
+      answer%error(elastic_energy) = scaled(answer%error(approach), 2*mean_pressure)
    end subroutine solve_by_sequence
 
    !> Solves (C1) on one grid, from the pressure answer%state%pressure. The pressure is first multiplied by a factor
@@ -217,7 +222,8 @@ contains
       logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend, capped_errors(3), errors(3)
+      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3)
+      real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
       logical :: has_corners
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
       type(grid_edge) :: uncertain   ! 1 at points whose contact does not follow from their height, elsewhere -h
@@ -272,12 +278,18 @@ contains
       call capped%fetch_neighbours()
       area = 1.0_dp - grid_contact_area(capped)
       answer%value(area_at_hardness) = min(area, mean_pressure/surface%hardness)
-      call answer%at_hardness%push([0.0_dp, area, 0.0_dp])
+      deepest = maxval(answer%state%slab%largest([maxval(h)])) - 1.0_dp
+      call answer%at_hardness%push([answer%state%residual_indentation/deepest, area, 0.0_dp])
       capped_errors = answer%at_hardness%errors()
       ! Between the points the pressure may reach H although no point does.
       if (answer%value(peak_pressure) >= surface%hardness) &
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
       answer%error(area_at_hardness) = capped_errors(2)
+      ! With free edges the errors are those of the approach.
+      if (surface%has_free_edges) return
+      capped_values = [answer%state%residual_indentation/deepest, 1.0_dp - area, 0.0_dp]
+      capped_errors = max(capped_errors, implied_errors(surface%dimension, capped_values, capped_errors(2), 0.0_dp))
+      answer%error(approach) = scaled(capped_errors(1), deepest)
    end subroutine measure_level
 
    !> Whether the peak pressure needs no interpolation by the pressure of full contact, (C13a). With free edges the

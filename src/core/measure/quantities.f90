@@ -17,10 +17,11 @@ module wavycon_quantities
    real(dp), parameter, public :: unknown = 1e30_dp
 
    !> `mean_gap`: G [Delta], eqs. (19), (28). `approach`: approach of the mean planes of the elastic bodies,
-   !> delta'/Delta = 1 - G, plus the mean residual indentation (C22) if there is a hardness. The errors of both are
-   !> equal. With free edges in 2-D they are that of the approach, otherwise that of the mean gap. `contact_area`: over
-   !> the nominal area; by definition 1 for P >= 1. `peak_pressure`: largest pressure [p*], `unknown` where it is
-   !> infinite. `min_pressure`: smallest pressure [p*]; that of a series is negative between its points.
+   !> delta'/Delta = 1 - G, plus the mean residual indentation (C22) if there is a hardness, whose error adds to that of
+   !> the mean gap. Otherwise the errors of both are equal; with free edges in 2-D they are that of the approach, else
+   !> that of the mean gap. `contact_area`: over the nominal area; by definition 1 for P >= 1. `peak_pressure`: largest
+   !> pressure [p*], `unknown` where it is infinite. `min_pressure`: smallest pressure [p*]; that of a series is
+   !> negative between its points.
    integer, parameter, public :: mean_gap = 1, approach = 2, contact_area = 3, peak_pressure = 4, min_pressure = 5
    !> Of the area where the pressure is the hardness: its fraction of the nominal area, and its fraction of the load.
    integer, parameter, public :: area_at_hardness = 6, load_at_hardness = 7

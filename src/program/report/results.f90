@@ -13,7 +13,7 @@ module wavycon_results
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
-   use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, mean_gap, &
+   use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, &
       number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: is_good_status, not_accurate, status_code, status_name, unresolved
@@ -280,8 +280,6 @@ contains
             ! The pressure of a flat surface, whose p* is 0, is infinite in units of p*.
             if (.not. number > huge(number)) number = or_nan(number)
             if (is_error) number = or_nan(q%error(quantity))
-            ! The error of the mean gap is also that of the approach.
-            if (is_error .and. quantity == approach) number = or_nan(q%error(mean_gap))
             exists = self%traits%has_errors .or. .not. is_error
             if (quantity == approach) exists = exists .and. .not. (surface%has_free_edges .and. surface%dimension == 1)
             if (any(quantity == [area_at_hardness, load_at_hardness])) exists = exists .and. surface%has_hardness()
