@@ -108,7 +108,8 @@ contains
                call problems%add(token%first, "expected 'key = value', found '"//shown(token)//"'")
             else
                call problems%add(token%first, "'"//shown(token)//"' stands outside of any group: a group begins "// &
-                                 "with &name and ends with '/', which is text only between quotes; '!' begins a comment")
+                                 "with &name and ends with '/', which is text only between quotes; "// &
+                                 "'!' begins a comment")
             end if
          end if
          token = next_token(text%content(:text%last_of_deck), token%last + 1)
