@@ -22,9 +22,9 @@ answer_help() {
    esac
 }
 
-# bad_usage [WORDS...]: a message, if there is one, the usage, and exit status 1.
+# bad_usage WORDS...: a message, the usage, and exit status 1.
 bad_usage() {
-   if [ $# -gt 0 ]; then say "$*"; fi
+   say "$*"
    usage >&2
    exit 1
 }

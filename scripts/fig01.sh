@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig01 'Fig. 1, the profiles of a flat and a one-dimensional wave,' "$@"
+start_figure fig01 'Fig. 1, the profiles of a flat and a one-dimensional wave' "$@"
 run_decks fig01
 draw_figure 480 480 <<'EOF'
 # The gap of eq. (5) over the wavelengths shown, from that over half a wavelength.

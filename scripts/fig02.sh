@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig02 'Fig. 2, the pressures of the one-dimensional wave,' "$@"
+start_figure fig02 'Fig. 2, the pressures of the one-dimensional wave' "$@"
 run_decks fig02
 draw_figure 480 420 "edge_level = $(header_value fig02 lines 'edge_level[p*]')" <<'EOF'
 lines = table('fig02', 'lines')

@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig03 'Fig. 3, the mean gap of the one-dimensional wave,' "$@"
+start_figure fig03 'Fig. 3, the mean gap of the one-dimensional wave' "$@"
 run_decks fig03 fig03_curve
 draw_figure 480 360 <<'EOF'
 set xlabel load

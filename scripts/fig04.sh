@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig04 'Fig. 4, the unit cell of the two-dimensional wave,' "$@"
+start_figure fig04 'Fig. 4, the unit cell of the two-dimensional wave' "$@"
 run_decks fig04
 draw_figure 480 480 <<'EOF'
 step = 0.2

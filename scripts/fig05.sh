@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig05 'Fig. 5, the pressures along the dotted lines of Fig. 4,' "$@"
+start_figure fig05 'Fig. 5, the pressures along the dotted lines of Fig. 4' "$@"
 run_decks fig05 fig05_fine
 draw_figure 600 400 <<'EOF'
 lines = table('fig05', 'lines')

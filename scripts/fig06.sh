@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig06 'Fig. 6, the shapes of the contact areas,' "$@"
+start_figure fig06 'Fig. 6, the shapes of the contact areas' "$@"
 run_decks fig06 fig06_circles
 draw_figure 480 480 "edge_level = $(header_value fig06 contour 'edge_level[p*]')" <<'EOF'
 edges = table('fig06', 'contour')

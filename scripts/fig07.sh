@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig07 'Fig. 7, the contact area of the two-dimensional wave,' "$@"
+start_figure fig07 'Fig. 7, the contact area of the two-dimensional wave' "$@"
 run_decks fig07 fig07_curves
 draw_figure 480 380 "edge_level = $(header_value fig07 summary 'edge_level[p*]')" <<'EOF'
 curves = table('fig07_curves', 'theory')

@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure fig09 'Fig. 9, the contact areas of the experiment as computed,' "$@"
+start_figure fig09 'Fig. 9, the contact areas of the experiment as computed' "$@"
 run_decks fig09 fig09_converged
 draw_figure 600 285 "edge_level = $(header_value fig09 contour 'edge_level[p*]')" \
    "side = $(header_value fig09 contour 'cell_x[length]')" <<'EOF'

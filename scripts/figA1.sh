@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure figA1 'Fig. A1, the penny-shaped crack of radius b,' "$@"
+start_figure figA1 'Fig. A1, the penny-shaped crack of radius b' "$@"
 run_decks figA1 figA1_paper
 draw_figure 480 480 <<'EOF'
 lines = table('figA1', 'lines')

@@ -34,20 +34,25 @@ start_figure() {
 }
 
 show_help() {
+   case $figure in
+      fig*) title="$title of Johnson, Greenwood & Higginson (1985)" ;;
+   esac
    cat <<EOF
 usage: $(basename "$0") [--format png|svg|pdf] [--help]
 
-Draws $title
-of Johnson, Greenwood & Higginson (1985) into outputs/figures/$figure.FORMAT of the tree, by default
-png, from tables that the program writes under outputs/. Prints the name of the picture. The program is
-build/wavycon of the tree, or the one that the variable WAVYCON names.
+Draws $title.
+
+The picture is outputs/figures/$figure.FORMAT, by default png, drawn from tables that the program writes under
+outputs/. Prints its name. The program is build/wavycon of the tree, or the one that the variable WAVYCON names.
+
+Exit status: 0 drawn, 1 if not.
 EOF
 }
 
 refuse() {
    printf '%s: %s\n' "$(basename "$0")" "$1" >&2
    show_help >&2
-   exit 2
+   exit 1
 }
 
 stop() {

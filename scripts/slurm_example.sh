@@ -8,7 +8,7 @@
 # machine"). For 1.07e9 points 66 are 71 GB, 4.4 GB for each of 16 ranks of 8 processors, and 0.4 GB are left for MPI.
 # Ranks: they have whole strips of 32 columns, so at most points/32 of them have any, here 1024. Few ranks with some
 # threads each send fewer and larger messages than a rank for each processor.
-# Time: there 8192 x 8192 points took 89 s on two ranks, for 230 iterations on all grids. A load takes as many here, or
+# Time: there 8192 x 8192 points took 94 s on two ranks, for 230 iterations on all grids. A load takes as many here, or
 # somewhat more, on 16 times as many points.
 #SBATCH --job-name=wavycon
 #SBATCH --nodes=4

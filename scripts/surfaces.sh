@@ -3,7 +3,7 @@
 set -eu
 # shellcheck source=scripts/figure_common.sh
 . "$(dirname "$0")/figure_common.sh"
-start_figure surfaces 'contact pressures of four surfaces that are none' "$@"
+start_figure surfaces "contact pressures of four surfaces beyond the paper's" "$@"
 run_decks surface_rectangular surface_hexagonal surface_sum surface_rough
 for case in surface_rectangular surface_hexagonal surface_sum surface_rough; do
    facts="${facts-} $(header_value $case map 'cell_x[length]') $(header_value $case map 'cell_y[length]')"

@@ -109,7 +109,9 @@ class Axis:
             tics = "(" + ", ".join(f"{one}e{power}" for power in powers for one in (1, 2, 5)) + ")"
         form = ("10^{%T}" if self.wide and not is_short else "%h") if self.numbers else ""
         minor = "default" if not (self.wide and self.step) else 1 if self.step > 10 else 10
-        return [f"set {name}range [{self.low!r}:{self.high!r}]", f"{'' if self.wide else 'un'}set logscale {name}",
+        # The range is set while the axis is linear: one from 0 is no range of a logarithmic axis.
+        return [f"unset logscale {name}", f"set {name}range [{self.low!r}:{self.high!r}]",
+                *[f"set logscale {name}"]*self.wide,
                 f"set {name}tics {tics} font '{self.font}'",
                 f"set m{name}tics {minor}", f"set format {name} '{form}'",
                 f"set {name}label {lines_of(self.label)} {self.options}"]

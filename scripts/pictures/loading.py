@@ -70,7 +70,8 @@ def summary(picture):
                     entry("points ls 11", "the paper's series")]
     with_linear_law = picture.alone and bool(first.column(LINEAR_LAW))
     if with_linear_law:
-        entries.append(entry("lines ls 33", "2 p̄/(E* h'), h' the rms slope"))
+        slope = "{/:Italic h}'"
+        entries.append(entry("lines ls 33", f"2{P_BAR}/({{/:Italic E}}* {slope}), {slope} the rms slope"))
 
     def beside(n, load, x, found):
         """The curves that are no solutions: converged values, and for the area the linear law of light loads."""

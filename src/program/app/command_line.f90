@@ -280,7 +280,7 @@ contains
       type(option_group), target :: no_options   ! values without use, to which the list points
 
       call list_options(no_options, keys)
-      text = 'wavycon: elastic contact of regular wavy surfaces, from namelist decks to tables.'//newline//newline
+      text = 'wavycon: elastic contact of wavy and rough surfaces, from namelist decks to tables.'//newline//newline
       usage = 'DECK...'
       do i = 1, size(keys%rows)
          usage = usage//' ['//trim(trim(keys%rows(i)%name)//' '//keys%rows(i)%unit)//']'

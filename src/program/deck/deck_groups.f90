@@ -108,7 +108,8 @@ contains
                call problems%add(token%first, "expected 'key = value', found '"//shown(token)//"'")
             else
                call problems%add(token%first, "'"//shown(token)//"' stands outside of any group: a group begins "// &
-                                 "with &name and ends with '/', which is text only between quotes")
+                                 "with &name and ends with '/', which is text only between quotes; "// &
+                                 "'!' begins a comment")
             end if
          end if
          token = next_token(text%content(:text%last_of_deck), token%last + 1)
@@ -380,9 +381,6 @@ contains
       if (any(has_key)) then
          words = key//' belongs to &'//listed(pack(lists%name, has_key), ' and &')//', not to &'//trim(list%name)// &
                  did_you_mean(key, pack(list%rows%name, .not. is_given), "'", "'")
-      else if (key == 'minimiser') then
-         words = "there is no key 'minimiser' any more: write solver = 'beale' for Beale's method, "// &
-                 "solver = 'series' for the dual method"
       else if (key_index(list%rows, key(:bracket - 1)) > 0) then
          words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
       else

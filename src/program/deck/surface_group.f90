@@ -87,7 +87,7 @@ contains
          "program is started. The last row and column are the cell's last, not copies of the first.", &
          longest=longest_path, required=.true.))
       call keys%add(values%file2, key_type(text_value, 'file2', '', '', &
-         'a second map, of the other body, upwards to the first one: points and sides are those of `file`. The '// &
+         'a second map, of the other body, upwards to the first one: points and sides are those of the first. The '// &
          'surface has the sum of both heights. The keys below prepare each map by itself.', longest=longest_path))
       call keys%add(values%file2_scale, key_type(real_value, 'file2_scale', 'height_scale', 'length', &
          "length of one unit of file2's heights, a factor if the file has units; default 1 if only one of both "// &
@@ -98,7 +98,7 @@ contains
       call keys%add(values%file2_missing_value, key_type(real_value, 'file2_missing_value', 'missing_value', '-', &
          'missing_value of the second map.', needs='file2'))
       call keys%add(values%file2_detrend, key_type(choice_value, 'file2_detrend', 'detrend', '', &
-         'what is subtracted from the second map, as `detrend` from the first.', choices=trends, needs='file2'))
+         'what is subtracted from the second map, as detrend does from the first.', choices=trends, needs='file2'))
       call keys%add(values%file_format, key_type(choice_value, 'file_format', "'auto'", '', &
          "'matrix', a row of heights for each y; 'xyz', lines of x, y, z on a regular grid; 'xz', lines of x "// &
          "and z of a profile; 'npy' of numpy; 'gsf' of Gwyddion; 'auto', what the file looks like, xyz if "// &
@@ -119,7 +119,7 @@ contains
          "or 'quadratic', a polynomial of the second degree; 'lines', from each row along x its median.", &
          choices=trends))
       call keys%add(values%fill_missing, key_type(choice_value, 'fill_missing', "'none'", '', &
-         "heights that are missing: 'none', they are an error; 'harmonic', filled after `detrend` by the "// &
+         "heights that are missing: 'none', they are an error; 'harmonic', filled after detrend by the "// &
          "smooth surface of Laplace's equation.", choices='none harmonic'))
       keys%of = 'file self_affine'
       call keys%add(values%edges, key_type(choice_value, 'edges', "'periodic'", '', &
