@@ -16,10 +16,11 @@ module wavycon_grid_contact
    use wavycon_grid_source, only: grid_source
    use wavycon_grid_transform, only: grid_transform
    use wavycon_grid_area, only: load_concentration
+   use wavycon_hidden_gap, only: hidden_gap_errors
    use wavycon_kinds, only: dp, int64
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
-   use wavycon_quantities, only: area_at_hardness, border_load, concentrated_load, contact_area, load_at_hardness, &
-      min_pressure, peak_pressure, unknown
+   use wavycon_quantities, only: approach, area_at_hardness, border_load, concentrated_load, contact_area, &
+      elastic_energy, load_at_hardness, mean_gap, min_pressure, peak_pressure, scaled, unknown
    use wavycon_solution_record, only: by_grid, converged, interrupted, iteration_limit, no_memory, no_solution, &
       not_accurate, unresolved
    use wavycon_surface, only: surface_type
@@ -118,6 +119,7 @@ contains
    end function traits
 
    !> The peak pressure of a map that is closed at its points lies between them: (C13a), where p is the series p_full.
+   !> Gaps may lie there, too.
    subroutine measure_full_contact(self, solution)
       class(grid_contact), intent(in) :: self
       type(contact_solution), intent(inout) :: solution
@@ -127,7 +129,7 @@ contains
       type(grid_edge) :: edge
       type(grid_transform) :: transform
       real(dp), allocatable :: pressure(:, :)
-      real(dp) :: bend, peak
+      real(dp) :: bend, errors(3), peak
 
       associate (surface => self%surface)
          if (.not. (surface%is_height_map() .and. surface%amplitude > 0.0_dp)) return
@@ -139,8 +141,12 @@ contains
          call edge%fetch_neighbours()
          call grid_peak_pressure(edge, peak, bend, surface)
          solution%value(peak_pressure) = min(peak, surface%hardness)
-         solution%error(peak_pressure) = max(bend, interpolation_error(surface%dimension) &
+         errors = hidden_gap_errors(surface, transform%points, solution%pbar_over_pstar, open_part=0.0_dp)
+         solution%error(peak_pressure) = max(bend, errors(3), interpolation_error(surface%dimension) &
                                              *0.5_dp*(peak - solution%value(min_pressure)))
+         solution%error([mean_gap, approach]) = errors(1)
+         solution%error(contact_area) = errors(2)
+         solution%error(elastic_energy) = scaled(errors(1), 2*solution%pbar_over_pstar)
       end associate
    end subroutine measure_full_contact
 

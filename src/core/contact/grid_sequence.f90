@@ -5,7 +5,7 @@
 !> grid. Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change
+   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change, most_open
    use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, join, make_grid_edge, pressure_per_gap, start_grid_edge
@@ -16,6 +16,7 @@ module wavycon_grid_sequence
    use wavycon_grid_slab, only: grid_slab
    use wavycon_grid_solver, only: solve_on_grid
    use wavycon_grid_state, only: grid_state
+   use wavycon_hidden_gap, only: hidden_gap_errors
    use wavycon_kinds, only: dp
    use wavycon_measure_tuning, only: resolved_points
    use wavycon_pressure_load, only: has_points_at, set_load
@@ -224,7 +225,7 @@ contains
 
       real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3)
       real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
-      logical :: has_corners
+      logical :: has_corners, resolved
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
       type(grid_edge) :: uncertain   ! 1 at points whose contact does not follow from their height, elsewhere -h
 
@@ -248,7 +249,8 @@ contains
       answer%value(contact_area) = area
       if (surface%dimension == 2 .and. estimated) &
          answer%value(contact_area_corrected) = corrected_area_fraction(answer%edge)
-      if (resolves_waves(surface, answer%state%slab)) then
+      resolved = resolves_waves(surface, answer%state%slab)
+      if (resolved) then
          call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend)
       else
          call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend, surface)
@@ -257,7 +259,11 @@ contains
       answer%value(peak_pressure) = min(answer%value(peak_pressure), surface%hardness)
       call answer%history%push(answer%main_values(surface))
       errors = unknown
-      if (estimated) errors = estimate_errors(answer%history, surface, mean_pressure, answer%edge, bend)
+      if (estimated) then
+         errors = estimate_errors(answer%history, surface, mean_pressure, answer%edge, bend)
+         if (surface%is_height_map() .and. 1.0_dp - area < most_open .and. .not. resolved) &
+            errors = max(errors, hidden_gap_errors(surface, answer%state%slab%points, mean_pressure, 1.0_dp - area))
+      end if
       associate (p => answer%edge%pressure_or_gap)
          has_corners = ends_at_corners(surface, p)
          if (surface%has_steps) then
