@@ -43,7 +43,7 @@ contains
                     between(3) - at_points(3)], 0.0_dp)
    end function hidden_gap_errors
 
-   !> Where the pressure of full contact is negative: mean gap [Delta], part of the points, and the largest tension [p*].
+   !> Where the pressure of full contact is negative: mean gap [Delta], part of the points, the largest tension [p*].
    !> With `is_between` each point stands for the lowest pressure between it and its neighbours.
    function openings(surface, points, pbar_over_pstar, is_between)
       type(surface_type), intent(in) :: surface

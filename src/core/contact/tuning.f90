@@ -204,8 +204,8 @@ module wavycon_contact_tuning
    !> The scatter of the last changes is at least this part of the scatter of those before (C29d). The scatter falls as
    !> the step to the power 3/2, to .35, from grid to grid; so the constant is a little more.
    real(dp), parameter, public :: kept_scatter = 0.4_dp
-   !> Part of the surface without contact up to which gaps between the points of a map are searched (C17c). Where more is
-   !> open the errors of what the points show are larger, and the search would take time for nothing.
+   !> Part of the surface without contact up to which gaps between the points of a map are searched (C17c). Where more
+   !> is open the errors of what the points show are larger, and the search would take time for nothing.
    real(dp), parameter, public :: most_open = 0.05_dp
 
    ! Collocation fitted to the edge.
