@@ -256,10 +256,13 @@ contains
       !> Maxima below this part of the largest pressure are left out, to save time. With 0.6 no peak changes, with 0.8
       !> the root mean square error of peaks is 1.3 times as large.
       real(dp), parameter :: least_part = 0.7_dp
+      !> Maxima that differ by less than this part are mirror images or repetitions: of them one is tried.
+      real(dp), parameter :: alike = 1e-6_dp
       real(dp) :: expected, highest, minus_number(1), top(1)
       real(dp) :: raised(size(best, 2) + 1)          ! of the own points, falling; then 0
       integer :: own(2, size(best, 2) + 1)           ! their places
       integer :: i, j, k, l, m, most
+      logical :: is_top   ! whether this process has the most hopeful maximum, or one like it
 
       m = edge%slab%points(1)
       most = size(best, 2)
@@ -276,9 +279,9 @@ contains
                if (p(i) < p(max(i - 1, 1))) cycle
                if (p(i) < p(min(i + 1, m))) cycle
                if (any(p(i) < [((edge%value_at(i + k, j + l), k=-1, 1), l=-1, 1)])) cycle
-               if (all([i, j] == best(:, 1))) cycle
+               if (highest - p(i) <= alike*highest) cycle
                expected = p(i) + rise([(edge%value_at(i + k, j), k=-2, 2)]) + rise([(edge%value_at(i, j + l), l=-2, 2)])
-               if (expected <= raised(most)) cycle
+               if (expected <= raised(most) .or. any(abs(raised - expected) <= alike*expected)) cycle
                k = count(raised >= expected) + 1
                raised(k + 1:) = raised(k:most)
                own(:, k + 1:) = own(:, k:most)
@@ -295,9 +298,10 @@ contains
          left = top(1)
          if (number == most .or. .not. left > 0.0_dp) return
          minus_number = -huge(minus_number)
-         if (raised(i) >= left) minus_number = -(own(1, i) - 1.0_dp + real(m, dp)*(own(2, i) - 1))
+         is_top = raised(i) >= (1.0_dp - alike)*left
+         if (is_top) minus_number = -(own(1, i) - 1.0_dp + real(m, dp)*(own(2, i) - 1))
          top = edge%slab%largest(minus_number)
-         if (minus_number(1) >= top(1)) i = i + 1
+         if (is_top) i = i + 1
          best(2, number + 1) = int(-top(1)/m)
          best(1, number + 1) = nint(-top(1) - real(m, dp)*best(2, number + 1))
          best(:, number + 1) = best(:, number + 1) + 1
