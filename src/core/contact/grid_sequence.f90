@@ -261,7 +261,7 @@ contains
       errors = unknown
       if (estimated) then
          errors = estimate_errors(answer%history, surface, mean_pressure, answer%edge, bend)
-         if (surface%is_height_map() .and. 1.0_dp - area < most_open .and. .not. resolved) &
+         if (surface%is_height_map() .and. 1.0_dp - area < most_open(surface%dimension) .and. .not. resolved) &
             errors = max(errors, hidden_gap_errors(surface, answer%state%slab%points, mean_pressure, 1.0_dp - area))
       end if
       associate (p => answer%edge%pressure_or_gap)
