@@ -74,6 +74,11 @@ contains
       is_file = .true.
       if (present(in_memory)) is_file = .not. in_memory
       text = deck_text
+      ! The mark at the start of a text of two bytes a character.
+      if (any([index(text%content, char(255)//char(254)), index(text%content, char(254)//char(255))] == 1)) &
+         call fatal_error(error, exit_bad_input, escaped(text%path)// &
+                          ': this text has two bytes a character (UTF-16): save it as UTF-8 or ASCII')
+      if (allocated(error)) return
       token = next_token(text%content, 1)
       if (token%kind == at_end) call fatal_error(error, exit_bad_input, escaped(text%path)//': the deck is empty')
       if (allocated(error)) return
