@@ -17,7 +17,7 @@ from rough_map import rough_map  # noqa: E402, F401
 from tables import Table  # noqa: E402
 
 SECONDS = 2.0  # most processor time of a deck that needs little work [s]
-PATIENCE = 10.0  # a run that takes longer is killed and counts as hanging [s]
+PATIENCE = 60.0  # a run that takes longer, also on a busy machine, is killed and counts as hanging [s]
 MOST_KEPT = 10**6  # bytes of a file of a case that failed
 MOST_SHOWN = 20  # failures of a part that are printed
 

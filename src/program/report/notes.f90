@@ -392,6 +392,7 @@ contains
 
       solved = reshape([(results%is_solved_in(load), load=1, size(results%loads))], shape(solved))
       words = results%scene%case//': all '//integer_text(size(results%loads))//' loads solved'
+      if (size(results%loads) == 1) words = results%scene%case//': the load is solved'
       if (.not. all(solved)) words = results%scene%case//': '//integer_text(count(.not. all(solved, 1)))//' of '// &
          integer_text(size(results%loads))//' loads NOT solved as requested, see the status in '// &
          listed(pack(status_tables, .not. all(solved, 2)), ' and ')
