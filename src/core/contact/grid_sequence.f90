@@ -118,7 +118,8 @@ contains
          if (surface%has_free_edges) unit = values
          answer%accurate = answer%state%converged .and. i >= plan%trusted .and. &
             all(errors <= accuracy*unit .or. .not. is_known(values)) .and. &
-            answer%error(area_at_hardness) <= accuracy*unit(2)
+            answer%error(area_at_hardness) <= accuracy*unit(2) .and. &
+            errors(1) + answer%error(approach) <= accuracy*max(unit(1), answer%value(approach))
          if (present(progress)) &
             call progress%grid_solved(plan%grids(:, i)*merge(2, 1, surface%shape%is_even() .and. plan%grids(:, i) > 1) &
                                       /surface%maps_in_cell(), answer%state%iterations, answer%state%residual)
