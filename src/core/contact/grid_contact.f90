@@ -9,14 +9,12 @@ module wavycon_grid_contact
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
    use wavycon_grid_sequence, only: grid_start, sequence_answer, solve_by_sequence
-   use wavycon_full_contact, only: full_contact_series
-   use wavycon_grid_edge, only: grid_edge, make_grid_edge, pressure_per_gap
+   use wavycon_grid_edge, only: grid_edge
    use wavycon_grid_peak, only: grid_peak_pressure
    use wavycon_grid_plan, only: grid_plan, plan_grids
    use wavycon_grid_source, only: grid_source
-   use wavycon_grid_transform, only: grid_transform
    use wavycon_grid_area, only: load_concentration
-   use wavycon_hidden_gap, only: hidden_gap_errors
+   use wavycon_hidden_gap, only: full_contact_edge, hidden_gap_errors
    use wavycon_kinds, only: dp, int64
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_quantities, only: approach, area_at_hardness, border_load, concentrated_load, contact_area, &
@@ -127,21 +125,14 @@ contains
       !> Largest error of the polynomials through fifths of a step over that of a constant, in 1-D and 2-D: (C13b).
       real(dp), parameter :: interpolation_error(2) = [1.45e-3_dp, 5.93e-3_dp]
       type(grid_edge) :: edge
-      type(grid_transform) :: transform
-      real(dp), allocatable :: pressure(:, :)
       real(dp) :: bend, errors(3), peak
 
       associate (surface => self%surface)
          if (.not. (surface%is_height_map() .and. surface%amplitude > 0.0_dp)) return
-         call transform%start(surface%points/surface%maps_in_cell(), even=surface%mirrored)
-         allocate (pressure(transform%points(1), transform%slab%columns()))
-         call transform%sample(full_contact_series(surface, solution%pbar_over_pstar), pressure)
-         call make_grid_edge(edge, pressure, surface%mirrored, pressure_per_gap(surface, transform%slab%points), &
-                             transform%slab, .false.)
-         call edge%fetch_neighbours()
+         call full_contact_edge(surface, surface%points/surface%maps_in_cell(), solution%pbar_over_pstar, edge)
          call grid_peak_pressure(edge, peak, bend, surface)
          solution%value(peak_pressure) = min(peak, surface%hardness)
-         errors = hidden_gap_errors(surface, transform%points, solution%pbar_over_pstar, open_part=0.0_dp)
+         errors = hidden_gap_errors(surface, edge%slab%points, solution%pbar_over_pstar, open_part=0.0_dp)
          solution%error(peak_pressure) = max(bend, errors(3), interpolation_error(surface%dimension) &
                                              *0.5_dp*(peak - solution%value(min_pressure)))
          solution%error([mean_gap, approach]) = errors(1)

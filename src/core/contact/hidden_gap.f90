@@ -11,7 +11,7 @@ module wavycon_hidden_gap
    implicit none (type, external)
    private
 
-   public :: hidden_gap_errors
+   public :: full_contact_edge, hidden_gap_errors
 
    !> In 1-D and 2-D: pockets are larger than the places where the pressure of full contact is negative, and of one in
    !> 1-D a single point may be all that is seen (C17c).
@@ -53,18 +53,12 @@ contains
       real(dp) :: openings(3)
 
       type(grid_edge) :: field
-      type(grid_transform) :: transform
-      real(dp), allocatable :: pressure(:, :)
       real(dp), allocatable, dimension(:) :: before, here, lowest, next
       real(dp), allocatable :: sums(:, :)   ! of each column
       real(dp) :: deepest
       integer :: j, m
 
-      call transform%start(points, even=surface%shape%is_even())
-      allocate (pressure(transform%points(1), transform%slab%columns()))
-      call transform%sample(full_contact_series(surface, pbar_over_pstar), pressure)
-      call make_grid_edge(field, pressure, surface%shape%is_even(), pressure_per_gap(surface, points), transform%slab)
-      call field%fetch_neighbours()
+      call full_contact_edge(surface, points, pbar_over_pstar, field)
       m = points(1)
       allocate (sums(2, field%slab%columns()))
       deepest = 0.0_dp
@@ -83,5 +77,22 @@ contains
       openings(1) = openings(1)/minval(field%stiffness(:surface%dimension))
       openings(3:) = field%slab%largest([deepest])
    end function openings
+
+   !> Samples the pressure of full contact [p*] on a grid, with the columns of neighbouring processes.
+   subroutine full_contact_edge(surface, points, pbar_over_pstar, field)
+      type(surface_type), intent(in) :: surface   !! a height map without free edges
+      integer, intent(in) :: points(2)            !! of the grid: of a quarter of the cell if the surface is even
+      real(dp), intent(in) :: pbar_over_pstar     !! P
+      type(grid_edge), intent(out) :: field
+
+      type(grid_transform) :: transform
+      real(dp), allocatable :: pressure(:, :)
+
+      call transform%start(points, even=surface%shape%is_even())
+      allocate (pressure(transform%points(1), transform%slab%columns()))
+      call transform%sample(full_contact_series(surface, pbar_over_pstar), pressure)
+      call make_grid_edge(field, pressure, surface%shape%is_even(), pressure_per_gap(surface, points), transform%slab)
+      call field%fetch_neighbours()
+   end subroutine full_contact_edge
 
 end module wavycon_hidden_gap
