@@ -13,7 +13,7 @@ from program import ProgramTest, main
 from tables import Table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
+DECK_PAGES = ("README.md", "inputs/README.md", "inputs/surfaces.md", "outputs/README.md")
 # Headings of outputs/README.md, each with the table that it explains.
 SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
             "contour": "Contours", "spots": "Spots", "spot_sizes": "Spot sizes", "percolation": "Percolation",
