@@ -24,8 +24,8 @@ KINDS = "type|class|integer|real|logical|character|complex"
 # Chapters and their pages; the first is what a reader sees first.
 CHAPTERS = {
     "Start": ["README.md", SITE/"tutorial.md", SITE/"guide.md"],
-    "Using the program": ["inputs/README.md", "reference/keys.md", "outputs/README.md", "reference/columns.md",
-                          "outputs/gallery/README.md"],
+    "Using the program": ["inputs/README.md", "inputs/surfaces.md", "reference/keys.md", "outputs/README.md",
+                          "reference/columns.md", "outputs/gallery/README.md"],
     "Python, C, Fortran": ["src/library/python/README.md", "src/library/python/example.md",
                            "src/library/python/certify.md", "reference/python.md", "src/library/README.md",
                            "reference/c.md", "reference/fortran.md"],

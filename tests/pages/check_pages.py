@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The pages agree with the program: links, formulas, decks, keys, columns, and the log that README.md shows.
+"""The pages agree with the program: links, formulas, decks, keys, columns, and logs that are shown.
 
 usage: check_pages.py --program WAVYCON
 
@@ -13,7 +13,7 @@ from program import ProgramTest, main
 from tables import Table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DECK_PAGES = ("README.md", "inputs/README.md", "outputs/README.md")
+DECK_PAGES = ("README.md", "inputs/README.md", "inputs/surfaces.md", "outputs/README.md")
 # Headings of outputs/README.md, each with the table that it explains.
 SECTIONS = {"summary": "The summary", "lines": "Lines", "theory_lines": "Closed forms along lines", "map": "Map",
             "contour": "Contours", "spots": "Spots", "spot_sizes": "Spot sizes", "percolation": "Percolation",
@@ -277,6 +277,21 @@ class Pages(ProgramTest):
         log = self.run_program("first.nml", folder=self.folder).stdout
         self.assertEqual(comparable(log), comparable(shown[0]))
         self.assertNotEqual(comparable(log), comparable(shown[0].replace("0.045078", "0.045079")))
+
+    def test_the_load_of_fitted(self):
+        """The load that the page of fitted collocation follows: its log, and the areas of rising degrees."""
+        text = section(read("src/core/fitted/README.md"), "One load, from the deck to its digits")
+        deck, log = (re.findall(rf"^    {start}.*\n(?:    .*\n)+", text, re.MULTILINE)[0] for start in ("&", "pbar"))
+        (self.folder/"one.nml").write_text(deck)
+        printed = comparable(self.run_program("one.nml", folder=self.folder).stdout)
+        for line in comparable(log):
+            self.assertIn(line, printed)
+        self.assertNotIn(comparable(log.replace("0.384749", "0.384748"))[1], printed)
+        sweep = re.search(r"one.nml --sweep (\S+)", text)[1]
+        self.assertEqual(0, self.run_program("one.nml", "--sweep", sweep, folder=self.folder).returncode)
+        tables = [Table(path).records()[0] for path in self.folder.glob("outputs/one-*/*.details.dat")]
+        self.assertEqual({row["degree"]: f"{float(row['contact_area_fraction']):.12f}" for row in tables},
+                         dict(re.findall(r"^\| (\d+) .*\| (0\.\d{12}) \|", text, re.MULTILINE)))
 
 
 if __name__ == "__main__":

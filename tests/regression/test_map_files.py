@@ -147,7 +147,7 @@ class MapFiles(ProgramTest):
             self.assertIn(f"{name}: 1 of {M*N} heights are missing (", self.refusal(name))
 
     def test_a_line_scan_of_unequal_steps(self):
-        # Two waves, the shorter one of 16 mean steps, as inputs/README.md writes line scans; slope (rms) 0.2.
+        # Two waves, the shorter one of 16 mean steps, as inputs/surfaces.md writes line scans; slope (rms) 0.2.
         x = numpy.arange(256) + numpy.random.default_rng(7).uniform(-0.4, 0.4, 256)
         scan = NonuniformLineScan(x, sum(256/k*numpy.cos(2*numpy.pi*k*x/256)/10/numpy.pi for k in (1, 16)), unit="um")
         numpy.savetxt("scan.txt", numpy.c_[scan.positions(), scan.heights()])
