@@ -31,6 +31,18 @@ module wavycon_fitted_solver
    integer, parameter :: shown_measures(*) = [gap_measure, area_measure, peak_measure, energy_measure, &
       perimeter_measure]
 
+   !> The derivatives by the area of a contact with adhesion, at the newest degrees: README.md (F70), (F70a).
+   type :: area_slopes
+      real(dp), allocatable :: area_change(:)                !! those of all unknowns, at the newest degree
+      real(dp) :: slopes(3, 0:most_previous) = 0.0_dp        !! those of load, approach and b_0, the newest first
+      real(dp) :: changes(2) = 0.0_dp                        !! last step's change of the shape, the newest first
+      real(dp) :: decay(2) = 1.0_dp                          !! decay of the slopes' errors, the newest first
+   contains
+      procedure :: shift
+      procedure :: find_newest
+      procedure :: set_slopes
+   end type area_slopes
+
 contains
 
    !> Solves for one load, as separate spots or as separate pools. If the more likely one of the two fails, the other
@@ -141,42 +153,26 @@ contains
       integer, intent(in) :: required                !! the measures 1 to `required` have to be so accurate
       type(fitted_answer), intent(inout) :: answer   !! on entry without a solution
 
+      type(area_slopes) :: by_area
       type(contact_equations) :: equations
       type(degree_history) :: history
       type(newton_steps) :: newton
-      real(dp), allocatable :: area_change(:)
-      !> Derivatives of load, approach and b_0 by the area of the newest solutions, the newest first, and the decay of
-      !> their errors (F70a). `changes`: the last step's change of the shape at this degree and at the one before.
-      real(dp) :: area_slopes(3, 0:most_previous), changes(2), slope_decay(2)
       real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
-      integer :: degree, failed, k
-      logical :: merged
+      integer :: degree, failed
+      logical :: adhesive, merged
 
       degree = first
-      history%required = required
+      adhesive = now%work > 0.0_dp
+      call set_scales(history, required, adhesive, lattice%closing_pressure)
       ! Relative tolerance of the shape. A smaller one would be rounding. A larger one would show in the differences
-      ! between degrees.
-      tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-7_dp)
-      ! Fields need the gap at a trough within the accuracy times Delta. Near full contact it is a small part of Delta.
-      history%least_scale(centre_measure) = 1.0_dp
-      if (now%work > 0.0_dp) then
-         ! Most solutions of a curve are to a low accuracy. What Newton's method leaves is part of the told errors.
-         tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-5_dp)
-         ! The area is given and has no error. Under tension gap and load may be larger than Delta and the closing
-         ! pressure: their accuracy is relative to these.
-         history%least_scale(:load_measure) = lattice%closing_pressure
-         history%least_scale([gap_measure, area_measure]) = [1.0_dp, huge(1.0_dp)]
-         history%largest_scale([gap_measure, load_measure]) = history%least_scale([gap_measure, load_measure])
-      end if
+      ! between degrees. Most solutions of a curve with adhesion are to a low accuracy: what Newton's method leaves is
+      ! part of their told errors.
+      tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), merge(1e-5_dp, 1e-7_dp, adhesive))
       ratio = merging_ratio(lattice, now)
       ! For round shapes a lower first degree gives the error estimates one more difference. It cannot represent sharp
       ! tips.
       if (degree == first_degree .and. ratio < round_shape_ratio) degree = first_degree - degree_step/2
       failed = 0
-      area_slopes = 0.0_dp
-      slope_decay = 1.0_dp
-      changes = 0.0_dp
-      allocate (area_change(0))
       ! Next to merging convergence is slower than quadratic. A second step at the first degree measures its rate.
       newton%contraction = merge(1.0_dp, 0.0_dp, ratio > 0.7_dp)
       do
@@ -198,37 +194,32 @@ contains
             call measure_fitted_function(equations, lattice, now, measures, reference)
             if (.not. all(reference(:load_measure) > 0.0_dp)) exit
             call history%push(now, measures, reference, newton%misfit, newton%remaining)
-            if (now%work > 0.0_dp) then
-               area_slopes(:, 1:) = area_slopes(:, :most_previous - 1)
-               call find_slopes()
-               changes = [newton%change, changes(1)]
-               slope_decay = [max(history%decay(1), min(changes(1)/max(changes(2), tiny(changes)), 1.0_dp)), &
-                              slope_decay(1)]
+            if (adhesive) then
+               call by_area%shift()
+               call by_area%find_newest(equations, lattice, now, newton%change, history%decay(1))
             end if
             if (history%newest_is_best) then
                call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
-               if (now%work > 0.0_dp) call set_slopes()
+               if (adhesive) call by_area%set_slopes(answer, lattice, history%solutions)
             end if
             if (history%best_meets(accuracy)) then
                answer%status = fitted_solved
                ! A slope of unsure sign is of little use. At the solution itself it takes one more linearisation,
                ! which is done where the error falls to less than half.
-               if (now%work > 0.0_dp .and. history%newest_is_best .and. slope_decay(1) > 2*history%decay(1) .and. &
+               if (adhesive .and. history%newest_is_best .and. by_area%decay(1) > 2*history%decay(1) .and. &
                    .not. all(abs(answer%area_slopes) > answer%area_slope_errors)) then
                   call equations%linearise(lattice, now)
                   ! The map may fold at the edge: there is no next step then.
                   if (.not. all(ieee_is_finite(equations%residual))) exit
-                  changes(1) = 0.0_dp
-                  slope_decay(1) = history%decay(1)
-                  call find_slopes()
-                  call set_slopes()
+                  call by_area%find_newest(equations, lattice, now, 0.0_dp, history%decay(1))
+                  call by_area%set_slopes(answer, lattice, history%solutions)
                end if
                if (history%best_meets(finest)) exit
                if (abs(answer%area_slopes(2)) > answer%area_slope_errors(2)) exit
                tolerance = max(0.1_dp*finest, 1e-13_dp)
             end if
          end if
-         if (degree >= last_degree .or. failed == merge(1, most_failed_degrees, now%work > 0.0_dp)) exit
+         if (degree >= last_degree .or. failed == merge(1, most_failed_degrees, adhesive)) exit
          degree = next_degree(degree, now%basis%fold, ratio)
       end do
       answer%iterations = answer%iterations + newton%iterations
@@ -236,40 +227,68 @@ contains
       ! merged.
       if (merged .and. answer%status /= fitted_solved .and. &
           (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
-
-   contains
-
-      !> Sets the newest slopes from the equations as they are linearised.
-      subroutine find_slopes()
-         area_change = [(0.0_dp, k=1, equations%unknowns)]
-         call change_with_area(equations, now, area_change)
-         area_slopes(:, 0) = [slopes_of(equations, lattice, now, area_change), area_change(equations%before_shape + 1)]
-      end subroutine find_slopes
-
-      !> Gives the answer the newest slopes and their errors.
-      subroutine set_slopes()
-         answer%area_change = area_change
-         answer%area_slopes = area_slopes(:2, 0)
-         answer%area_slope_errors = slope_errors(area_slopes(:, :min(history%solutions - 1, most_previous)), &
-                                                 slope_decay, [lattice%closing_pressure, 1.0_dp]/lattice%area)
-      end subroutine set_slopes
-
    end subroutine raise_degree
 
-   !> The derivatives of load and approach by the area, from those of all unknowns: README.md (F70).
-   pure function slopes_of(equations, lattice, now, area_change) result(slopes)
-      type(contact_equations), intent(in) :: equations         !! linearised at the solution
-      type(wave_lattice), intent(in) :: lattice
-      type(fitted_function), intent(in) :: now                 !! the solution, with adhesion
-      real(dp), intent(in) :: area_change(:)                   !! derivatives of the unknowns, shape (unknowns)
-      real(dp) :: slopes(2)
+   !> Sets what errors are relative to, and the measures that have to be so accurate.
+   subroutine set_scales(history, required, adhesive, closing_pressure)
+      type(degree_history), intent(inout) :: history
+      integer, intent(in) :: required               !! as of raise_degree
+      logical, intent(in) :: adhesive
+      real(dp), intent(in) :: closing_pressure      !! of the lattice
 
-      associate (of_integral => dot_product(equations%load_row, area_change)/lattice%area, &
-                 of_unknown => area_change(now%basis%terms + 1))
-         slopes = [of_integral, of_unknown]
-         if (now%pool) slopes = [of_unknown, -lattice%troughs*of_integral]
+      history%required = required
+      ! Fields need the gap at a trough within the accuracy times Delta. Near full contact it is a small part of Delta.
+      history%least_scale(centre_measure) = 1.0_dp
+      if (.not. adhesive) return
+      ! The area is given and has no error. Under tension gap and load may be larger than Delta and the closing
+      ! pressure: their accuracy is relative to these.
+      history%least_scale(:load_measure) = closing_pressure
+      history%least_scale([gap_measure, area_measure]) = [1.0_dp, huge(1.0_dp)]
+      history%largest_scale([gap_measure, load_measure]) = history%least_scale([gap_measure, load_measure])
+   end subroutine set_scales
+
+   !> Makes room for the slopes at the next degree.
+   subroutine shift(self)
+      class(area_slopes), intent(inout) :: self
+
+      self%slopes(:, 1:) = self%slopes(:, :most_previous - 1)
+      self%changes(2) = self%changes(1)
+      self%decay(2) = self%decay(1)
+   end subroutine shift
+
+   !> Sets the newest slopes from the equations as they are linearised: README.md (F70).
+   subroutine find_newest(self, equations, lattice, now, change, decay)
+      class(area_slopes), intent(inout) :: self
+      type(contact_equations), intent(in) :: equations
+      type(wave_lattice), intent(in) :: lattice
+      type(fitted_function), intent(in) :: now              !! the solution
+      real(dp), intent(in) :: change, decay                 !! last step's change of the shape; decay of other errors
+
+      integer :: k
+
+      self%area_change = [(0.0_dp, k=1, equations%unknowns)]
+      call change_with_area(equations, now, self%area_change)
+      associate (of_integral => dot_product(equations%load_row, self%area_change)/lattice%area, &
+                 of_unknown => self%area_change(now%basis%terms + 1), of_shape => equations%before_shape + 1)
+         self%slopes(:, 0) = [of_integral, of_unknown, self%area_change(of_shape)]
+         if (now%pool) self%slopes(:2, 0) = [of_unknown, -lattice%troughs*of_integral]
       end associate
-   end function slopes_of
+      self%changes(1) = change
+      self%decay(1) = max(decay, min(change/max(self%changes(2), tiny(change)), 1.0_dp))
+   end subroutine find_newest
+
+   !> Gives an answer the newest slopes and their errors.
+   subroutine set_slopes(self, answer, lattice, solutions)
+      class(area_slopes), intent(in) :: self
+      type(fitted_answer), intent(inout) :: answer
+      type(wave_lattice), intent(in) :: lattice
+      integer, intent(in) :: solutions   !! number of degrees with a solution so far
+
+      answer%area_change = self%area_change
+      answer%area_slopes = self%slopes(:2, 0)
+      answer%area_slope_errors = slope_errors(self%slopes(:, :min(solutions - 1, most_previous)), self%decay, &
+                                              [lattice%closing_pressure, 1.0_dp]/lattice%area)
+   end subroutine set_slopes
 
    !> Estimates of the errors of the slopes of load and approach: README.md (F70a), (F70b). Unknown if there is none.
    pure function slope_errors(slopes, decay, reference) result(errors)

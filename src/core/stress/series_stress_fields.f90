@@ -380,7 +380,7 @@ contains
       largest = 0.0_dp
       all_waves = self%waves
       if (allocated(self%whole)) all_waves = self%whole
-      points = points_of(all_waves, 0.0_dp)
+      points = points_of(all_waves, 0.0_dp, self%dimension)
       ! A quarter of the cell is enough for an even field; with free edges the load is in that quarter.
       region = 1.0_dp
       if (self%waves%pressure%is_even() .or. allocated(self%whole)) region = 0.5_dp
@@ -388,7 +388,7 @@ contains
       if (all(points >= 4*window)) then
          call sample_series(all_waves%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
          pressure = pressure + self%pbar_over_pstar
-         call find_highest()
+         highest = highest_in_windows(pressure, min(floor(region*points) + 1, points))
          if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
             shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
       end if
@@ -413,44 +413,6 @@ contains
 
    contains
 
-      !> The number of points of a plane along x and y that resolve the waves that reach a depth.
-      pure function points_of(waves, depth) result(number)
-         type(pressure_wave_sums), intent(in) :: waves
-         real(dp), intent(in) :: depth      !! Z, in the angles of the cell or window of the waves [rad]
-         integer :: number(2)
-
-         real(dp) :: most(2)
-
-         most = 2.0_dp*waves%pressure%last([1, 2])
-         if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, waves%side_ratio])
-         number = fast_length(max(plane_points, ceiling(most)))
-         if (self%dimension == 1) number(2) = 1
-      end function points_of
-
-      !> The least multiple of 8 that is not below a number and has no prime factor above 5: transforms of such lengths
-      !> are fast.
-      elemental integer function fast_length(least)
-         integer, intent(in) :: least
-
-         integer :: rest
-
-         fast_length = 8*((least + 7)/8)
-         do
-            rest = fast_length
-            do while (mod(rest, 2) == 0)
-               rest = rest/2
-            end do
-            do while (mod(rest, 3) == 0)
-               rest = rest/3
-            end do
-            do while (mod(rest, 5) == 0)
-               rest = rest/5
-            end do
-            if (rest == 1) exit
-            fast_length = fast_length + 8
-         end do
-      end function fast_length
-
       !> Appends to `places` the points of the largest stresses on some of the planes below the cell or below a window.
       subroutine scan(waves, first, last, corner, extent, from, to)
          type(pressure_wave_sums), intent(in) :: waves   !! of the cell's or the window's pressure
@@ -467,7 +429,7 @@ contains
             do i = first, last
                depth = 0.0_dp
                if (i > 0) depth = step*plane_ratio**(i - 1)
-               number = points_of(waves, depth/side(1))
+               number = points_of(waves, depth/side(1), self%dimension)
                ! The memory is not checked: it was for the series itself, and a plane takes less.
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
                                      min(floor(to*number), number - 1), depth/side(1), body, point, stress)
@@ -480,16 +442,53 @@ contains
          end associate
       end subroutine scan
 
-      !> Sets `highest`: the largest pressure in the middle part of each window, whose middle parts cover the region
-      !> without overlap.
-      subroutine find_highest()
-         integer :: j, seen(2)
-
-         seen = min(floor(region*points) + 1, points)
-         highest = reshape([((maxval(pressure(i:min(i + middle, seen(1)), j:min(j + middle, seen(2)))), &
-                              i=1, seen(1), middle), j=1, seen(2), middle)], (seen - 1)/middle + 1)
-      end subroutine find_highest
-
    end subroutine start_points
+
+   !> The largest pressure in the middle part of each window, whose middle parts cover a region without overlap.
+   pure function highest_in_windows(pressure, region) result(highest)
+      real(dp), intent(in) :: pressure(:, :)   !! at the points of the cell
+      integer, intent(in) :: region(2)         !! number of points of the region along x and y, from the first on
+      real(dp) :: highest((region(1) - 1)/middle + 1, (region(2) - 1)/middle + 1)
+
+      integer :: i, j
+
+      highest = reshape([((maxval(pressure(i:min(i + middle, region(1)), j:min(j + middle, region(2)))), &
+                           i=1, region(1), middle), j=1, region(2), middle)], shape(highest))
+   end function highest_in_windows
+
+   !> The number of points of a plane along x and y that resolve the waves that reach a depth.
+   pure function points_of(waves, depth, dimension) result(number)
+      type(pressure_wave_sums), intent(in) :: waves
+      real(dp), intent(in) :: depth      !! Z, in the angles of the cell or window of the waves [rad]
+      integer, intent(in) :: dimension   !! 1 or 2: that of the surface
+      integer :: number(2)
+
+      real(dp) :: most(2)
+
+      most = 2.0_dp*waves%pressure%last([1, 2])
+      if (depth > 0.0_dp) most = min(most, waves_in_depth/depth*[1.0_dp, waves%side_ratio])
+      number = fast_length(max(plane_points, ceiling(most)))
+      if (dimension == 1) number(2) = 1
+   end function points_of
+
+   !> The least multiple of 8 that is not below a number and has no prime factor above 5: transforms of such lengths are
+   !> fast.
+   elemental integer function fast_length(least)
+      integer, intent(in) :: least
+
+      integer :: factor, rest
+
+      fast_length = 8*((least + 7)/8)
+      do
+         rest = fast_length
+         do factor = 2, 5
+            do while (mod(rest, factor) == 0)
+               rest = rest/factor
+            end do
+         end do
+         if (rest == 1) exit
+         fast_length = fast_length + 8
+      end do
+   end function fast_length
 
 end module wavycon_series_stress_fields

@@ -99,105 +99,117 @@ contains
       real(dp), allocatable, intent(out) :: target(:)            !! the component of scene_type
       real(dp), allocatable, intent(out) :: mean_pressure(:)     !! [pressure]; allocated for by_pressure
 
-      character(:), allocatable :: key, limit, word   ! limit: the limit in words; empty: there is none to check
+      !> Words where an adhesive contact would have to slip.
+      character(*), parameter :: no_slip = &
+         ', and partial slip is computed without adhesion: leave friction of &interface out'
+      character(:), allocatable :: key, limit, load   ! limit: the limit in words; load: a load in words
       integer :: position
-      real(dp) :: area, p_star
-      real(dp) :: compression   ! of a layer under p* [Delta]
+      real(dp) :: compression, p_star   ! compression: of a layer under p* [Delta]
       real(dp) :: most   ! largest value allowed, and unit of the target, in the unit of the key
 
       loads_by = by_pressure
       if (values%problems%number > 0 .or. values%position == 0 .or. values%any_bad) return
       call given_loads(values, key, position, loads_by, target)
-      word = 'tension'
-      if (loads_by == by_approach) word = 'separation'
-      if (minval(target) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
-         key//' = '//short_number(minval(target))//' is a '//word// &
-         ': without work_of_adhesion of &interface it is >= 0')
-      if (minval(target) < 0.0_dp .and. with_adhesion .and. with_friction) call values%problems%add(position, &
-         key//' = '//short_number(minval(target))//' is a '//word// &
-         ', and partial slip is computed without adhesion: leave friction of &interface out')
-      if (with_adhesion .and. any(loads_by == [by_yield, by_percolation])) call values%problems%add(position, &
-         'the load of '//key//' is found without adhesion: leave '//key//' or work_of_adhesion of &interface out')
-      if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &
-         call values%complain(values%sweep_steps, &
-            'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
+      call check_beside_keys()
       if (.not. present(surface) .or. e_star <= 0.0_dp .or. values%problems%number > 0) return
       p_star = surface%full_contact_pressure(e_star)
-      limit = ''
-      most = 1.0_dp
+      call check_on_surface()
+      if (p_star <= 0.0_dp .and. values%problems%number > 0) return
+      call find_limit()
+      load = key//' = '//short_number(maxval(target))
       compression = 0.0_dp
-      if (surface%has_free_edges .and. any(periodic_lists == key)) then
-         call values%problems%add(position, key//' needs a surface that is repeated: one with free edges '// &
-            'has no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
-      else if (surface%has_free_edges .and. loads_by == by_approach .and. surface%dimension == 1) then
-         call values%problems%add(position, 'the approach of a profile with free edges is not defined: it '// &
-            'grows with the logarithm of the length over which it is measured. Give force or contact_area')
-      end if
-      if (loads_by == by_percolation .and. (surface%has_free_edges .or. surface%dimension == 1)) &
-         call values%problems%add(position, 'percolates needs a surface that is repeated along x and y, whose '// &
-            'contact or gap may go on from cell to cell: this one has free edges or is a profile')
-      if (p_star <= 0.0_dp .and. all(key /= ['mean_pressure', 'force        '])) then
-         call values%problems%add(position, 'the surface is flat, and its p* is 0: give mean_pressure or force '// &
-                                  'in place of '//key)
-         return
-      end if
-      ! The limits of the other keys are bounds in the table of keys.
-      select case (key)
-      case ('pbar_over_pstar', 'sweep_from')
-         mean_pressure = p_star*target
-      case ('mean_pressure', 'force')
-         area = 1.0_dp
-         if (key == 'force') area = surface%nominal_area()
-         mean_pressure = target/area
-         most = largest_pbar_over_pstar*p_star*area
-         limit = short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)
-         ! With free edges p_star is only a unit, a modulus times a slope: do not call it p*.
-         if (surface%has_free_edges) limit = short_number(largest_pbar_over_pstar)//' times what presses the map flat'
-      case ('mean_gap')
-         most = surface%amplitude
-         limit = 'the mean gap before load, '//short_number(most)
-      case ('mean_gap_over_amplitude')
-         limit = '1, the mean gap before load'
-      case ('approach')
-         most = surface%amplitude
-         limit = 'that of full contact, the mean gap before load, '//short_number(most)
-      case ('contact_area')
-         most = surface%nominal_area()
-         limit = 'the nominal area, '//short_number(most)
-      end select
+      if (loads_by == by_approach .and. .not. surface%has_free_edges) compression = mean_compliance(surface)
       if (p_star <= 0.0_dp) then
          ! On a flat surface, whose p* is 0, contact is full at every load: P is infinite, and 1 without load.
          target = 1.0_dp
          where (mean_pressure > 0.0_dp) target = ieee_value(1.0_dp, ieee_positive_inf)
-         return
-      end if
-      if (loads_by == by_approach .and. .not. surface%has_free_edges) compression = mean_compliance(surface)
-      if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges .or. &
-                                         compression > 0.0_dp)) then
+      else if (loads_by == by_approach .and. (surface%has_hardness() .or. surface%has_free_edges .or. &
+                                              compression > 0.0_dp)) then
          ! Beyond full contact the approach grows by the layer's mean compression alone.
          if (compression > 0.0_dp .and. maxval(target)/most > 1.0_dp + largest_pbar_over_pstar*compression) &
-            call values%problems%add(position, key//' = '//short_number(maxval(target))//' is more than that of '// &
+            call values%problems%add(position, load//' is more than that of '// &
                                      short_number(largest_pbar_over_pstar)//' times p*. Do the units agree?')
          target = target/most
-         return
-      end if
-      if (limit /= '' .and. maxval(target) > (1 + rounding)*most) then
-         limit = key//' = '//short_number(maxval(target))//' is more than '//limit
-         if (loads_by /= by_mean_gap .or. .not. with_adhesion) then
-            call values%problems%add(position, limit//'. Do the units agree?')
-         else if (with_friction) then
-            ! With adhesion such a gap is one in tension.
-            call values%problems%add(position, limit// &
-               ', and partial slip is computed without adhesion: leave friction of &interface out')
+      else
+         if (limit /= '' .and. maxval(target) > (1 + rounding)*most) then
+            if (loads_by /= by_mean_gap .or. .not. with_adhesion) then
+               call values%problems%add(position, load//' is more than '//limit//'. Do the units agree?')
+            else if (with_friction) then
+               ! With adhesion such a gap is one in tension.
+               call values%problems%add(position, load//' is more than '//limit//no_slip)
+            end if
+         end if
+         if (loads_by /= by_pressure) then
+            target = target/most
+            if (all(loads_by /= [by_yield, by_percolation]) .and. .not. (loads_by == by_mean_gap .and. &
+                                                                         with_adhesion)) target = min(target, 1.0_dp)
+         else if (limit /= '') then
+            target = mean_pressure/p_star
          end if
       end if
-      if (loads_by /= by_pressure) then
-         target = target/most
-         if (all(loads_by /= [by_yield, by_percolation]) .and. .not. (loads_by == by_mean_gap .and. with_adhesion)) &
-            target = min(target, 1.0_dp)
-      else if (limit /= '') then
-         target = mean_pressure/p_star
-      end if
+
+   contains
+
+      !> Reports loads that contradict other keys: tensions, searches with adhesion, a sweep of one load.
+      subroutine check_beside_keys()
+         load = key//' = '//short_number(minval(target))//' is a tension'
+         if (loads_by == by_approach) load = key//' = '//short_number(minval(target))//' is a separation'
+         if (minval(target) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
+            load//': without work_of_adhesion of &interface it is >= 0')
+         if (minval(target) < 0.0_dp .and. with_adhesion .and. with_friction) &
+            call values%problems%add(position, load//no_slip)
+         if (with_adhesion .and. any(loads_by == [by_yield, by_percolation])) call values%problems%add(position, &
+            'the load of '//key//' is found without adhesion: leave '//key//' or work_of_adhesion of &interface out')
+         if (nint(values%sweep_steps%number) == 1 .and. abs(values%sweep_to%number - values%sweep_from%number) > 0) &
+            call values%complain(values%sweep_steps, &
+               'sweep_steps = 1 leaves out sweep_to: the ends count as loads; give at least 2')
+      end subroutine check_beside_keys
+
+      !> Reports a quantity that the surface does not have.
+      subroutine check_on_surface()
+         if (surface%has_free_edges .and. any(periodic_lists == key)) then
+            call values%problems%add(position, key//' needs a surface that is repeated: one with free edges '// &
+               'has no p* and no mean gap. Give force, mean_pressure, approach or contact_area')
+         else if (surface%has_free_edges .and. loads_by == by_approach .and. surface%dimension == 1) then
+            call values%problems%add(position, 'the approach of a profile with free edges is not defined: it '// &
+               'grows with the logarithm of the length over which it is measured. Give force or contact_area')
+         end if
+         if (loads_by == by_percolation .and. (surface%has_free_edges .or. surface%dimension == 1)) &
+            call values%problems%add(position, 'percolates needs a surface that is repeated along x and y, whose '// &
+               'contact or gap may go on from cell to cell: this one has free edges or is a profile')
+         if (p_star <= 0.0_dp .and. all(key /= ['mean_pressure', 'force        '])) call values%problems%add( &
+            position, 'the surface is flat, and its p* is 0: give mean_pressure or force in place of '//key)
+      end subroutine check_on_surface
+
+      !> Sets the limit of the loads, empty if the table of keys has it as a bound, and the mean pressures.
+      subroutine find_limit()
+         limit = ''
+         most = 1.0_dp
+         select case (key)
+         case ('pbar_over_pstar', 'sweep_from')
+            mean_pressure = p_star*target
+         case ('mean_pressure', 'force')
+            if (key == 'force') most = surface%nominal_area()
+            mean_pressure = target/most
+            most = largest_pbar_over_pstar*p_star*most
+            limit = short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)
+            ! With free edges p_star is only a unit, a modulus times a slope: do not call it p*.
+            if (surface%has_free_edges) &
+               limit = short_number(largest_pbar_over_pstar)//' times what presses the map flat'
+         case ('mean_gap')
+            most = surface%amplitude
+            limit = 'the mean gap before load, '//short_number(most)
+         case ('mean_gap_over_amplitude')
+            limit = '1, the mean gap before load'
+         case ('approach')
+            most = surface%amplitude
+            limit = 'that of full contact, the mean gap before load, '//short_number(most)
+         case ('contact_area')
+            most = surface%nominal_area()
+            limit = 'the nominal area, '//short_number(most)
+         end select
+      end subroutine find_limit
+
    end subroutine check_load_group
 
    !> The loads in the deck's order; none if the group does not give loads.

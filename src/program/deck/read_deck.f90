@@ -4,7 +4,8 @@
 !> group as the end of the file, and does not report a repeated key or an empty value at all. The syntax is a
 !> part of NAMELIST's, which inputs/README.md describes: no elements or parts of arrays, and no null values.
 module wavycon_read_deck
-   use wavycon_deck_groups, only: list_keys, number_of_groups, take_groups
+   use wavycon_deck_groups, only: list_keys, number_of_groups
+   use wavycon_deck_parser, only: take_groups
    use wavycon_deck_text, only: at_end, deck_text_type, next_token, problem_report, read_deck_text, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of

@@ -17,6 +17,7 @@ module wavycon_notes
       target_words
    use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, iteration_limit, not_accurate, &
       not_found, solution_record, solver_names, status_name, unresolved
+   use wavycon_surface, only: surface_type
    use wavycon_units, only: meant_unit
    implicit none (type, external)
    private
@@ -437,18 +438,7 @@ contains
          if (scene%surface_values%kind%text == 'file' .and. surface%dimension == 2 .and. .not. surface%mirrored) &
             call note_some(count(loads%value(concentrated_load) >= least_concentration), &
             "the contact is one spot, whose approach its periodic images change: edges = 'free' leaves them out")
-         if (surface%has_free_edges) then
-            if (any(loads%value(border_load) > 0.0_dp)) call logger%note( &
-               'contact reaches the border: up to '//percent(maxval(loads%value(border_load)))// &
-               ' of the load is within '//percent(border)// &
-               ' of the sides from it, where a larger map might carry more')
-            if (surface%has_steps) call logger%note('a map of two heights at most is taken as blocks, the cells of '// &
-               'its points, as a punch is')
-            if (.not. all(is_known(loads%value(peak_pressure)))) call logger%note('where contact ends at '// &
-               'a border or at a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
-            if (surface%dimension == 1) call logger%note('the approach of a profile with free edges is not '// &
-               'defined and shows as NaN: it grows with the logarithm of the length over which it is measured')
-         end if
+         if (surface%has_free_edges) call note_free_edges(surface, loads, logger)
          call note_some(count(loads%status == converged .and. loads%value(contact_area) <= 0.0_dp), &
             'no pressure reaches edge_level = '// &
             short_number(scene%method%edge_level%number)//' p*, so that the contact area shows as 0')
@@ -539,5 +529,22 @@ contains
       end subroutine note_inaccurate
 
    end subroutine note_loads
+
+   !> Notes what a user should know of solutions on a surface with free edges.
+   subroutine note_free_edges(surface, loads, logger)
+      type(surface_type), intent(in) :: surface
+      type(solution_record), intent(in) :: loads(:)
+      type(run_log), intent(inout) :: logger
+
+      if (any(loads%value(border_load) > 0.0_dp)) call logger%note('contact reaches the border: up to '// &
+         percent(maxval(loads%value(border_load)))//' of the load is within '//percent(border)// &
+         ' of the sides from it, where a larger map might carry more')
+      if (surface%has_steps) call logger%note( &
+         'a map of two heights at most is taken as blocks, the cells of its points, as a punch is')
+      if (.not. all(is_known(loads%value(peak_pressure)))) call logger%note('where contact ends at a border or at '// &
+         'a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
+      if (surface%dimension == 1) call logger%note('the approach of a profile with free edges is not defined and '// &
+         'shows as NaN: it grows with the logarithm of the length over which it is measured')
+   end subroutine note_free_edges
 
 end module wavycon_notes
