@@ -149,10 +149,11 @@ contains
       !> their errors (F70a). `changes`: the last step's change of the shape at this degree and at the one before.
       real(dp) :: area_slopes(3, 0:most_previous), changes(2), slope_decay(2)
       real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
-      integer :: degree, failed, k
+      integer :: degree, failed, k, start_degree
       logical :: merged
 
       degree = first
+      start_degree = 0
       history%required = required
       ! Relative tolerance of the shape. A smaller one would be rounding. A larger one would show in the differences
       ! between degrees.
@@ -162,6 +163,9 @@ contains
       if (now%work > 0.0_dp) then
          ! Most solutions of a curve are to a low accuracy. What Newton's method leaves is part of the told errors.
          tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), 1e-5_dp)
+         ! Next to merging the tips of low degrees are up to 3 % too long. Until the degree of the start is reached its
+         ! merging ratio is the better one: otherwise the clustering would be wrong, and the shape might seem merged.
+         start_degree = now%basis%degree
          ! The area is given and has no error. Under tension gap and load may be larger than Delta and the closing
          ! pressure: their accuracy is relative to these.
          history%least_scale(:load_measure) = lattice%closing_pressure
@@ -185,10 +189,10 @@ contains
          now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
          ! A larger tolerance of the series would hardly save time.
          call equations%images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
-         ratio = merging_ratio(lattice, now)
+         if (degree >= start_degree) ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio)
          call newton%solve(equations, lattice, now, tolerance)
-         ratio = merging_ratio(lattice, now)
+         if (degree >= start_degree) ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
          if (.not. newton%valid .or. merged) exit
          ! Without convergence at this degree there is nothing to compare, but the next degree may converge.
@@ -206,7 +210,8 @@ contains
                               slope_decay(1)]
             end if
             if (history%newest_is_best) then
-               call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
+               call set_answer(answer, lattice, history, now, newton%residual, merging_ratio(lattice, now), &
+                               equations%images%tolerance)
                if (now%work > 0.0_dp) call set_slopes()
             end if
             if (history%best_meets(accuracy)) then
