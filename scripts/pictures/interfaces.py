@@ -110,6 +110,7 @@ def adhesion(picture):
     curve, critical, loads = (rows_of(block) for block in (table.blocks + [Block(table.names)]*2)[:3])
     free = not table.column("pbar_over_pstar")
     load, area = ("force", "contact_area") if free else ("pbar_over_pstar", "contact_area_fraction")
+    critical = [point for point in critical if math.isfinite(point[load])]   # the others were not found
     units = {load: "", area: "", "approach": "Delta"}
     scales = {name: Quantity([table], name, unit) for name, unit in units.items()}
     # Towards full contact the tension grows without bound, and the load of a ball with its contact.

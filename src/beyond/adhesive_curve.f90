@@ -5,7 +5,8 @@
 module wavycon_adhesive_curve
    use wavycon_adhesive_contact, only: adhesive_point, adhesive_problem, approach_jump, approach_pull_off, &
       approach_stable, at_approach, at_load, closed, end_of_branch, jump_to_bands, jump_to_full, jump_to_pools, &
-      jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem
+      jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem, &
+      unstable_point
    use wavycon_beyond_tuning, only: beyond_extreme, finer_by, first_over_critical, least_step, radius_growth, &
       radius_step, ratio_growth, ratio_of_extremes, worst_error
    use wavycon_contact_solution, only: contact_solution
@@ -188,6 +189,8 @@ contains
          point = past
       end if
       point%kind = end_of_branch
+      ! The last extreme of the approach is missing then, perhaps one of the load, too.
+      if (point%value(2 + at_approach) > 0.0_dp) point%status = not_found
       curve%critical = [curve%critical, point]
 
    contains
@@ -231,12 +234,17 @@ contains
                ! after it on that of pools.
                extreme(which)%kind = kinds(1, which)
                if ((slope(1) > 0.0_dp) .neqv. point%pools) extreme(which)%kind = kinds(2, which)
+               if (extreme(which)%exists) cycle
+               ! Only the areas between which it lies are known.
+               extreme(which)%status = not_found
+               extreme(which)%area = 0.5_dp*(before%area + point%area)
+               extreme(which)%area_error = 0.5_dp*abs(before%area - point%area)
             end associate
          end do
-         if (all(extreme%exists)) then
+         if (all(extreme%kind /= unstable_point)) then
             if (extreme(1)%area > extreme(2)%area .neqv. point%pools) extreme = extreme([2, 1])
          end if
-         curve%critical = [curve%critical, pack(extreme, extreme%exists)]
+         curve%critical = [curve%critical, pack(extreme, extreme%kind /= unstable_point)]
          curve%knots = [curve%knots, pack(extreme, extreme%exists)]
       end if
       curve%points = [curve%points, point]
@@ -253,7 +261,7 @@ contains
 
       do i = 1, size(curve%critical)
          associate (point => curve%critical(i))
-            if (all(point%kind /= [pull_off_point, jump_to_full])) cycle
+            if (.not. point%exists .or. all(point%kind /= [pull_off_point, jump_to_full])) cycle
             do k = 1, size(curve%knots) - 1
                associate (here => curve%knots(k), after => curve%knots(k + 1))
                   if (.not. is_between(here, after, at_load, point%value(at_load)) .or. &
@@ -407,7 +415,7 @@ contains
    !> The area is the unknown. A load or an approach is found by Newton's method, an extreme by inverse interpolation of
    !> the last three slopes. A step that would leave the bracket is replaced by bisection. All solutions start from that
    !> of the point `last`, so that they have the same degrees and their differences are smooth. The last step to an
-   !> extreme is taken by the derivatives alone. If this point has too large an error, the search goes on once more with
+   !> extreme is taken by the derivatives alone. If the point has too large an error, the search goes on once more with
    !> a smaller accuracy. If there is no solution at an area of the search, point%exists is .false.
    subroutine find_zero(curve, which, target, first, last, point)
       type(adhesive_curve), intent(in) :: curve
@@ -426,9 +434,9 @@ contains
       logical :: is_extreme   ! whether a slope is to become 0
       !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
       !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
-      !> of the last point. `curvature`, `distance`: the derivative of the slope, from two areas so far apart.
+      !> of the last point. `curvature`, `ends`: the derivative of the slope, and the two areas that it is from.
       !> `curvature_error`: relative. `solved`: larger error of the last solution, before the step by the derivatives.
-      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, curvature_error, distance, errors(2), &
+      real(dp) :: area(most_steps), bracket(2), changes(2), curvature, curvature_error, ends(2), errors(2), &
          miss(most_steps), next, solved
       type(adhesive_problem) :: problem
 
@@ -444,10 +452,10 @@ contains
       bracket = area(:2)
       fine = 0
       do n = 2, most_steps - 1
-         if (fine == 1) then
-            next = area(n) - miss(n)/curvature
-         else if (n > 2 .and. .not. is_extreme) then
+         if (n > 2 .and. .not. is_extreme) then
             next = area(n) - miss(n)/point%value(2 + which)
+         else if (fine == 1) then
+            next = area(n) - miss(n)/curvature
          else
             next = interpolated(area(max(1, n - 2 + fine/2):n), miss(max(1, n - 2 + fine/2):n))
          end if
@@ -461,8 +469,8 @@ contains
                if (fine /= 1) then
                   other = n - 1
                   if (fine == 0) other = min(other, 3)
-                  distance = area(n) - area(other)
-                  curvature = (miss(n) - miss(other))/distance
+                  ends = area([n, other])
+                  curvature = (miss(n) - miss(other))/(area(n) - area(other))
                   ! `first` and `last` have other degrees than the solutions of the search: errors of slopes differ.
                   curvature_error = 0.0_dp
                   if (other < 3) curvature_error = maxval([first%slope_error(which - 2), last%slope_error(which - 2), &
@@ -471,18 +479,22 @@ contains
                changes = changes*left_over()
                errors = errors + abs(point%value(3:)*point%slope_error(which - 2)/curvature)
             else
-               ! Of a point with a given load the approach is as accurate as its solution, and the other way round.
+               ! What is missing of a given load is part of the error of the approach, and the other way round.
                changes(3 - which) = 0.0_dp
             end if
-            if (fine > 0 .or. abs(next - area(n)) <= rounding*next .or. &
+            if ((fine > 0 .and. is_extreme) .or. abs(next - area(n)) <= rounding*next .or. &
                 all(changes <= max(part_of_error*errors, epsilon(next)*abs(point%value(:2))))) then
                solved = maxval(point%error)
-               if (is_extreme) call step_to_extreme()
-               if (fine == 2 .or. .not. is_extreme .or. maxval(point%error) <= curve%problem%accuracy) exit
+               if (is_extreme) then
+                  call step_to_extreme()
+               else
+                  call add_error_of_area()
+               end if
+               if (fine == merge(2, 1, is_extreme) .or. maxval(point%error) <= curve%problem%accuracy) exit
                ! A second solution at the same area would give no curvature.
                if (fine == 1 .and. abs(next - area(n)) <= rounding*next) exit
-               ! The slope is not known accurately enough. Its error falls with that of the solutions. If it is the
-               ! curvature that is not, a second solution of the same accuracy gives it.
+               ! The area is not known accurately enough. Its error falls with that of the solutions. If it is the
+               ! curvature of an extreme that is not, a second solution of the same accuracy gives it.
                fine = fine + 1
                if (fine == 1) problem%accuracy = &
                   solved*max(least_tightening, tightening*problem%accuracy/maxval(point%error))
@@ -494,34 +506,58 @@ contains
          miss(n + 1) = point%value(which) - target
          bracket(merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))) = next
       end do
-      if (.not. is_extreme) point%area_error = abs((abs(miss(n)) + point%error(which))/point%value(2 + which))
+      if (n == most_steps .and. .not. is_extreme) call add_error_of_area()
       point%status = converged
       if (.not. maxval(point%error) <= curve%problem%accuracy) point%status = not_accurate
 
    contains
 
-      !> An estimate of the relative error of the step to `next`: the curvature is taken as constant, but changes over
-      !> the distance of `first` and `last`.
+      !> An estimate of the relative error of the step to `next`, (I20a): the curvature is that between the areas
+      !> `ends`, not that between the last area and the extreme.
       real(dp) function left_over()
-         left_over = (abs(next - area(n)) + abs(distance))/abs(last%area - first%area)
+         real(dp) :: moved, to_bracket(2)   ! to_bracket: curvatures between the last area and `first`, `last`
+
+         moved = abs(area(n) - ends(1))
+         to_bracket = (miss(:2) - miss(n))/(area(:2) - area(n))
+         left_over = (moved + abs(next - ends(2)))*max(1.0_dp/abs(last%area - first%area), &
+            maxval(abs(to_bracket/curvature - 1.0_dp)/max(moved + abs(area(:2) - ends(2)), tiny(moved))))
       end function left_over
+
+      !> Sets the error of the area of a contact with a given load or approach, and adds to those of the other one and
+      !> of the energy what it causes.
+      subroutine add_error_of_area()
+         point%area_error = abs((abs(miss(n)) + point%error(which))/point%value(2 + which))
+         point%error(3 - which) = point%error(3 - which) + abs(point%value(5 - which))*point%area_error
+         point%energy_error = point%energy_error + point%area_error &
+                              *abs(point%value(at_load)*point%value(2 + at_approach) + problem%work)
+      end subroutine add_error_of_area
 
       !> Takes the last step, to `next`, by the derivatives instead of a solution, and adds to the errors of load,
       !> approach and energy those that the error of the area causes.
       subroutine step_to_extreme()
-         real(dp) :: change(2), energy_slope, step
+         real(dp) :: added(2), bend(2), change(2), step
 
          step = next - area(n)
          point%area = next
-         point%area_error = abs(step)*(left_over() + curvature_error) + abs(point%slope_error(which - 2)/curvature)
-         energy_slope = point%value(at_load)*point%value(2 + at_approach) + problem%work
+         associate (e => min(left_over() + curvature_error, 1.0_dp - epsilon(step)))
+            point%area_error = min(abs(step)*e/(1.0_dp - e), maxval(abs(bracket - next))) &
+                               + abs(point%slope_error(which - 2)/curvature)
+         end associate
          change = point%value(3:)
-         ! The slope at the extreme is 0.
+         ! The slope of the value that has the extreme falls to 0 along the step, but not linearly. What the step leaves
+         ! out of the other value is of second order.
+         bend = max(abs((first%value(3:) - change)/(first%area - area(n))), &
+                    abs((last%value(3:) - change)/(last%area - area(n))))
+         bend(which - 2) = 0.0_dp
+         added = abs(change)*point%area_error + 0.5_dp*bend*step**2
          change(which - 2) = 0.5_dp*change(which - 2)
+         ! (I15)
+         associate (p => point%value(at_load) + 0.5_dp*change(at_load)*step)
+            point%energy = point%energy + (p*change(at_approach) + problem%work)*step
+            point%energy_error = point%energy_error + abs(p)*added(at_approach) + problem%work*point%area_error
+         end associate
          point%value(:2) = point%value(:2) + change*step
-         point%error = point%error + abs(change)*point%area_error
-         point%energy = point%energy + energy_slope*step
-         point%energy_error = point%energy_error + abs(energy_slope)*point%area_error
+         point%error = point%error + added
          ! Next to merging the slope may have no error estimate.
          if (point%area_error >= 1.0_dp) then
             point%area_error = unknown

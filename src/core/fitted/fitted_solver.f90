@@ -158,7 +158,7 @@ contains
       type(degree_history) :: history
       type(newton_steps) :: newton
       real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
-      integer :: degree, failed
+      integer :: degree, failed, start_degree
       logical :: adhesive, merged
 
       degree = first
@@ -168,6 +168,9 @@ contains
       ! between degrees. Most solutions of a curve with adhesion are to a low accuracy: what Newton's method leaves is
       ! part of their told errors.
       tolerance = min(max(0.1_dp*accuracy, 1e-13_dp), merge(1e-5_dp, 1e-7_dp, adhesive))
+      ! Next to merging the tips of low degrees are up to 3 % too long. Until the degree of the start is reached its
+      ! merging ratio is the better one: otherwise the clustering would be wrong, and the shape might seem merged.
+      start_degree = merge(now%basis%degree, 0, adhesive)
       ratio = merging_ratio(lattice, now)
       ! For round shapes a lower first degree gives the error estimates one more difference. It cannot represent sharp
       ! tips.
@@ -181,10 +184,10 @@ contains
          now = now%resized(degree, shape_terms(degree, now%basis%fold, ratio), clustering)
          ! A larger tolerance of the series would hardly save time.
          call equations%images%prepare(lattice, now, series_growth, 1e-2_dp*min(accuracy, 1e-4_dp))
-         ratio = merging_ratio(lattice, now)
+         if (degree >= start_degree) ratio = merging_ratio(lattice, now)
          call start_equations(equations, now, ratio)
          call newton%solve(equations, lattice, now, tolerance)
-         ratio = merging_ratio(lattice, now)
+         if (degree >= start_degree) ratio = merging_ratio(lattice, now)
          merged = ratio >= 1.0_dp
          if (.not. newton%valid .or. merged) exit
          ! Without convergence at this degree there is nothing to compare, but the next degree may converge.
@@ -199,7 +202,8 @@ contains
                call by_area%find_newest(equations, lattice, now, newton%change, history%decay(1))
             end if
             if (history%newest_is_best) then
-               call set_answer(answer, lattice, history, now, newton%residual, ratio, equations%images%tolerance)
+               call set_answer(answer, lattice, history, now, newton%residual, merging_ratio(lattice, now), &
+                               equations%images%tolerance)
                if (adhesive) call by_area%set_slopes(answer, lattice, history%solutions)
             end if
             if (history%best_meets(accuracy)) then

@@ -19,7 +19,7 @@ module wavycon_solve_loads
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
    use wavycon_scene, only: by_approach, by_mean_gap, by_percolation, by_pressure, by_yield
-   use wavycon_solution_record, only: is_good_status, record_words
+   use wavycon_solution_record, only: is_good_status, not_found, record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
    use wavycon_work_sharing, only: distributed_loads
@@ -281,8 +281,11 @@ contains
             if (number > 0) call logger%say('adhesion: '//trim(point_names(without_edge(i)))//' at '// &
                integer_text(number)//' of '//integer_text(size(loads))//' loads')
          end do
+         if (any(curve%critical%status == not_found)) call logger%note('adhesion: NOT all jumps and pull-offs are '// &
+            'found, see the status of the critical points in adhesion')
          do i = 1, size(curve%critical)
             associate (point => curve%critical(i))
+               if (.not. point%exists) cycle
                mean_pressure = results%scene%p_star*point%value(at_load)
                words = ', pbar/p* = '//short_number(point%value(at_load))//', pbar = '//short_number(mean_pressure)// &
                        ' ['//results%scene%pressure_unit//'], area/A0 = '//short_number(point%area)
