@@ -29,8 +29,8 @@ bad_usage() {
    exit 1
 }
 
-# check_ctest_options WORDS...: refuses what ctest would pass over, and then run all tests: options that it does not know,
-# and words that belong to no option. Without ctest, which scripts/build installs, nothing is checked.
+# check_ctest_options WORDS...: refuses what ctest would pass over, and then run all tests: options that it does not
+# know, and words that belong to no option. Without ctest, which scripts/build installs, nothing is checked.
 check_ctest_options() {
    local before='' known word
    known=$(ctest --help 2>/dev/null | tr ' ,=[<' '\n') || return 0
