@@ -29,6 +29,21 @@ bad_usage() {
    exit 1
 }
 
+# check_ctest_options WORDS...: refuses what ctest would pass over, and then run all tests: options that it does not
+# know, and words that belong to no option. Without ctest, which scripts/build installs, nothing is checked.
+check_ctest_options() {
+   local before='' known word
+   known=$(ctest --help 2>/dev/null | tr ' ,=[<' '\n') || return 0
+   for word; do
+      case $word in
+      -j[0-9]*) ;;
+      -*) grep -qxF -e "${word%%=*}" <<<"$known" || bad_usage "unknown option '$word'" ;;
+      *) [[ $before = -* ]] || bad_usage "'$word' belongs to no option" ;;
+      esac
+      before=$word
+   done
+}
+
 # sha256 WORDS...: sha256sum; macOS has shasum instead.
 sha256() {
    if command -v sha256sum >/dev/null 2>&1; then sha256sum "$@"; else shasum -a 256 "$@"; fi

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """scripts/build, with a stand-in for cmake: what it builds, what it says, and that two at once do not disturb each other.
 scripts/constants: that cmake accepts its copy of the sources, and that it finds the constants.
+All scripts: that they refuse options that they do not know, before they begin.
 
 usage: test_build.py [unittest's options]
 """
@@ -104,6 +105,43 @@ class Constants(unittest.TestCase):
             tree = constants.Tree(pathlib.Path(folder))
             self.assertTrue((tree.build/"CMakeCache.txt").is_file())
             self.assertEqual([], [name for name, values in tree.values.items() if not values])
+
+
+class Options(unittest.TestCase):
+    PASSED_ON = "run"   # the program refuses what it does not know
+    EXAMPLE = "slurm_example.sh"   # Slurm starts it, without options
+
+    def test_unknown_options_are_refused_before_work_begins(self):
+        scripts = [path.name for path in SCRIPTS.iterdir() if path.is_file() and os.access(path, os.X_OK)]
+        scripts = sorted(set(scripts) - {self.PASSED_ON, self.EXAMPLE})
+        self.assertLess(30, len(scripts))
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            shutil.copytree(SCRIPTS, root/"scripts")
+            for name in "dependencies", "build":   # what the others begin with
+                write(root/"scripts"/f"{name}-itself", (SCRIPTS/name).read_text())
+                write(root/"scripts"/name, f"#!/bin/sh\necho WORK {name} >&2\nexit 1\n")
+            for program in "cmake", "gnuplot", "wavycon":
+                write(root/program, f"#!/bin/sh\necho WORK {program} >&2\nexit 1\n")
+            environment = dict(os.environ, PATH=os.pathsep.join([folder, os.environ["PATH"]]), WAVYCON=str(root/"wavycon"),
+                               PYTHONPATH=str(SCRIPTS.parent/"tests"/"support"), PYTHONDONTWRITEBYTECODE="1")
+            before = sorted(root.rglob("*"))
+            words = [[name, "--bogus"] for name in scripts] + [
+                ["build", "wavycon", "--bogus"], ["build", "--mpi", "--bogus"], ["lint", "ruff", "--bogus"],
+                ["lint", "--install", "--bogus"], ["test", "bogus"], ["test", "-L", "unit", "--bogus=1"],
+                ["test", "-L", "unit", "bogus"], ["coverage", "-R", "exact", "-bogus"], ["gallery", "--into", "x", "--bogus"],
+                ["release", "--check", "--bogus"], ["fig01.sh", "--format", "svg", "--bogus"]]
+            for name, *options in words:
+                path = root/"scripts"/(name + "-itself"*(name in ("dependencies", "build")))
+                with self.subTest(name, options=options):
+                    outcome = subprocess.run([path, *options], env=environment, cwd=folder, text=True, capture_output=True,
+                                             timeout=60, check=False)
+                    self.assertIn(outcome.returncode, (1, 2), outcome)
+                    self.assertIn("bogus", outcome.stderr)
+                    self.assertRegex(outcome.stderr, "(?i)usage: ")
+                    self.assertNotIn("WORK", outcome.stderr)
+                    self.assertEqual("", outcome.stdout)
+                    self.assertEqual(before, sorted(root.rglob("*")))
 
 
 if __name__ == "__main__":

@@ -139,14 +139,24 @@ class Names(ValuesTest):
         for name, words in {"pressure": "'mean_pressure'", "gap": "'mean_gap'", "area": "'contact_area'", "E1": "'e1'",
                             "lenght_unit": "'length_unit'", "units": "'length_unit'", "young": "'e1', 'e2' or 'base_e'",
                             "youngs_modulus": "'e1', 'e2' or 'base_e'", "poisson_ratio": "'nu1', 'nu2' or 'layer_nu'",
-                            "yiield": "'yield'"}.items():
+                            "yiield": "'yield'", "depth": "'depths'", "histogram": "'histograms'",
+                            "resistivity": "'resistivity1'"}.items():
             self.refuse(rf"no key '{name}'; did you mean {words}\?", wc.solve, wave, **{name: 1})
         for name in "tolerance", "E":
             self.refuse(f"no key '{name}'$", wc.solve, wave, **{name: 1})
         self.refuse("several groups have a key 'nu': .*, or nu1, or nu2", wc.solve, wave, nu=0.3)
-        self.refuse("did you mean 'length_unit', an option of solve", wc.heights, numpy.eye(8), lenght_unit="m")
+        self.refuse("did you mean 'length_unit', an option of solve", wc.file, lenght_unit="m")
         self.refuse("no key 'length_unit': it is an option of solve", wc.wave_2d, length_unit="m")
         self.refuse("wave_2d: there is no key 'wave_length'; did you mean 'wavelength'", wc.wave_2d, wave_length=1)
+        numpy.save("h.npy", numpy.eye(8))
+        for make, first in (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]), (wc.file, []), (wc.self_affine, []):
+            for name in "spacing", "dx", "pixel_size", "Lx":
+                self.refuse(f"^{make.__name__}: there is no key '{name}'; did you mean 'length_x' and 'length_y', the sides "
+                            r"of the whole cell\?$", make, *first, **{name: 1})
+        for make, first in (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]):
+            self.refuse(f"^{make.__name__}: .*'unit'; did you mean 'length_unit'", make, *first, unit="m")
+        self.refuse("^heights: there is no key 'file'", wc.heights, numpy.eye(8), file="h.npy")
+        self.refuse("^wave_2d: there is no key 'dx'; there are amplitude, ", wc.wave_2d, dx=1)
         results = self.solve_rough()
         for name, meant in {"peak_error": "peak_pressure_error", "aera": "contact_area",
                             "peak": "peak_pressure", "meangap": "mean_gap"}.items():

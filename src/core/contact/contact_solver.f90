@@ -134,7 +134,7 @@ contains
 
    !> Measures between its points a height map that is closed at them. By default there is nothing to measure.
    subroutine measure_full_contact(self, solution)
-      class(contact_solver), intent(in) :: self
+      class(contact_solver), intent(inout) :: self
       type(contact_solution), intent(inout) :: solution   !! of full contact, with the values at the points
 
       associate (unused => self, unused_too => solution); end associate

@@ -45,6 +45,8 @@ module wavycon_grid_contact
       type(surface_type), allocatable, private :: smaller
       !> The pressures of the last load of a search on each grid, from the coarsest. Allocated within a search only.
       type(grid_start), allocatable, private :: starts(:)
+      !> P from which on a map in full contact has no gap between its points; huge before a load of full contact.
+      real(dp), private :: closes_at = huge(1.0_dp)
    contains
       procedure :: start
       procedure :: solve_partial_contact
@@ -119,9 +121,11 @@ contains
    !> The peak pressure of a map that is closed at its points lies between them: (C13a), where p is the series p_full.
    !> Gaps may lie there, too.
    subroutine measure_full_contact(self, solution)
-      class(grid_contact), intent(in) :: self
+      class(grid_contact), intent(inout) :: self
       type(contact_solution), intent(inout) :: solution
 
+      !> Loads that are closer than this to that at which the last gap closes are measured: it is rounded.
+      real(dp), parameter :: rounding = 1e-9_dp
       !> Largest error of the polynomials through fifths of a step over that of a constant, in 1-D and 2-D: (C13b).
       real(dp), parameter :: interpolation_error(2) = [1.45e-3_dp, 5.93e-3_dp]
       type(grid_edge) :: edge
@@ -132,7 +136,9 @@ contains
          call full_contact_edge(surface, surface%points/surface%maps_in_cell(), solution%pbar_over_pstar, edge)
          call grid_peak_pressure(edge, peak, bend, surface)
          solution%value(peak_pressure) = min(peak, surface%hardness)
-         errors = hidden_gap_errors(surface, edge%slab%points, solution%pbar_over_pstar, open_part=0.0_dp)
+         errors = 0.0_dp
+         if (solution%pbar_over_pstar < self%closes_at + rounding) errors = hidden_gap_errors( &
+            surface, edge%slab%points, solution%pbar_over_pstar, open_part=0.0_dp, closes_at=self%closes_at)
          solution%error(peak_pressure) = max(bend, errors(3), interpolation_error(surface%dimension) &
                                              *0.5_dp*(peak - solution%value(min_pressure)))
          solution%error([mean_gap, approach]) = errors(1)

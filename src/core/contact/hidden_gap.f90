@@ -23,11 +23,12 @@ contains
 
    !> The least errors of mean gap [Delta], contact area fraction and peak pressure [p*] from gaps that lie between the
    !> points, (C17c). They are `unknown` if a grid of half the step does not fit into memory.
-   function hidden_gap_errors(surface, points, pbar_over_pstar, open_part) result(errors)
+   function hidden_gap_errors(surface, points, pbar_over_pstar, open_part, closes_at) result(errors)
       type(surface_type), intent(in) :: surface      !! a height map without free edges
       integer, intent(in) :: points(2)               !! of the grid: of a quarter of the cell if the surface is even
       real(dp), intent(in) :: pbar_over_pstar        !! P
       real(dp), intent(in) :: open_part              !! 1 - A on this grid; 0: it is closed
+      real(dp), intent(out), optional :: closes_at   !! P from which on nothing is open between the points; if known
       real(dp) :: errors(3)
 
       integer :: fine(2)
@@ -35,15 +36,18 @@ contains
 
       fine = merge(2*points, 1, points > 1)
       errors = unknown
+      if (present(closes_at)) closes_at = huge(closes_at)
       if (.not. fits_memory(fine)) return
       between = openings(surface, fine, pbar_over_pstar, is_between=.true.)
+      if (present(closes_at)) closes_at = pbar_over_pstar + between(3)
       at_points = 0.0_dp
       if (open_part > 0.0_dp) at_points = openings(surface, points, pbar_over_pstar, is_between=.false.)
       errors = max([between(1) - at_points(1), pocket_factor(surface%dimension)*(between(2) - open_part), &
-                    between(3) - at_points(3)], 0.0_dp)
+                    between(3) - max(at_points(3), 0.0_dp)], 0.0_dp)
    end function hidden_gap_errors
 
-   !> Where the pressure of full contact is negative: mean gap [Delta], part of the points, the largest tension [p*].
+   !> Where the pressure of full contact is negative: mean gap [Delta], part of the points, the largest tension [p*]; of
+   !> a grid without tension this is minus its least pressure.
    !> With `is_between` each point stands for the lowest pressure between it and its neighbours.
    function openings(surface, points, pbar_over_pstar, is_between)
       type(surface_type), intent(in) :: surface
@@ -61,7 +65,7 @@ contains
       call full_contact_edge(surface, points, pbar_over_pstar, field)
       m = points(1)
       allocate (sums(2, field%slab%columns()))
-      deepest = 0.0_dp
+      deepest = -huge(deepest)
       do j = field%slab%first, field%slab%last
          here = field%column(j)
          lowest = here(2:m + 1)

@@ -250,6 +250,9 @@ contains
       if (entry%is_bad) entry%used = 0
       call self%list%take(entry%k, entry%position, entry%numbers(:entry%used), entry%value%text)
       associate (row => self%list%rows(entry%k))
+         ! Nobody solves the loads 0 and 2 alone. Other pairs may be meant, such as depths, as 0 is one.
+         if (entry%used == 2 .and. self%list%name == 'load') entry%by_blanks = entry%by_blanks .or. &
+            (entry%numbers(1) <= 0.0_dp .and. index(self%text%content(equals:self%before%last), '.') == 0)
          self%list%keys(entry%k)%value%has_decimal_commas = row%kind == real_value .and. entry%by_blanks .and. &
             entry%by_decimal_commas
          if (self%before%last == equals) call self%problems%add(entry%position, &

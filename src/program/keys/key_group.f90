@@ -22,7 +22,8 @@ module wavycon_key_group
       logical :: is_bad = .false.
       !> Whether the key has a value and other keys do not make the value irrelevant. The resolved deck shows such keys.
       logical :: in_effect = .false.
-      !> Whether the deck separates some of the numbers by commas that may be meant as decimal points, others by blanks.
+      !> Whether a comma between the numbers may be meant as a decimal point: blanks separate others, or 0 is the first
+      !> of two loads.
       logical :: has_decimal_commas = .false.
       real(dp), allocatable :: numbers(:)      !! values of reals and integers; of logicals 1 for .true., 0 for .false.
       real(dp) :: number = 0.0_dp              !! the first of `numbers`; 0 if there is none

@@ -174,7 +174,7 @@ contains
          real(dp), intent(in) :: wavelength, rms
          character(:), allocatable :: words
 
-         words = 'without waves '//which//' than '//short_number(wavelength)
+         words = 'without waves '//which//' than '//short_number(wavelength)//' ['//length_unit//']'
          if (changes%filter == 'gaussian') words = words//' (Gaussian filter)'
          words = words//', whose rms was '//short_number(rms)//' ['//length_unit//']'
       end function without_waves

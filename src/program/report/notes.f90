@@ -92,8 +92,8 @@ contains
 
       call note_unit('pressure_unit', scene%pressure_unit)
       call note_unit('length_unit', scene%length_unit)
-      if (scene%decimal_commas /= '') call logger%note('commas separate some numbers of '// &
-         scene%decimal_commas(3:)//", blanks alone others: '0,2 0.5' is 0, 2 and 0.5. Write decimals with a point")
+      if (scene%decimal_commas /= '') call logger%note("a comma separates numbers: '0,2' is 0 and 2. If decimals "// &
+         'are meant, write them with a point: '//scene%decimal_commas(3:))
       if (allocated(scene%map)) call note_map(scene, scene%map, logger)
       is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
       if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import names
 from .library import Handle, address, call, keys, reals
-from .surfaces import Surface, meanings, slips, unknown
+from .surfaces import Surface, check_names, meanings, slips, unknown
 
 
 def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
@@ -22,6 +22,7 @@ def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps:
     keys_of_maps: those of a map, such as length_x, length_y [length], height_scale, detrend, fill_missing and edges;
     help(wavycon.file) has them all.
     """
+    check_names("heights", keys_of_maps, [*names.Map.__annotations__, "length_unit"])
     if isinstance(h, (str, os.PathLike)):
         raise ValueError(f"heights takes an array, got {h!r}: wavycon.read takes a file")
     h = reals(h).T.copy() if getattr(h, "dims", None) == ("x", "y") else reals(h)

@@ -16,7 +16,7 @@ import numpy as np
 from . import names
 from .deck import deck_text, heights, scene_of
 from .library import Array, need, reals, tell
-from .surfaces import Surface
+from .surfaces import Surface, check_names
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
@@ -40,6 +40,7 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     decimal comma, which the program reads, and .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or
     (x,), as in wavycon.heights. The program also reads other texts of numbers, as wavycon.file does.
     """
+    check_names("read", keys_of_maps, [*names.Map.__annotations__, "length_unit", "channel"])
     opened = open_file(file, channel, length_unit)
     if not opened:
         if channel not in (None, 0):

@@ -17,8 +17,11 @@ from .library import address, call, keys, number, tell, text
 FEW = 30          # names that a message lists
 MOST = 3          # names that a message proposes
 CLOSE = 0.75      # least similarity of names, by difflib, that differ by slips
+ONE_SLIP = 0.88   # the same by one, such as a missing s
 SHORTEST = 3, 4   # letters of a part of a name, and of a word of a meaning, that is looked for
 SIDES = "length_x", "length_y"
+# Words for the sides of a map or the step of its points, in place of the names of the sides.
+SIDE_WORDS = {"dx", "dy", "extent", "lx", "ly", "pixel", "sampling", "sides", "size", "sizes", "spacing", "step"}
 Parameters = ParamSpec("Parameters")
 
 
@@ -92,12 +95,18 @@ def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surfa
 
     @functools.wraps(function)
     def make(*none: Parameters.args, **given: Parameters.kwargs) -> Surface:
-        for name in given:
-            if name not in known:
-                raise ValueError(f"{function.__name__}: {unknown_key(name, list(known))}")
+        check_names(function.__name__, given, known)
         return Surface({**function(*none, **given).keys, **{key: one for key, one in given.items() if one is not None}})
 
     return make
+
+
+def check_names(function: str, given: Iterable[str], known: Iterable[str]) -> None:
+    """That a function of surfaces has all these names. Errors: ValueError."""
+    own = list(known)
+    for name in given:
+        if name not in own:
+            raise ValueError(f"{function}: {unknown_key(name, own)}")
 
 
 def unknown_key(name: str, own: Sequence[str]) -> str:
@@ -107,6 +116,8 @@ def unknown_key(name: str, own: Sequence[str]) -> str:
         return f"there is no key {name!r}: it is an option of solve"
     if not slips(name, own) and (near := slips(name, others)):
         return f"there is no key {name!r}; did you mean {near[0]!r}, an option of solve?"
+    if SIDES[0] in own and not SIDE_WORDS.isdisjoint(name.lower().split("_")):
+        return f"there is no key {name!r}; did you mean {SIDES[0]!r} and {SIDES[1]!r}, the sides of the whole cell?"
     return unknown("key", name, own, meanings(["surface"]))
 
 
@@ -127,9 +138,9 @@ def unknown(what: str, name: object, names: Iterable[object],
 
 
 def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> list[str]:
-    """The names that may be meant, by the first of these that finds one: that which has all words of the name, best at
-    its end; those that differ by slips; that whose words differ by slips; that which has the name in it, best at its
-    beginning; those whose meanings have its rarest word."""
+    """The names that may be meant, by the first of these that finds one: that which differs by one slip; that which has
+    all words of the name, best at its end; those that differ by slips; that whose words differ by slips; that which has
+    the name in it, best at its beginning; those whose meanings have its rarest word."""
     low = name.lower()
     words = [word for word in low.split("_") if word]
     if not words:
@@ -142,7 +153,7 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
         return sorted(have, key=lambda one: (not is_same(words[-1], split[one][-1]), len(one)))[:1]
 
     near = slips(name, names)[:1]
-    if len(low) >= SHORTEST[0]:
+    if len(low) >= SHORTEST[0] and not slips(name, near, ONE_SLIP):
         parts = sorted((one for one in names if low in one.lower()),
                        key=lambda one: (not one.lower().startswith(low), len(one)))
         near = (with_words(str.__eq__) or near or with_words(lambda word, part: bool(slips(word, [part])))
@@ -155,7 +166,7 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
     return rarest[:MOST] if len(rarest) <= 2*MOST else []
 
 
-def slips(name: str, names: Iterable[str]) -> list[str]:
-    """The names, nearest first, of which few letters are wrong or swapped."""
-    low = {one.lower(): one for one in names}
-    return [low[one] for one in difflib.get_close_matches(name.lower(), low, MOST, CLOSE)]
+def slips(name: str, names: Iterable[str], close: float = CLOSE) -> list[str]:
+    """The names, nearest first, of which few letters are wrong or swapped; of equally near ones the first."""
+    alike = {one: difflib.SequenceMatcher(None, one.lower(), name.lower()).ratio() for one in names}
+    return sorted((one for one in alike if alike[one] >= close), key=alike.__getitem__, reverse=True)[:MOST]
