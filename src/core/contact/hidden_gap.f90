@@ -57,7 +57,8 @@ contains
       real(dp) :: openings(3)
 
       type(grid_edge) :: field
-      real(dp), allocatable, dimension(:) :: before, here, lowest, next
+      real(dp), dimension(0:points(1) + 1) :: before, here, next
+      real(dp) :: lowest(points(1))
       real(dp), allocatable :: sums(:, :)   ! of each column
       real(dp) :: deepest
       integer :: j, m
@@ -68,11 +69,11 @@ contains
       deepest = -huge(deepest)
       do j = field%slab%first, field%slab%last
          here = field%column(j)
-         lowest = here(2:m + 1)
+         lowest = here(1:m)
          if (is_between) then
             before = field%column(j - 1)
             next = field%column(j + 1)
-            lowest = lowest - dip*max(here(:m) + here(3:) + before(2:m + 1) + next(2:m + 1) - 4*lowest, 0.0_dp)
+            lowest = lowest - dip*max(here(:m - 1) + here(2:) + before(1:m) + next(1:m) - 4*lowest, 0.0_dp)
          end if
          sums(:, j - field%slab%first + 1) = [-sum(lowest, lowest < 0.0_dp), real(count(lowest < 0.0_dp), dp)]
          deepest = max(deepest, maxval(-lowest))
