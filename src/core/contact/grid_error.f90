@@ -7,7 +7,7 @@
 module wavycon_grid_error
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
-   use wavycon_grid_area, only: edge_crossings, edge_spread
+   use wavycon_grid_area, only: edge_crossings, edge_spread, lone_points
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp, int64, pi
    use wavycon_quantities, only: is_known, unknown
@@ -44,11 +44,13 @@ contains
       if (surface%has_free_edges) then
          errors = max(errors, least_of_area*errors(2)/max(history%values(2), tiny(1.0_dp))*history%values)
       else
-         ! Only the saddles of even waves lie alike in all grids.
          displacement = 0.0_dp
-         if (edge%even .and. .not. (surface%is_height_map() .or. surface%kernel%has_layer())) then
-            displacement = mean_pressure/minval(edge%stiffness(:surface%dimension))
-            errors = max(errors, aligned_errors(surface%dimension, history%values, mean_pressure, edge))
+         if (.not. (surface%is_height_map() .or. surface%kernel%has_layer())) then
+            ! Only the saddles of even waves lie alike in all grids.
+            if (edge%even) displacement = mean_pressure/minval(edge%stiffness(:surface%dimension))
+            if (edge%even .or. surface%dimension == 1) then
+               errors = max(errors, aligned_errors(surface%dimension, history%values, mean_pressure, edge))
+            end if
          end if
          errors = max(errors, implied_errors(surface%dimension, history%values, errors(2), displacement))
       end if
@@ -89,6 +91,7 @@ contains
 
       integer(int64) :: crossings, points
       real(dp) :: open_part
+      real(dp) :: places   ! uncertainty of the places of the edge and of what (C11) misses, in steps or cells
 
       points = product(int(edge%slab%points, int64))
       open_part = possible_openings(edge)/real(points, dp)
@@ -100,7 +103,9 @@ contains
       ! With free edges approach and peak are not of the order of Delta and p*. Their errors follow from the area's
       ! relative error by (C17).
       if (surface%has_free_edges) errors([1, 3]) = 0.0_dp
-      errors(2) = max(errors(2), edge_scatter*sqrt(real(crossings, dp))/points, edge_bias*crossings/points)
+      places = max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)
+      if (surface%dimension == 1) places = places + abs(lone_points(edge))
+      errors(2) = errors(2) + places/points
       if (bend > 0.0_dp) errors(3) = max(errors(3), min(bend, unresolved_peak(surface, edge)))
    end function unresolved_errors
 
@@ -182,11 +187,14 @@ contains
 
       !> c of (C17b) in 1-D and 2-D, from Hertz's contacts.
       real(dp), parameter :: of_hertz(2) = [2/pi, 3*pi/16]
+      real(dp) :: area_of_wave   ! A of (C17b) with a bar
 
       errors = 0.0_dp
       associate (gap => values(1), area => values(2), peak => values(3))
          if (.not. min(area, 1.0_dp - gap, 1.0_dp - mean_pressure) > 0.0_dp) return
-         errors(1) = of_hertz(dimension)*mean_pressure*(1.0_dp - mean_pressure)/area**2 &
+         area_of_wave = area
+         if (dimension == 1) area_of_wave = sin(pi/2*area)/(pi/2)
+         errors(1) = of_hertz(dimension)*mean_pressure*(1.0_dp - mean_pressure)/area_of_wave**2 &
                      *abs(edge_spread(edge))/product(real(edge%slab%points, dp))
          errors(3) = peak*errors(1)/(1.0_dp - gap)
       end associate

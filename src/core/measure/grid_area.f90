@@ -13,7 +13,7 @@ module wavycon_grid_area
    private
 
    public :: corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, grid_contact_area, &
-      grid_strip_edges, load_concentration
+      grid_strip_edges, load_concentration, lone_points
 
    !> The coefficient c_p of (C26): the area, in grid cells, by which the counted area is too large for each pair of
    !> neighbouring points of which one is in contact and the other is not.
@@ -186,6 +186,35 @@ contains
       end function term
 
    end function edge_spread
+
+   !> The width, in grid steps, that (C11) misses of contacts and pools of one point in 1-D: (C15a).
+   pure real(dp) function lone_points(edge) result(missed)
+      type(grid_edge), intent(in) :: edge   !! of a grid in 1-D
+
+      real(dp), parameter :: of_own_load = 1.0492_dp, of_own_gap = pi + 4/pi   ! constants of (C15a)
+      real(dp) :: curvature, here, sides(2), values(0:edge%slab%points(1) + 1)
+      integer :: i
+
+      missed = 0.0_dp
+      values = edge%column(1)
+      where (values < 0.0_dp) values = values*edge%stiffness(1)
+      do i = 1, edge%slab%points(1)
+         here = abs(values(i))
+         sides = abs(values([i - 1, i + 1]))
+         if (all(values([i - 1, i + 1]) > 0.0_dp .neqv. values(i) > 0.0_dp)) then
+            associate (weight => edge%rule%aligned_weight, offset => edge%rule%aligned_offset)
+               if (values(i) > 0.0_dp) then
+                  missed = missed + sqrt(8/pi*here/(sum(sides) + of_own_load*here)) &
+                           - sum(max(here/(here + weight*sides) - offset, 0.0_dp))
+               else
+                  curvature = sum(sides) + of_own_gap*here
+                  missed = missed + 2.0_dp - sum(sides/(sides + weight*here) - offset) &
+                           - sqrt(8*pi*here/curvature + 2*((sides(2) - sides(1))/curvature)**2)
+               end if
+            end associate
+         end if
+      end do
+   end function lone_points
 
    !> How concentrated the load is in the periodic cell: the smaller of |mean of exp(i X)| and |mean of exp(i Y)|, with
    !> the pressure as the weight of the means. The result is 1 if all load is at one point and 0 if the load is uniform.

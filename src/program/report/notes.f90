@@ -543,8 +543,8 @@ contains
          'a map of two heights at most is taken as blocks, the cells of its points, as a punch is')
       if (.not. all(is_known(loads%value(peak_pressure)))) call logger%note('where contact ends at a border or at '// &
          'a step the peak pressure is infinite, as at the edge of a punch: it shows as NaN')
-      if (surface%dimension == 1) call logger%note('the approach of a profile with free edges is not defined and '// &
-         'shows as NaN: it grows with the logarithm of the length over which it is measured')
+      if (surface%dimension == 1) call logger%note('approach and elastic energy of a profile with free edges are '// &
+         'not defined and show as NaN: they grow with the logarithm of the length over which they are measured')
    end subroutine note_free_edges
 
 end module wavycon_notes

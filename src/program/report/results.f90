@@ -13,7 +13,7 @@ module wavycon_results
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
-   use wavycon_quantities, only: approach, area_at_hardness, find_quantity, load_at_hardness, &
+   use wavycon_quantities, only: approach, area_at_hardness, elastic_energy, find_quantity, load_at_hardness, &
       number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: is_good_status, not_accurate, status_code, status_name, unresolved
@@ -238,8 +238,8 @@ contains
    end function in_p_star
 
    !> The number of a load in a column of tables; NaN if the number is unknown or does not exist. With free edges there
-   !> are no numbers in p*, and a profile with free edges has no approach. Areas and loads at the hardness exist only if
-   !> there is a hardness.
+   !> are no numbers in p*, and a profile with free edges has no approach and no energy. Areas and loads at the hardness
+   !> exist only if there is a hardness.
    pure real(dp) function number(self, load, column, quantities_of_load)
       class(results_type), intent(in) :: self
       integer, intent(in) :: load          !! number of the load in the deck's order
@@ -281,7 +281,8 @@ contains
             if (.not. number > huge(number)) number = or_nan(number)
             if (is_error) number = or_nan(q%error(quantity))
             exists = self%traits%has_errors .or. .not. is_error
-            if (quantity == approach) exists = exists .and. .not. (surface%has_free_edges .and. surface%dimension == 1)
+            if (any(quantity == [approach, elastic_energy])) &
+               exists = exists .and. .not. (surface%has_free_edges .and. surface%dimension == 1)
             if (any(quantity == [area_at_hardness, load_at_hardness])) exists = exists .and. surface%has_hardness()
             if (.not. exists) number = not_a_number()
             if (in_unit) then
