@@ -99,7 +99,7 @@ contains
       type(material_group), intent(inout) :: values   !! with a layer
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it could not be made
 
-      real(dp) :: longest, thickness
+      real(dp) :: longest, sides(2), thickness
 
       if (.not. (values%layer_base%is_bad .or. values%has_unknown)) then
          if (values%layer_base%text == 'smooth') then
@@ -114,7 +114,8 @@ contains
          end if
       end if
       if (.not. allocated(surface)) return
-      longest = maxval(surface%length(:surface%dimension)/surface%maps_in_cell())
+      sides = surface%sides()
+      longest = maxval(sides(:surface%dimension))
       thickness = values%layer_thickness%number
       if (surface%has_free_edges) then
          call values%complain(values%layer_thickness, &
