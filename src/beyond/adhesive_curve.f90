@@ -14,7 +14,7 @@ module wavycon_adhesive_curve
    use wavycon_free_edges, only: ball_radii, is_ball
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
    use wavycon_kinds, only: dp, pi
-   use wavycon_quantities, only: unknown
+   use wavycon_quantities, only: is_known, unknown
    use wavycon_solution_record, only: converged, not_accurate, not_found
    use wavycon_surface, only: surface_type
    implicit none (type, external)
@@ -234,11 +234,11 @@ contains
                ! after it on that of pools.
                extreme(which)%kind = kinds(1, which)
                if ((slope(1) > 0.0_dp) .neqv. point%pools) extreme(which)%kind = kinds(2, which)
-               if (extreme(which)%exists) cycle
-               ! Only the areas between which it lies are known.
-               extreme(which)%status = not_found
-               extreme(which)%area = 0.5_dp*(before%area + point%area)
-               extreme(which)%area_error = 0.5_dp*abs(before%area - point%area)
+               if (extreme(which)%exists .and. all(is_known(extreme(which)%error))) cycle
+               ! Only the areas between which it lies are known. Next to merging slopes may even have the wrong sign.
+               extreme(which) = adhesive_point(kind=extreme(which)%kind, pools=point%pools, status=not_found, &
+                                               area=0.5_dp*(before%area + point%area), &
+                                               area_error=0.5_dp*abs(before%area - point%area))
             end associate
          end do
          if (all(extreme%kind /= unstable_point)) then
