@@ -234,8 +234,10 @@ contains
                ! after it on that of pools.
                extreme(which)%kind = kinds(1, which)
                if ((slope(1) > 0.0_dp) .neqv. point%pools) extreme(which)%kind = kinds(2, which)
-               if (extreme(which)%exists .and. all(is_known(extreme(which)%error))) cycle
-               ! Only the areas between which it lies are known. Next to merging slopes may even have the wrong sign.
+               if (extreme(which)%exists .and. (all(is_known(extreme(which)%error)) .or. &
+                   (extreme(which)%area - before%area)*(extreme(which)%area - point%area) <= 0.0_dp)) cycle
+               ! Only the areas between which it lies are known. Next to merging, where a slope may have the wrong sign,
+               ! the last step of the search may lead out of them with an unknown error.
                extreme(which) = adhesive_point(kind=extreme(which)%kind, pools=point%pools, status=not_found, &
                                                area=0.5_dp*(before%area + point%area), &
                                                area_error=0.5_dp*abs(before%area - point%area))
