@@ -208,6 +208,7 @@ contains
 
       character(:), allocatable :: word
       integer :: equals        ! position of the '=' of the entry
+      logical :: are_decimals  ! whether commas between digits are unlikely to separate numbers
       type(deck_entry) :: entry
 
       call self%find_key(entry)
@@ -250,10 +251,12 @@ contains
       if (entry%is_bad) entry%used = 0
       call self%list%take(entry%k, entry%position, entry%numbers(:entry%used), entry%value%text)
       associate (row => self%list%rows(entry%k))
-         ! Nobody solves the loads 0 and 2 alone. Other pairs may be meant, such as depths, as 0 is one.
-         if (entry%used == 2 .and. self%list%name == 'load') entry%by_blanks = entry%by_blanks .or. &
-            (entry%numbers(1) <= 0.0_dp .and. index(self%text%content(equals:self%before%last), '.') == 0)
-         self%list%keys(entry%k)%value%has_decimal_commas = row%kind == real_value .and. entry%by_blanks .and. &
+         ! Decimal commas may be meant if blanks alone separate other numbers; or if the loads would be 0 and another,
+         ! which nobody solves. 0 and 2 may well be depths.
+         are_decimals = entry%by_blanks .or. (self%list%name == 'load' .and. entry%used == 2 .and. &
+            all(entry%numbers(:min(1, entry%used)) <= 0.0_dp) .and. &
+            index(self%text%content(equals:self%before%last), '.') == 0)
+         self%list%keys(entry%k)%value%has_decimal_commas = row%kind == real_value .and. are_decimals .and. &
             entry%by_decimal_commas
          if (self%before%last == equals) call self%problems%add(entry%position, &
             entry%name//' has no value: it must be '//allowed_values(row))

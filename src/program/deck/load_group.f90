@@ -102,7 +102,7 @@ contains
       !> Words where an adhesive contact would have to slip.
       character(*), parameter :: no_slip = &
          ', and partial slip is computed without adhesion: leave friction of &interface out'
-      character(:), allocatable :: key, limit, load   ! limit: the limit in words; load: a load in words
+      character(:), allocatable :: key, limit, load   ! limit: the limit in words; load: the heaviest load in words
       integer :: position
       real(dp) :: compression, p_star   ! compression: of a layer under p* [Delta]
       real(dp) :: most   ! largest value allowed, and unit of the target, in the unit of the key
@@ -152,6 +152,8 @@ contains
 
       !> Reports loads that contradict other keys: tensions, searches with adhesion, a sweep of one load.
       subroutine check_beside_keys()
+         character(:), allocatable :: load   ! the lightest load in words
+
          load = key//' = '//short_number(minval(target))//' is a tension'
          if (loads_by == by_approach) load = key//' = '//short_number(minval(target))//' is a separation'
          if (minval(target) < 0.0_dp .and. .not. with_adhesion) call values%problems%add(position, &
@@ -183,15 +185,18 @@ contains
 
       !> Sets the limit of the loads, empty if the table of keys has it as a bound, and the mean pressures.
       subroutine find_limit()
+         real(dp) :: area   ! the loads are mean pressures times this
+
          limit = ''
          most = 1.0_dp
          select case (key)
          case ('pbar_over_pstar', 'sweep_from')
             mean_pressure = p_star*target
          case ('mean_pressure', 'force')
-            if (key == 'force') most = surface%nominal_area()
-            mean_pressure = target/most
-            most = largest_pbar_over_pstar*p_star*most
+            area = 1.0_dp
+            if (key == 'force') area = surface%nominal_area()
+            mean_pressure = target/area
+            most = largest_pbar_over_pstar*p_star*area
             limit = short_number(largest_pbar_over_pstar)//' times p* = '//short_number(p_star)
             ! With free edges p_star is only a unit, a modulus times a slope: do not call it p*.
             if (surface%has_free_edges) &
