@@ -10,7 +10,7 @@ import subprocess
 from common import write
 
 STATUS = 99  # of a program in which valgrind found something
-PATIENCE = 600.0  # time limit of a program [s]
+PATIENCE = 1800.0  # time limit of a program [s]; the longest takes some 300 s on an idle machine
 # Some tests have arrays of megabytes on the stack, which valgrind takes for another stack unless told.
 COMMAND = ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
            f"--error-exitcode={STATUS}", "--max-stackframe=8388608",
