@@ -729,7 +729,7 @@ except ImportError as error: print(error)"""
                 self.refuse("pbar_over_pstar", problem.solve, pbar_over_pstar=bad)
             for bad in loads, iter(loads), set(loads):
                 self.refuse("find needs one value", problem.find, mean_gap=bad)
-            self.refuse("there is no key 'sweep_from'; there are pbar", problem.solve, sweep_from=0.1)
+            self.refuse("give the loads by one of pbar", problem.solve, sweep_from=0.1)
             for copied in pickle.dumps, copy.deepcopy:
                 self.refuse("cannot be copied or pickled: make a problem in each", copied, problem, error=TypeError)
 

@@ -16,7 +16,7 @@ import numpy as np
 from . import names
 from .deck import deck_text, heights, scene_of
 from .library import Array, need, reals, tell
-from .surfaces import Surface, check_names
+from .surfaces import SIDES, Surface, check_names
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
@@ -212,22 +212,20 @@ def convert(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
-        if not (opened := open_file(given.file, channel, given.unit)):
-            checked(given.file, None, fill_missing="harmonic")
+        surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
+        rows, unit, kind = surface.heights, surface.length_unit, Path(given.map).suffix
+        if rows is None:
             raise ValueError(f"{given.file}: decks read this file as it is")
-        x, z, sides, unit = opened
-        kind, rows = Path(given.map).suffix, np.atleast_2d(z)
-        if x is not None and kind != ".txt":
-            raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")
+        sides = {key: surface.keys[key] for key in SIDES if key in surface.keys}
         if kind not in BEGINNINGS or (kind == ".txt" and len(rows) > 1):
             raise ValueError(f"{given.map}: the name must end in .gsf or .npy, of a profile also in .txt")
         if kind == ".gsf" and not sides:
             raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
         with written(given.map, BEGINNINGS[kind], given.file) as file:
             if kind == ".txt":
-                write_profile(file, np.arange(z.size)*(sides.get("length_x", 1.0)/z.size) if x is None else x, z)
+                write_profile(file, np.arange(rows.size)*(sides.get("length_x", 1.0)/rows.size), rows[0])
             elif kind == ".npy":
-                np.save(file, z)
+                np.save(file, rows)
             else:
                 write_gsf(file, rows, sides, unit)
     except (ImportError, OSError, ValueError) as error:

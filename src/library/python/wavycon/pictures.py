@@ -54,16 +54,13 @@ def plot(results: Results, y: Column = "contact_area_fraction", x: Column = "mea
     not known too. style: as of errorbar."""
     if not len(results):
         raise ValueError("there are no loads to draw")
-    names = results.table().dtype.names or ()
     for column in x, y:
-        if column not in names:
-            raise ValueError(unknown("column", column, names))
-        if results.table().dtype[column].kind == "U":
+        if results[column].dtype.kind == "U":
             raise ValueError(f"the column {column!r} has words, not numbers")
     ax, rows = axes(ax), results.table()[np.argsort(results[x])]
     (factor_x, label_x), (factor_y, label_y) = scaled(results._facts, x), scaled(results._facts, y)
     across, values = factor_x*rows[x], factor_y*rows[y]
-    error = factor_y*rows[f"{y}_error"] if f"{y}_error" in names else np.zeros(len(rows))
+    error = factor_y*rows[f"{y}_error"] if f"{y}_error" in (rows.dtype.names or ()) else np.zeros(len(rows))
     line = ax.errorbar(across, values, np.nan_to_num(error), **{"marker": "o", "capsize": 2, **style})[0]
     is_open = (rows["status_code"] >= UNRESOLVED) | np.isnan(error)
     if is_open.any():
