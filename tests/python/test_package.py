@@ -961,9 +961,9 @@ class Files(PackageTest):
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")
         (self.folder/"deck.npy").write_text("&surface kind = 'wave_1d' /")
-        numpy.savetxt("profile.txt", numpy.c_[numpy.arange(9), numpy.cos(numpy.arange(9))])
+        numpy.save("map.npy", numpy.eye(8))
         for words in (["none.opd", "map.gsf"], ["words.txt", "map.gsf"], ["scan.txt", "map.tif"],
-                      ["scan.txt", "no/map.gsf"], ["scan.txt", "deck.npy"], ["profile.txt", "profile.txt"]):
+                      ["scan.txt", "no/map.gsf"], ["scan.txt", "deck.npy"], ["map.npy", "map.npy"]):
             with self.assertRaisesRegex(SystemExit, "wavycon-convert: "):
                 convert(words)
 

@@ -128,7 +128,7 @@ class Names(ValuesTest):
         self.assertEqual("nowhere/x.npz", caught.exception.filename)
         self.refuse("'presure'; did you mean 'pressure'", results[0].plot_map, "presure")
         self.refuse("'mises'|did you mean", wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, stress={"nu": 0.3})[0]
-                    .plot_stress_section, "von_mise")
+                    .plot_stress_section, "von_mise", error=KeyError)
         self.refuse("'area'; did you mean 'contact_area'", results.plot, y="area", error=KeyError)
         self.refuse("'contour'; did you mean 'contours'[?] The tables are ", results.table, "contour")
         self.refuse("must end in .npz or .h5, not in .csv; to_dataframe", results.save, "run.csv")

@@ -31,10 +31,9 @@ def program() -> str:
         for file in importlib.metadata.files("wavycon") or []:
             if file.name == "wavycon" and file.parent.name in ("bin", "Scripts"):
                 return str(file.locate())
-    path = shutil.which("wavycon")
-    if not path:
-        raise OSError("the program wavycon is neither installed with this package nor in PATH")
-    return path
+    if path := shutil.which("wavycon"):
+        return path
+    raise OSError("the program wavycon is neither installed with this package nor in PATH")
 
 
 def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[Any, Surface],

@@ -12,7 +12,7 @@ from typing import Any, ParamSpec
 import numpy as np
 import numpy.typing as npt
 
-from .library import address, call, keys, number, tell, text
+from .library import Rows, address, call, keys, number, tell, text
 
 FEW = 30          # names that a message lists
 MOST = 3          # names that a message proposes
@@ -135,6 +135,13 @@ def unknown(what: str, name: object, names: Iterable[object],
     few = f"; there are {', '.join(texts)}" if texts and len(texts) <= FEW else ""
     return f"there is no {what} {name!r}" + (
         f"; did you mean {', '.join(near[:-1])}{' or '*(len(near) > 1)}{near[-1]}?" if near else few)
+
+
+def column(rows: Rows, name: str) -> Rows:
+    """A column of a table. Errors: KeyError."""
+    if name not in (rows.dtype.names or ()):
+        raise KeyError(unknown("column", name, rows.dtype.names or ()))
+    return rows[name]
 
 
 def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> list[str]:
