@@ -729,7 +729,7 @@ except ImportError as error: print(error)"""
                 self.refuse("pbar_over_pstar", problem.solve, pbar_over_pstar=bad)
             for bad in loads, iter(loads), set(loads):
                 self.refuse("find needs one value", problem.find, mean_gap=bad)
-            self.refuse("there is no key 'sweep_from'; there are pbar", problem.solve, sweep_from=0.1)
+            self.refuse("give the loads by one of pbar", problem.solve, sweep_from=0.1)
             for copied in pickle.dumps, copy.deepcopy:
                 self.refuse("cannot be copied or pickled: make a problem in each", copied, problem, error=TypeError)
 
@@ -961,9 +961,9 @@ class Files(PackageTest):
         numpy.savetxt("scan.txt", numpy.eye(8))
         self.refuse("no channel", wc.read, "scan.txt", channel="Phase")
         (self.folder/"deck.npy").write_text("&surface kind = 'wave_1d' /")
-        numpy.savetxt("profile.txt", numpy.c_[numpy.arange(9), numpy.cos(numpy.arange(9))])
+        numpy.save("map.npy", numpy.eye(8))
         for words in (["none.opd", "map.gsf"], ["words.txt", "map.gsf"], ["scan.txt", "map.tif"],
-                      ["scan.txt", "no/map.gsf"], ["scan.txt", "deck.npy"], ["profile.txt", "profile.txt"]):
+                      ["scan.txt", "no/map.gsf"], ["scan.txt", "deck.npy"], ["map.npy", "map.npy"]):
             with self.assertRaisesRegex(SystemExit, "wavycon-convert: "):
                 convert(words)
 

@@ -128,11 +128,11 @@ class Names(ValuesTest):
         self.assertEqual("nowhere/x.npz", caught.exception.filename)
         self.refuse("'presure'; did you mean 'pressure'", results[0].plot_map, "presure")
         self.refuse("'mises'|did you mean", wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, stress={"nu": 0.3})[0]
-                    .plot_stress_section, "von_mise")
-        self.refuse("'area'; did you mean 'contact_area'", results.plot, y="area")
+                    .plot_stress_section, "von_mise", error=KeyError)
+        self.refuse("'area'; did you mean 'contact_area'", results.plot, y="area", error=KeyError)
         self.refuse("'contour'; did you mean 'contours'[?] The tables are ", results.table, "contour")
         self.refuse("must end in .npz or .h5, not in .csv; to_dataframe", results.save, "run.csv")
-        self.refuse("'mean_pres'; did you mean 'mean_pressure'", results.plot, x="mean_pres")
+        self.refuse("'mean_pres'; did you mean 'mean_pressure'", results.plot, x="mean_pres", error=KeyError)
 
     def test_what_is_meant_comes_first(self):
         wave = wc.wave_2d()
@@ -611,7 +611,7 @@ class Problems(ValuesTest):
             self.refuse("percolates must be one word", p.find, percolates=3)
             self.refuse("percolates must be one word", p.find, percolates=None)
             self.refuse("percolates must be one word", p.solve, percolates=["gap", "contact"])
-            self.refuse("no key 'percolate'; did you mean 'percolates'", p.find, percolate="gap")
+            self.refuse("no key 'percolate' in &load; did you mean 'percolates'", p.find, percolate="gap")
             self.refuse("find needs one value", p.find, percolates=["gap", "contact"])
             self.refuse("find needs one value", p.find, mean_pressure=[0.1, 0.2])
             self.refuse("mean_pressure needs a number, got 'gap'", p.find, mean_pressure="gap")
@@ -623,8 +623,8 @@ class Problems(ValuesTest):
         self.refuse("did you mean 'e_star'", wc.problem, self.rough, e_sta=1)
         with wc.problem(self.rough) as p:
             self.refuse("did you mean 'mean_pressure'", p.solve, mean_presure=1)
-            self.refuse("no key 'foo'", p.find, contact_area_fraction=0.3, foo=1)
-            self.refuse(r"no key 'gap'; did you mean 'mean_gap'\?", p.find, gap=0.5)
+            self.refuse("give the loads by one of pbar", p.find, contact_area_fraction=0.3, foo=1)
+            self.refuse(r"no key 'gap' in &load; did you mean 'mean_gap'\?", p.find, gap=0.5)
             self.refuse("by one of", p.solve)
             self.refuse("by one of", p.solve, mean_pressure=1, mean_gap=1)
             self.refuse("number", p.solve, mean_pressure=[[1]])

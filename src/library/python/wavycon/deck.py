@@ -103,10 +103,8 @@ def value_text(key: str, value: object, in_list: bool = False) -> str:
         return "'" + value.replace("'", "''") + "'"
     if isinstance(value, bool):
         return f".{value}.".lower()
-    if isinstance(value, Integral):
-        return str(int(value))
     if isinstance(value, Real):
-        return repr(float(value))
+        return repr(int(value) if isinstance(value, Integral) else float(value))
     if isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping)) and not in_list:
         return ", ".join(value_text(key, one, in_list=True) for one in value)
     raise ValueError(f"{key} must be a number, a text, a truth value or a list of these, got {value!r}")

@@ -16,10 +16,10 @@ import numpy as np
 from . import names
 from .deck import deck_text, heights, scene_of
 from .library import Array, need, reals, tell
-from .surfaces import Surface, check_names
+from .surfaces import SIDES, Surface, check_names
 
 # Of the files that are written, by the ends of their names.
-BEGINNINGS = {".txt": b"", ".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
+BEGINNINGS = {".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
 # What the program reads, and SurfaceTopography not or otherwise than it is meant: Gwyddion's simple field, the grids of
 # ESRI, by their steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
 GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
@@ -45,7 +45,9 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     if not opened:
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: such a file has one, which has no name")
-        return checked(os.path.abspath(file), length_unit, **keys_of_maps)
+        surface = Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
+        scene_of(surface, {}, keep_fields=False)   # an error if the program cannot read it
+        return surface
     x, z, sides, unit = opened
     for key, side in sides.items():
         if keys_of_maps.get(key) is not None:
@@ -55,15 +57,8 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
     with tempfile.TemporaryDirectory(prefix="wavycon-") as folder:
         profile = os.path.join(folder, "profile.txt")
-        write_profile(profile, x, z)
-        return checked(profile, unit, **keys_of_maps).prepared()
-
-
-def checked(file: str, unit: str | None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
-    """A surface of a file that the program reads. Errors: as of solve, if it cannot."""
-    surface = Surface(names.file(file=file, **keys_of_maps).keys, None, unit)
-    scene_of(surface, {}, keep_fields=False)
-    return surface
+        np.savetxt(profile, np.column_stack([x, z]), fmt="%.17g")
+        return Surface(names.file(file=profile, **keys_of_maps).keys, None, unit).prepared()
 
 
 def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,
@@ -138,12 +133,11 @@ def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
     raise NoHeights(f"there is no channel {channel!r}; channels of heights: {there_are}")
 
 
-def unit_of(channel: Any) -> str | None:
+def unit_of(channel: Any) -> Any:
     """The unit of the values of a channel; None if the file does not tell it."""
     told = getattr(channel, "data_unit", None) or channel.unit
     # Some readers tell the units of places and values together.
-    unit: str | None = told[-1] if isinstance(told, tuple) else told
-    return unit
+    return told[-1] if isinstance(told, tuple) else told
 
 
 def has_heights(channel: Any) -> bool:
@@ -162,13 +156,9 @@ def is_length(unit: Any) -> bool:
 
 @contextlib.contextmanager
 def written(path: str, begin: bytes = b"", *inputs: str) -> Iterator[IO[bytes]]:
-    """A binary file that takes the place of `path` when it is complete. It replaces no input, no directory and no file
-    that begins in another way; a pipe or a device is written into. Errors: OSError."""
-    if os.path.exists(path) and not os.path.isfile(path):
-        with open(path, "wb") as file:
-            yield file
-        return
-    if os.path.exists(path) and (first_bytes(path, len(begin)) not in (begin, b"") or
+    """A binary file that takes the place of `path` when it is complete. It replaces no input and nothing that is no file
+    or begins in another way. Errors: OSError."""
+    if os.path.exists(path) and (not os.path.isfile(path) or first_bytes(path, len(begin)) not in (begin, b"") or
                                  any(os.path.samefile(path, one) for one in inputs)):
         raise FileExistsError(f"{path}: this is another file than would be written; it is not replaced")
     folder, name = os.path.split(os.path.realpath(path))
@@ -183,10 +173,6 @@ def written(path: str, begin: bytes = b"", *inputs: str) -> Iterator[IO[bytes]]:
         with contextlib.suppress(FileNotFoundError):
             os.unlink(part)
         raise
-
-
-def write_profile(path: str | Path | IO[bytes], x: Any, z: Array) -> None:
-    np.savetxt(path, np.column_stack([x, z]), fmt="%.17g")
 
 
 def write_gsf(file: IO[bytes], z: Array, sides: dict[str, float], unit: str | None) -> None:
@@ -206,28 +192,24 @@ def convert(arguments: list[str] | None = None) -> None:
                                      "decks of wavycon read.")
     parser.add_argument("file", help="of any format that SurfaceTopography opens")
     parser.add_argument("map", help="to be written: .gsf with sides and units, heights over their mean in "
-                        "single precision, .npy with all digits, .txt for profiles")
+                        "single precision, .npy with all digits")
     parser.add_argument("--channel", help="name or number of one of several channels")
     parser.add_argument("--unit", help="of length, to which the file's lengths are converted, such as um")
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
-        if not (opened := open_file(given.file, channel, given.unit)):
-            checked(given.file, None, fill_missing="harmonic")
+        surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
+        rows, unit, kind = surface.heights, surface.length_unit, Path(given.map).suffix
+        if rows is None:
             raise ValueError(f"{given.file}: decks read this file as it is")
-        x, z, sides, unit = opened
-        kind, rows = Path(given.map).suffix, np.atleast_2d(z)
-        if x is not None and kind != ".txt":
-            raise ValueError(f"{given.file}: a profile of unequal steps needs a file .txt")
-        if kind not in BEGINNINGS or (kind == ".txt" and len(rows) > 1):
-            raise ValueError(f"{given.map}: the name must end in .gsf or .npy, of a profile also in .txt")
+        sides = {key: surface.keys[key] for key in SIDES if key in surface.keys}
+        if kind not in BEGINNINGS:
+            raise ValueError(f"{given.map}: the name must end in .gsf or .npy")
         if kind == ".gsf" and not sides:
             raise ValueError(f"{given.file} does not have the sides, which a file .gsf needs: write a file .npy")
         with written(given.map, BEGINNINGS[kind], given.file) as file:
-            if kind == ".txt":
-                write_profile(file, np.arange(z.size)*(sides.get("length_x", 1.0)/z.size) if x is None else x, z)
-            elif kind == ".npy":
-                np.save(file, z)
+            if kind == ".npy":
+                np.save(file, rows)
             else:
                 write_gsf(file, rows, sides, unit)
     except (ImportError, OSError, ValueError) as error:

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from . import regions
+from . import regions, surfaces
 from .library import need
 from .names import Column
-from .surfaces import unknown
 
 if TYPE_CHECKING:
     from .results import Facts, Result, Results
@@ -35,8 +34,7 @@ def scaled(facts: Facts, column: str) -> tuple[float, str]:
     if unit in ("Pa", "m") and size > 0:
         power = 3*int(np.clip(np.floor(np.log10(size/3)/3), -8, 8))
         return 10.0**-power, f"{words} [{need('matplotlib.ticker', 'plot').EngFormatter.ENG_PREFIXES[power]}{unit}]"
-    unit = {"N*m": "J"}.get(unit, unit)
-    unit = re.sub(r"\bum\b", "\u00b5m", unit).replace("^2", "\u00b2").replace("*", " ")
+    unit = re.sub(r"\bum\b", "\u00b5m", {"N*m": "J"}.get(unit, unit)).replace("^2", "\u00b2").replace("*", " ")
     return 1.0, f"{words} [{unit}]" if unit else words
 
 
@@ -54,16 +52,13 @@ def plot(results: Results, y: Column = "contact_area_fraction", x: Column = "mea
     not known too. style: as of errorbar."""
     if not len(results):
         raise ValueError("there are no loads to draw")
-    names = results.table().dtype.names or ()
     for column in x, y:
-        if column not in names:
-            raise ValueError(unknown("column", column, names))
-        if results.table().dtype[column].kind == "U":
+        if results[column].dtype.kind == "U":
             raise ValueError(f"the column {column!r} has words, not numbers")
     ax, rows = axes(ax), results.table()[np.argsort(results[x])]
     (factor_x, label_x), (factor_y, label_y) = scaled(results._facts, x), scaled(results._facts, y)
     across, values = factor_x*rows[x], factor_y*rows[y]
-    error = factor_y*rows[f"{y}_error"] if f"{y}_error" in names else np.zeros(len(rows))
+    error = factor_y*rows[f"{y}_error"] if f"{y}_error" in (rows.dtype.names or ()) else np.zeros(len(rows))
     line = ax.errorbar(across, values, np.nan_to_num(error), **{"marker": "o", "capsize": 2, **style})[0]
     is_open = (rows["status_code"] >= UNRESOLVED) | np.isnan(error)
     if is_open.any():
@@ -79,15 +74,14 @@ def plot_map(result: Result, field: Literal["pressure", "gap", "displacement", "
     """Draws a field ('pressure', 'gap', 'displacement') on matplotlib's Axes, made if not given, and returns these;
     or 'regions': each spot of contact in a colour, and what percolates. style: options of pcolormesh, such as vmax in
     the units that are drawn, for a profile of plot."""
-    fields = [name for name in result._fields if name not in PLACES]
     if field == "regions":
         # Without p*, with free edges, nothing is repeated.
         fault = "is a profile" if len(result.y) == 1 else "has free edges" if np.isnan(result.pbar_over_pstar) else ""
         if fault:
             raise ValueError(f"regions are those of a surface that is repeated along x and y: this one {fault}")
         return plot_regions(result, axes(ax), style)
-    if field not in fields:
-        raise ValueError(unknown("field", field, [*fields, "regions"]))
+    if field not in result._fields or field in PLACES:
+        raise ValueError(surfaces.unknown("field", field, ["pressure", "gap", "displacement", "regions"]))
     ax, facts = axes(ax), result._facts
     factor, words = scaled(facts, field)
     values, (by, x), y = factor*result._fields[field], scaled(facts, "x"), scaled(facts, "y")[1]
@@ -126,12 +120,10 @@ def plot_stress_section(result: Result, column: str = "von_mises", ax: Any = Non
     """Draws a column of the table 'stress_section', which needs stress={...} in the solve, on a vertical section
     through the crest, on matplotlib's Axes, and returns these. style: options of pcolormesh."""
     rows, facts = result.table("stress_section"), result._facts
-    if column not in (rows.dtype.names or ()):
-        raise ValueError(unknown("column", column, rows.dtype.names or ()))
     rows = rows[rows["body"] == 1]
     depth, distance = np.unique(rows["depth"]), np.unique(rows["distance"])
     (factor, words), (by, across) = scaled(facts, column), scaled(facts, "distance")
-    values = factor*rows[column].reshape(len(depth), len(distance))
+    values = factor*surfaces.column(rows, column).reshape(len(depth), len(distance))
     ax = mesh(axes(ax), by*distance, by*depth, values, words, xlabel=across, ylabel=scaled(facts, "depth")[1],
               style={"shading": "gouraud", **style})
     ax.set_title(title(result))

@@ -31,10 +31,9 @@ def program() -> str:
         for file in importlib.metadata.files("wavycon") or []:
             if file.name == "wavycon" and file.parent.name in ("bin", "Scripts"):
                 return str(file.locate())
-    path = shutil.which("wavycon")
-    if not path:
-        raise OSError("the program wavycon is neither installed with this package nor in PATH")
-    return path
+    if path := shutil.which("wavycon"):
+        return path
+    raise OSError("the program wavycon is neither installed with this package nor in PATH")
 
 
 def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[Any, Surface],
@@ -69,7 +68,7 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
 
         def run(number: int) -> Any:
             deck, title, settings = combinations[number]
-            table = Path(own, f"{number}.dat")
+            table = Path(own, f"{number}.csv")
             sets = [f"--set={key}={value_text(key, value)}" for key, value in settings.items()]
             output = Path(directory or own, "" if directory else str(number))
             with subprocess.Popen([program(), deck, *sets, f"--output={output}", f"--table={table}"], text=True,
@@ -79,13 +78,10 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
                 log, message = process.communicate()
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             if table.exists():
-                # The head of a deck that did not fail: version, units.
-                # Unlike that of some versions of pandas this reader takes all digits.
-                rows = pandas.DataFrame(np.atleast_1d(np.genfromtxt(table, dtype=None, comments="\0", skip_header=2,
-                                                                    names=True, encoding="utf-8")))
-                labels = table.read_text(encoding="utf-8").splitlines()[1].strip("# ").split()
-                units.update({column: label.strip("[]") for column, label in zip(rows, labels)})
-                rows = rows.loc[:, "load":]
+                rows = pandas.read_csv(table, float_precision="round_trip").loc[:, "load":]
+                heads = [head.rstrip("]").partition("[") for head in rows]
+                units.update({column: unit or "-" for column, _, unit in heads})
+                rows.columns = [column for column, *_ in heads]
             else:
                 rows = pandas.DataFrame({"status": ["failed"]})
                 message = message or f"the program ended with the status {process.returncode}"

@@ -19,7 +19,7 @@ from . import library, pictures
 from .files import written
 from .library import Array, Handle, Rows, address, call, locked, need, reals
 from .names import Columns
-from .surfaces import unknown
+from .surfaces import column, unknown
 
 FIELDS = ("pressure", "gap", "displacement")
 HDF5 = (".h5", ".hdf5")
@@ -94,6 +94,7 @@ class Result(Named, Columns[float, str]):
     def __init__(self, load: int, facts: Facts, tables: dict[str, Rows], solution: Handle | None = None,
                  scene: Handle | None = None) -> None:
         self._load, self._facts, self._tables, self._solution, self._scene = load, facts, tables, solution, scene
+        self.p_star = facts.p_star   # [pressure] mean pressure that just closes the gap everywhere
 
     def _column(self, name: str) -> Any:
         return column(self.table("summary"), name)[0].item()
@@ -146,11 +147,6 @@ class Result(Named, Columns[float, str]):
         sides = self._facts.length_x, self._facts.length_y
         places = [side*(np.arange(number) + first)/number for side, number, first in zip(sides, points, offset)]
         return {name: locked(values) for name, values in zip(("x", "y", *FIELDS), [*places, *fields])}
-
-    @property
-    def p_star(self) -> float:
-        """[pressure] Mean pressure that just closes the gap everywhere."""
-        return self._facts.p_star
 
     @property
     def x(self) -> Array:
@@ -437,13 +433,6 @@ def note_news(scene: Handle | None, facts: Facts) -> None:
     """Warns of what the library notes of a scene, and adds it to the notes, unless it is there."""
     notes = library.text(scene, "notes").splitlines() if scene else []
     facts.notes += library.tell([note for note in notes if note not in facts.notes])
-
-
-def column(rows: Rows, name: str) -> Rows:
-    names = rows.dtype.names or ()
-    if name not in names:
-        raise KeyError(unknown("column", name, names))
-    return rows[name]
 
 
 def same_shape(*arrays: npt.ArrayLike) -> list[Array]:

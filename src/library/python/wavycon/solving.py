@@ -15,7 +15,7 @@ from .library import Handle, address, call, keys, one_number, reals
 from .names import Load, Options, Settings, Unpack
 from .progress import Watch
 from .results import Facts, Result, Results, note_news
-from .surfaces import SIDES, Surface, unknown
+from .surfaces import SIDES, Surface
 
 NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
@@ -101,6 +101,7 @@ class Problem:
             raise ValueError("loads belong to the solve of a problem")
         self._scene: Handle | None = scene_of(surface, settings, keep_fields)
         self._facts = Facts.of_scene(self._scene)
+        self.p_star = self._facts.p_star   # [pressure] mean pressure that just closes the gap everywhere
 
     def __enter__(self) -> Problem:
         return self
@@ -108,21 +109,13 @@ class Problem:
     def __exit__(self, *_: object) -> None:
         self._scene = None
 
-    @property
-    def p_star(self) -> float:
-        """[pressure] Mean pressure that just closes the gap everywhere."""
-        return self._facts.p_star
-
     def solve(self, *, progress: bool = True, **load: Unpack[Load]) -> Results:
         """Solves loads, a number or a list of one key of &load, such as mean_pressure=[1e6, 1e7], or its word, such as
         percolates="gap". A solver may start from the load before, so that last digits depend on it."""
         if self._scene is None:
             raise ValueError("this problem has ended with its `with`")
-        known = [key for key in keys()["load"] if not key.startswith("sweep_")]
-        for key in load:
-            if key not in known:
-                raise ValueError(unknown("key", key, known))
-        if len(load) != 1:
+        if len(load) != 1 or "sweep_" in next(iter(load)):
+            known = [key for key in keys()["load"] if not key.startswith("sweep_")]
             raise ValueError(f"give the loads by one of {', '.join(known)}")
         given: Any
         (name, given), = load.items()

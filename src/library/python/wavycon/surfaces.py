@@ -12,7 +12,7 @@ from typing import Any, ParamSpec
 import numpy as np
 import numpy.typing as npt
 
-from .library import address, call, keys, number, tell, text
+from .library import Rows, address, call, keys, number, tell, text
 
 FEW = 30          # names that a message lists
 MOST = 3          # names that a message proposes
@@ -137,32 +137,27 @@ def unknown(what: str, name: object, names: Iterable[object],
         f"; did you mean {', '.join(near[:-1])}{' or '*(len(near) > 1)}{near[-1]}?" if near else few)
 
 
+def column(rows: Rows, name: str) -> Rows:
+    """A column of a table. Errors: KeyError."""
+    if name not in (rows.dtype.names or ()):
+        raise KeyError(unknown("column", name, rows.dtype.names or ()))
+    return rows[name]
+
+
 def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> list[str]:
     """The names that may be meant, by the first of these that finds one: that which differs by one slip; that which has
-    all words of the name, best at its end; those that differ by slips; that whose words differ by slips; that which has
-    the name in it, best at its beginning; those whose meanings have its rarest word."""
-    low = name.lower()
-    words = [word for word in low.split("_") if word]
-    if not words:
-        return []
-
-    def with_words(is_same: Callable[[str, str], bool]) -> list[str]:
-        split = {one: one.lower().split("_") for one in names}
-        have = [one for one, parts in split.items()
-                if all(any(is_same(word, part) for part in parts) for word in words)]
-        return sorted(have, key=lambda one: (not is_same(words[-1], split[one][-1]), len(one)))[:1]
-
-    near = slips(name, names)[:1]
-    if len(low) >= SHORTEST[0] and not slips(name, near, ONE_SLIP):
-        parts = sorted((one for one in names if low in one.lower()),
-                       key=lambda one: (not one.lower().startswith(low), len(one)))
-        near = (with_words(str.__eq__) or near or with_words(lambda word, part: bool(slips(word, [part])))
-                or parts[:1])
-    if near:
-        return near
-    meant = [[one for one in names if word in meanings.get(one, "").lower().replace("'", "")]
-             for word in words if len(word) >= SHORTEST[1]]
-    rarest = min(filter(None, meant), key=len, default=[])
+    all words of the name, their slips mended, best at its end; that which differs by slips; those whose meanings have
+    the rarest word."""
+    words = name.lower().strip("_").split("_")
+    known = sorted({part for one in names for part in one.lower().split("_")})
+    mended = [word if word in known else (slips(word, known) or [word])[0] for word in words]
+    have = [one for one in names if len(name) >= SHORTEST[0] and all(word in one.lower() for word in mended)]
+    have.sort(key=lambda one: (not one.lower().endswith(mended[-1]), len(one)))
+    if near := slips(name, names, ONE_SLIP) or have or slips(name, names):
+        return near[:1]
+    described = [[one for one in names if word in meanings.get(one, "").lower().replace("'", "")]
+                 for word in words if len(word) >= SHORTEST[1]]
+    rarest = min(filter(None, described), key=len, default=[])
     return rarest[:MOST] if len(rarest) <= 2*MOST else []
 
 
