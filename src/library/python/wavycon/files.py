@@ -156,8 +156,8 @@ def is_length(unit: Any) -> bool:
 
 @contextlib.contextmanager
 def written(path: str, begin: bytes = b"", *inputs: str) -> Iterator[IO[bytes]]:
-    """A binary file that takes the place of `path` when it is complete. It replaces no input and nothing that is no file
-    or begins in another way. Errors: OSError."""
+    """A binary file that takes the place of `path` when it is complete. It replaces no input and nothing that is no
+    file or begins in another way. Errors: OSError."""
     if os.path.exists(path) and (not os.path.isfile(path) or first_bytes(path, len(begin)) not in (begin, b"") or
                                  any(os.path.samefile(path, one) for one in inputs)):
         raise FileExistsError(f"{path}: this is another file than would be written; it is not replaced")
