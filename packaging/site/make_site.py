@@ -40,18 +40,9 @@ CHAPTERS = {
 }
 
 
-def pages():
-    """The pages of the tree, without those of builds and results."""
-    tops = [path for path in ROOT.iterdir() if not re.match(r"build|\.|outputs", path.name)]
-    found = [page for top in tops for page in ([top] if top.suffix == ".md" else top.rglob("*.md"))]
-    others = [*(ROOT/"outputs").glob("README.md"), *(ROOT/"outputs/gallery").glob("*.md"),
-              *(ROOT/".github").glob("[A-Z]*.md")]
-    return sorted(page.relative_to(ROOT) for page in found + others)
-
-
 def stage(source):
     """Copies the pages, and the pictures and files that they link to. The start page is index.md."""
-    for page in pages():
+    for page in [page for pages in CHAPTERS.values() for page in map(pathlib.Path, pages) if (ROOT/page).exists()]:
         text = (ROOT/page).read_text(encoding="utf-8")
         for target in set(re.findall(r"\]\(([^)#\s:]+)(?:#[^)\s]*)?\)", text)):
             file = pathlib.Path(os.path.normpath(page.parent/target))
