@@ -16,6 +16,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -169,8 +170,7 @@ def fortran_comment(lines):
 
 
 def fortran_code(lines):
-    indent = len(lines) - len(lines.lstrip(" "))
-    return "\n```fortran\n" + re.sub(rf"^ {{{indent}}}", "", lines, flags=re.MULTILINE) + "```\n"
+    return f"\n```fortran\n{textwrap.dedent(lines)}```\n"
 
 
 def fortran_entry(text, name, level, called=None):
