@@ -16,6 +16,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -40,18 +41,9 @@ CHAPTERS = {
 }
 
 
-def pages():
-    """The pages of the tree, without those of builds and results."""
-    tops = [path for path in ROOT.iterdir() if not re.match(r"build|\.|outputs", path.name)]
-    found = [page for top in tops for page in ([top] if top.suffix == ".md" else top.rglob("*.md"))]
-    others = [*(ROOT/"outputs").glob("README.md"), *(ROOT/"outputs/gallery").glob("*.md"),
-              *(ROOT/".github").glob("[A-Z]*.md")]
-    return sorted(page.relative_to(ROOT) for page in found + others)
-
-
 def stage(source):
     """Copies the pages, and the pictures and files that they link to. The start page is index.md."""
-    for page in pages():
+    for page in [page for pages in CHAPTERS.values() for page in map(pathlib.Path, pages) if (ROOT/page).exists()]:
         text = (ROOT/page).read_text(encoding="utf-8")
         for target in set(re.findall(r"\]\(([^)#\s:]+)(?:#[^)\s]*)?\)", text)):
             file = pathlib.Path(os.path.normpath(page.parent/target))
@@ -178,8 +170,7 @@ def fortran_comment(lines):
 
 
 def fortran_code(lines):
-    indent = len(lines) - len(lines.lstrip(" "))
-    return "\n```fortran\n" + re.sub(rf"^ {{{indent}}}", "", lines, flags=re.MULTILINE) + "```\n"
+    return f"\n```fortran\n{textwrap.dedent(lines)}```\n"
 
 
 def fortran_entry(text, name, level, called=None):

@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 
+from check_pages import pages
 from program import ProgramTest, main, skip, take_options
 from virtual_environment import python_with
 
@@ -22,7 +23,9 @@ class Parts(ProgramTest):
     def test_every_page_has_its_chapter(self):
         listed = [pathlib.Path(name) for names in make_site.CHAPTERS.values() for name in names]
         self.assertEqual(sorted(set(listed)), sorted(listed))
-        self.assertEqual(set(make_site.pages()), {page for page in listed if page.parts[0] != "reference"})
+        forms = {ROOT/".github/pull_request_template.md", *(ROOT/".github/ISSUE_TEMPLATE").iterdir()}
+        self.assertEqual({page.relative_to(ROOT) for page in set(pages()) - forms},
+                         {page for page in listed if page.parts[0] != "reference"})
 
     def test_all_functions_of_c(self):
         header = (ROOT/"src/library/wavycon.h").read_text(encoding="utf-8")

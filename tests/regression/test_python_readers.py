@@ -20,7 +20,7 @@ from virtual_environment import go_on_with
 ROUNDING = 1e-15
 # The examples' names of a table in blocks; each also has a summary, which is one block.
 EXAMPLES = {"pandas": "lines", "numpy": "maps"}
-IN_BLOCKS = "lines", "map", "stress_section"
+IN_BLOCKS = "lines", "map"
 
 
 def read_as_in(library, table):
