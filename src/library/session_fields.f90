@@ -205,7 +205,7 @@ contains
             least = max(2*least, 1)
             if (surface%mirrored) least = surface%shape%last([1, 2]) + 1
             if (.not. grid%is_fine_enough) trouble = 'this grid lacks waves of the surface, which need at least '// &
-                                                integer_text(least(1))//' x '//integer_text(least(2))//' points'
+               integer_text(least(1))//' points along x and '//integer_text(least(2))//' along y'
          end if
          if (trouble /= '') call fatal_error(error, exit_bad_input, trouble)
          if (allocated(error)) return

@@ -540,8 +540,8 @@ class Certify(PackageTest):
         refuse("must be finite", gap=-numpy.inf*p)
         refuse("must be finite", gap=numpy.ma.masked_array(p, p > 0))
         refuse("no pressure is above 0", -p)
-        refuse("at least 12 x 8 points", p[:, :11], p[:, :11])
-        refuse("at least 12 x 8 points", p[:7], p[:7], self.smooth_map((8, 12), edges="mirror"))
+        refuse("at least 12 points along x and 8 along y", p[:, :11], p[:, :11])
+        refuse("at least 12 points along x and 8 along y", p[:7], p[:7], self.smooth_map((8, 12), edges="mirror"))
         refuse("above 0 and below the hardness", mean_pressure=0)
         refuse("nan", mean_pressure=numpy.nan)
         refuse("must be one number", mean_pressure=[1, 2])
@@ -933,7 +933,7 @@ class Files(PackageTest):
                         error=files.NoHeights)
         self.refuse("the channel 0 'Phase' is in 'deg', which is no length; channels of heights: none", files.choose,
                     [phase], None, error=files.NoHeights)
-        self.refuse("no channel None; channels of heights: none", files.choose, [], None, error=files.NoHeights)
+        self.refuse("no channel of heights; channels of heights: none", files.choose, [], None, error=files.NoHeights)
         pathlib.Path("scan.ibw").write_text("of an instrument")
         with unittest.mock.patch("SurfaceTopography.open_topography") as opened:
             opened.return_value.__enter__.return_value.channels = mixed
@@ -945,6 +945,10 @@ class Files(PackageTest):
         surface = wc.read("um.txt")
         self.assertEqual(("um", 4), (surface.length_unit, surface.keys["length_x"]))
         self.assertEqual("um", wc.solve(surface, pbar_over_pstar=0, length_unit="um").length_unit)
+        both = wc.file(file="um.txt") + wc.heights(surface.heights, length_unit="um", length_x=4, length_y=3)
+        numpy.testing.assert_allclose(both.heights, 2*surface.heights - surface.heights.mean(), atol=1e-14)
+        self.refuse("'um' and 'nm'; read.file, length_unit", lambda: wc.read("um.txt") + wc.heights(
+            surface.heights, length_unit="nm"))
         self.refuse("um.txt: 'furlong' is no unit of length", wc.read, "um.txt", length_unit="furlong")
 
     def test_unequal_steps(self):

@@ -75,7 +75,8 @@ class Names(ValuesTest):
                 unit = rf" \[{re.escape(key['unit'])}\]" if key["unit"] else ""
                 self.assertRegex(inspect.getdoc(function), rf"(?m)^{key['name']}{unit}: ")
                 if key["default"]:
-                    self.assertIn(f"Default: {key['default']}.", " ".join(function.__doc__.split()))
+                    default = {".true.": "True", ".false.": "False"}.get(key["default"], key["default"])
+                    self.assertIn(f"Default: {default}.", " ".join(function.__doc__.split()))
 
     def test_only_keys_that_are_given_are_in_the_deck(self):
         self.assertEqual({"kind": "hexagonal", "amplitude": 2}, wc.hexagonal(amplitude=2).keys)
@@ -150,11 +151,13 @@ class Names(ValuesTest):
         self.refuse("wave_2d: there is no key 'wave_length'; did you mean 'wavelength'", wc.wave_2d, wave_length=1)
         numpy.save("h.npy", numpy.eye(8))
         for make, first in (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]), (wc.file, []), (wc.self_affine, []):
-            for name in "spacing", "dx", "pixel_size", "Lx":
+            for name in "spacing", "dx", "pixel_size", "Lx", "width":
                 self.refuse(f"^{make.__name__}: there is no key '{name}'; did you mean 'length_x' and 'length_y', the sides "
                             r"of the whole cell\?$", make, *first, **{name: 1})
         for make, first in (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]):
             self.refuse(f"^{make.__name__}: .*'unit'; did you mean 'length_unit'", make, *first, unit="m")
+        self.refuse("'length'; did you mean 'length_x'", wc.heights, numpy.eye(8), length=1)
+        self.refuse("only maps are prepared", wc.wave_2d().prepared)
         self.refuse("^heights: there is no key 'file'", wc.heights, numpy.eye(8), file="h.npy")
         self.refuse("^wave_2d: there is no key 'dx'; there are amplitude, ", wc.wave_2d, dx=1)
         results = self.solve_rough()
@@ -399,12 +402,12 @@ class Values(ValuesTest):
                              "same length_unit, got 'um' and 'm'": wc.heights(h, length_unit="m"),
                              "same length_x, got 2 and 2.13": wc.heights(h, length_x=2.13),
                              "same edges, got 'periodic' and 'mirror'": wc.heights(h, edges="mirror"),
-                             "only maps can be": wc.wave_2d()}.items():
+                             "only maps are": wc.wave_2d()}.items():
             self.refuse(words, one.__add__, other)
         self.refuse("a surface and int cannot be added: wavycon.heights", lambda: one + 1, error=TypeError)
         for add in lambda: one + h, lambda: h + one:
             self.refuse("a surface and ndarray cannot be added: wavycon.heights", add, error=TypeError)
-        self.refuse("only maps can be", wc.wave_2d().flipped)
+        self.refuse("only maps are", wc.wave_2d().flipped)
         self.refuse("a.gsf: there is no such file", wc.file(file="a.gsf").flipped, error=OSError)
 
     def test_no_folder_is_left_to_be_cleaned(self):
@@ -669,7 +672,7 @@ class Sweeps(ValuesTest):
             self.refuse("'surface.sed'; did you mean 'surface.seed'", wc.sweep, self.rough, {"surface.sed": [1]})
             self.refuse("did you mean 'e_star'", wc.sweep, self.rough, e_sta=1)
             self.refuse("must be a surface", wc.sweep, [1], pbar_over_pstar=1)
-            self.refuse("has its own keys", wc.sweep, "deck.nml", e_star=1)
+            self.refuse("own keys: give e_star in values, with the group", wc.sweep, "deck.nml", e_star=1)
             self.refuse("values must be a dictionary .*, got .'surface.seed'", wc.sweep, self.rough, ["surface.seed"])
             self.refuse("surface.seed must be a number", wc.sweep, self.rough, {"surface.seed": None})
             for jobs in -1, 0, 1.5:

@@ -19,7 +19,8 @@ module wavycon_foreign_format
    character(*), parameter :: remedies(*) = [character(400) :: &
       'a picture, whose colours are no lengths: '//by_gwyddion, &
       'a file of an instrument or of Gwyddion: '//by_python, &
-      'a file of HDF5, NetCDF or MATLAB: read it in Python and write its heights by numpy.save', &
+      'a file of HDF5, NetCDF or MATLAB: if wavycon-convert does not read it write its heights in Python, by '// &
+      'numpy.save', &
       'a compressed file: expand it first', &
       'a spreadsheet: save the heights as text (.csv)', &
       'an archive of arrays: write the heights alone, by numpy.save']

@@ -6,7 +6,7 @@
 module wavycon_number_table
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
-   use wavycon_kinds, only: dp, not_a_number
+   use wavycon_kinds, only: dp, ieee_is_finite, not_a_number
    use wavycon_number_line, only: gaps, is_missing, read_line
    use wavycon_plain_text, only: escaped, integer_text, lower_case
    implicit none (type, external)
@@ -112,6 +112,12 @@ contains
          table%values(:used, rows) = row(:used)
          table%values(used + 1:, rows) = not_a_number()
       end do
+      if (may_grow) then
+         ! Columns at the end without a number are none.
+         do columns = columns, 2, -1
+            if (any(ieee_is_finite(table%values(columns, :rows)))) exit
+         end do
+      end if
       if (status == 0 .and. rows > 0) allocate (values, source=table%values(:columns, :rows), stat=status)
       if (status /= 0) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': there is not the memory for its numbers')

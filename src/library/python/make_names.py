@@ -74,7 +74,8 @@ def describe(key):
     """A key in a line, for docstrings."""
     unit = f" [{key['unit']}]" if key["unit"] else ""
     choices = f" One of {', '.join(map(repr, key['choices']))}." if "choices" in key else ""
-    default = f" Default: {key['default']}." if key["default"] else ""
+    default = {".true.": "True", ".false.": "False"}.get(key["default"], key["default"])
+    default = f" Default: {default}." if default else ""
     meaning = re.sub("^Of [a-z0-9_, ]*: ", "", key["meaning"])
     return f"{key['name']}{unit}: {meaning}{choices}{default}"
 

@@ -41,7 +41,8 @@ contains
       call keys%add(values%kind, key_type(choice_value, 'kind', '', '', &
          "'wave_1d': gap amplitude (1 - cos(2 pi x/wavelength)). 'wave_2d': gap amplitude (1 - cos(2 pi "// &
          "x/wavelength) cos(2 pi y/wavelength_y)). 'crossed_1d': a wave on each of two blocks. 'hexagonal': "// &
-         "three equal waves at 60 degrees to each other. 'sum': any waves. 'file': a height map. 'self_affine': "// &
+         "three equal waves, along y and at 60 degrees to it, whose crests lie in rows along x, in a cell of "// &
+         "2/sqrt(3) wavelength by 2 wavelength. 'sum': any waves. 'file': a height map. 'self_affine': "// &
          "a random rough surface, made from its spectrum. 'ball': a ball on a half-space, not repeated.", &
          choices='wave_1d wave_2d crossed_1d hexagonal sum file self_affine ball', required=.true.))
       keys%of = 'wave_1d wave_2d hexagonal'
@@ -49,7 +50,7 @@ contains
          'mean gap before load, of wave_1d and wave_2d half the height from trough to crest; 0 is a flat '// &
          'surface.', least=0))
       call keys%add(values%wavelength, key_type(real_value, 'wavelength', '1.0', 'length', &
-         'wavelength along x, of hexagonal that of each of the three waves.', above=0))
+         'wavelength along x, of hexagonal that of each wave.', above=0))
       keys%of = 'wave_2d'
       call keys%add(values%wavelength_y, key_type(real_value, 'wavelength_y', 'wavelength', 'length', &
          'wavelength along y.', above=0))

@@ -56,7 +56,7 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
         return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
     with tempfile.TemporaryDirectory(prefix="wavycon-") as folder:
-        profile = os.path.join(folder, "profile.txt")
+        profile = os.path.join(folder, f"{os.path.basename(file)}.txt")
         np.savetxt(profile, np.column_stack([x, z]), fmt="%.17g")
         return Surface(names.file(file=profile, **keys_of_maps).keys, None, unit).prepared()
 
@@ -130,7 +130,8 @@ def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
     if named:
         words = ", ".join(f"the channel {place} {one.name!r} is in {unit_of(one)!r}" for place, one in named.items())
         raise NoHeights(f"{words}, which is no length; channels of heights: {there_are}")
-    raise NoHeights(f"there is no channel {channel!r}; channels of heights: {there_are}")
+    raise NoHeights(f"there is no channel {'of heights' if channel is None else repr(channel)}; channels of heights: "
+                    + there_are)
 
 
 def unit_of(channel: Any) -> Any:

@@ -117,7 +117,8 @@ def decks_of(what: Any, folder: str, options: Mapping[str, Any]) -> Iterator[tup
     """The files of decks of a sweep, each with its part of a row. Those of surfaces are written to the folder."""
     if isinstance(what, (str, os.PathLike)):
         if options:
-            raise ValueError(f"the deck has its own keys: give values for {', '.join(options)}")
+            raise ValueError(f"the deck has its own keys: give {', '.join(options)} in values, with the group, such as "
+                             '{"surface.seed": [1, 2]}')
         yield os.fspath(what), {}
         return
     surfaces = what if isinstance(what, Mapping) else dict(enumerate(what if isinstance(what, Iterable) else [what]))

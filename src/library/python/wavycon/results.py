@@ -25,8 +25,6 @@ FIELDS = ("pressure", "gap", "displacement")
 HDF5 = (".h5", ".hdf5")
 # In a file loads have numbers from 1; this is that of the load that has the columns, where there are none.
 MODEL = 0
-# Tables that belong to no load.
-OF_SURFACE = ("spectrum", "height")
 # The columns that notebooks show.
 SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "mean_gap_error",
          "approach", "approach_error", "peak_pressure", "peak_pressure_error", "status")
@@ -270,7 +268,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         """model: a load that has the columns of the tables, where there is none here, and the tables of the surface."""
         super().__init__(**vars(facts))
         for one in loads[:1]:
-            one._tables.update({name: model._tables[name] for name in OF_SURFACE if name in model._tables})
+            # Tables that belong to no load.
+            one._tables.update({name: model._tables[name] for name in ("spectrum", "height") if name in model._tables})
         self._loads, self._facts, self._model = loads, facts, loads[0] if loads else model
 
     def __len__(self) -> int:
@@ -304,7 +303,7 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         return self.table()[name]
 
     def __repr__(self) -> str:
-        return "\n".join([f"{len(self)} loads, {self.method}", *map(repr, self)])
+        return "\n".join([f"loads: {len(self)}, {self.method}", *map(repr, self)])
 
     def _repr_html_(self) -> str:
         """A table for notebooks; loads that were not solved as requested are red."""
@@ -330,13 +329,9 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         return Roughness(self._model)
 
     def __getstate__(self) -> dict[str, Any]:
-        self._keep_spectrum()
-        return self.__dict__
-
-    def _keep_spectrum(self) -> None:
-        """Makes what copies and files need for `surface`."""
         with contextlib.suppress(ValueError):   # a copy itself
-            self._model.table("spectrum")
+            self._model.table("spectrum")   # for `surface`
+        return self.__dict__
 
     def to_dataframe(self, table: str = "summary", units: bool = False) -> Any:
         """A table of all loads as a frame of pandas. The units of its columns are in frame.attrs['units']. units: True
@@ -367,7 +362,7 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         """Saves the summary, all tables that were asked for and, unless told not to, the fields to a file .npz or, with
         h5py, .h5 or .hdf5. It appears whole or not at all, and replaces no other kind of file. Tables with commas are
         those of to_dataframe(units=True).to_csv."""
-        self._keep_spectrum()
+        self.__getstate__()   # makes what `surface` needs
         content: dict[str, Any] = {"facts": json.dumps(vars(self._facts))}
         # Without loads the file has the columns of the model.
         for number, one in [*enumerate(self, 1)] or [(MODEL, self._model)]:

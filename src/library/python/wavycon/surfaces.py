@@ -21,7 +21,7 @@ ONE_SLIP = 0.88   # the same by one, such as a missing s
 SHORTEST = 3, 4   # letters of a part of a name, and of a word of a meaning, that is looked for
 SIDES = "length_x", "length_y"
 # Words for the sides of a map or the step of its points, in place of the names of the sides.
-SIDE_WORDS = {"dx", "dy", "extent", "lx", "ly", "pixel", "sampling", "sides", "size", "sizes", "spacing", "step"}
+SIDE_WORDS = {"dx", "dy", "extent", "lx", "ly", "pixel", "sampling", "sides", "size", "spacing", "step", "width"}
 Parameters = ParamSpec("Parameters")
 
 
@@ -45,7 +45,7 @@ class Surface:
         sides and the edges remain. Errors: ValueError for a surface that is no map, and as of solve."""
         from .deck import scene_of   # which needs this module
         if self.keys.get("kind") != "file":
-            raise ValueError("only maps can be turned over and added, heights in memory and files")
+            raise ValueError("only maps are prepared, turned over and added; results.surface has the heights of others")
         own = {key: value for key, value in self.keys.items() if key in (*SIDES, "edges") and value != "window"}
         if self.heights is not None and len(own) == len(self.keys) - len(("kind", "file")):
             return self
@@ -55,7 +55,7 @@ class Surface:
         heights = np.empty((int(number(scene, "points_y")), int(number(scene, "points_x"))))
         call("get_column", table, b"height", heights.size, address(heights))
         own |= {side: number(scene, side) for side in SIDES[:1 if len(heights) == 1 else 2]}
-        unit = text(scene, "length_unit")
+        unit = text(scene, "length_unit").replace("µ", "u")   # of one name, as in read
         return Surface({"kind": "file", "file": "heights", **own}, heights, None if unit == "length" else unit)
 
     def flipped(self) -> Surface:
@@ -83,7 +83,8 @@ class Surface:
             # Sides of instruments may differ by half a step.
             is_near = name in points and (None in (own, others) or 2*points[name]*abs(own - others) <= own)
             if own != others and not is_near:
-                raise ValueError(f"two maps must have the same {name}, got {own!r} and {others!r}")
+                raise ValueError(f"two maps must have the same {name}, got {own!r} and {others!r}"
+                                 + "; read(file, length_unit=...) converts those of a file"*(name == "length_unit"))
         return Surface({**maps[1].keys, **maps[0].keys}, first + second, maps[0].length_unit)
 
     __radd__ = __add__
@@ -116,7 +117,7 @@ def unknown_key(name: str, own: Sequence[str]) -> str:
         return f"there is no key {name!r}: it is an option of solve"
     if not slips(name, own) and (near := slips(name, others)):
         return f"there is no key {name!r}; did you mean {near[0]!r}, an option of solve?"
-    if SIDES[0] in own and not SIDE_WORDS.isdisjoint(name.lower().split("_")):
+    if SIDES[0] in own and not (slips(name, own) or SIDE_WORDS.isdisjoint(name.lower().split("_"))):
         return f"there is no key {name!r}; did you mean {SIDES[0]!r} and {SIDES[1]!r}, the sides of the whole cell?"
     return unknown("key", name, own, meanings(["surface"]))
 
@@ -152,7 +153,7 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
     known = sorted({part for one in names for part in one.lower().split("_")})
     mended = [word if word in known else (slips(word, known) or [word])[0] for word in words]
     have = [one for one in names if len(name) >= SHORTEST[0] and all(word in one.lower() for word in mended)]
-    have.sort(key=lambda one: (not one.lower().endswith(mended[-1]), len(one)))
+    have.sort(key=lambda one: (mended[-1] not in one.lower().split("_"), not one.endswith(mended[-1]), len(one)))
     if near := slips(name, names, ONE_SLIP) or have or slips(name, names):
         return near[:1]
     described = [[one for one in names if word in meanings.get(one, "").lower().replace("'", "")]
