@@ -5,8 +5,10 @@
 !> grid. Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change, most_open
-   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
+   use wavycon_contact_tuning, only: change_safety, iteration_limit, iterations_of_root, &
+      largest_change, most_open
+   use wavycon_grid_area, only: abrupt_edges, corrected_area_fraction, counted_area_fraction, edge_crossings, &
+      grid_contact_area, lone_approach
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, join, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, implied_errors, unresolved_errors
@@ -224,7 +226,7 @@ contains
       logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3)
+      real(dp) :: abrupt(2), area, bend, capped_errors(3), capped_values(3), errors(3)
       real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
       logical :: has_corners, resolved
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
@@ -262,6 +264,8 @@ contains
       errors = unknown
       if (estimated) then
          errors = estimate_errors(answer%history, surface, mean_pressure, answer%edge, bend)
+         if (surface%dimension == 1 .and. .not. surface%has_free_edges) &
+            errors(1) = max(errors(1), change_safety*lone_approach(answer%edge))
          if (surface%is_height_map() .and. 1.0_dp - area < most_open(surface%dimension) .and. .not. resolved) &
             errors = max(errors, hidden_gap_errors(surface, answer%state%slab%points, mean_pressure, 1.0_dp - area))
       end if
@@ -291,12 +295,21 @@ contains
       ! Between the points the pressure may reach H although no point does.
       if (answer%value(peak_pressure) >= surface%hardness) &
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
+      abrupt = 0.0_dp
+      if (surface%dimension == 1) then
+         abrupt = change_safety*abrupt_edges(answer%edge, capped)
+         answer%error(contact_area) = max(answer%error(contact_area), abs(abrupt(1))/answer%state%slab%points(1))
+         answer%error(mean_gap) = max(answer%error(mean_gap), (1.0_dp - answer%value(contact_area))*abrupt(2))
+         abrupt = change_safety*abrupt_edges(capped, answer%edge)
+         capped_errors(2) = max(capped_errors(2), abs(abrupt(1))/answer%state%slab%points(1))
+         abrupt(2) = max(abrupt(2), change_safety*lone_approach(capped))
+      end if
       answer%error(area_at_hardness) = capped_errors(2)
       ! With free edges the errors are those of the approach.
       if (surface%has_free_edges) return
       capped_values = [answer%state%residual_indentation/deepest, 1.0_dp - area, 0.0_dp]
       capped_errors = max(capped_errors, implied_errors(surface%dimension, capped_values, capped_errors(2), 0.0_dp))
-      answer%error(approach) = scaled(capped_errors(1), deepest)
+      answer%error(approach) = max(scaled(capped_errors(1), deepest), answer%value(area_at_hardness)*abrupt(2))
    end subroutine measure_level
 
    !> Whether the peak pressure needs no interpolation by the pressure of full contact, (C13a). With free edges the

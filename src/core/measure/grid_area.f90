@@ -12,8 +12,8 @@ module wavycon_grid_area
    implicit none (type, external)
    private
 
-   public :: corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, grid_contact_area, &
-      grid_strip_edges, load_concentration, lone_points
+   public :: abrupt_edges, corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, &
+      grid_contact_area, grid_strip_edges, load_concentration, lone_approach, lone_points
 
    !> The coefficient c_p of (C26): the area, in grid cells, by which the counted area is too large for each pair of
    !> neighbouring points of which one is in contact and the other is not.
@@ -215,6 +215,84 @@ contains
          end if
       end do
    end function lone_points
+
+   !> The error of the approach due to contacts of one or two points in 1-D, (C15b), in the unit of the gap.
+   pure real(dp) function lone_approach(edge) result(error)
+      type(grid_edge), intent(in) :: edge   !! of a grid in 1-D
+
+      integer :: i, m, spots
+      real(dp) :: bend, load, middle, of_load, spread, square, values(-1:edge%slab%points(1) + 2)
+
+      m = edge%slab%points(1)
+      values = [edge%value_at(-1, 1), edge%column(1), edge%value_at(m + 2, 1)]
+      where (values < 0.0_dp) values = values*edge%stiffness(1)
+      error = 0.0_dp
+      spots = 0
+      ! On a quarter of the cell a contact may begin at the image 0 of the first point.
+      do i = merge(0, 1, edge%even), m
+         if (values(i) <= 0.0_dp .or. values(i - 1) > 0.0_dp) cycle
+         spots = spots + 1
+         if (values(i + 1) <= 0.0_dp) then
+            load = values(i)
+            bend = 1.0492_dp*load - values(i - 1) - values(i + 1)
+            middle = 0.5_dp*(values(i + 1) - values(i - 1))/bend
+            spread = 0.0_dp
+            of_load = 0.529_dp
+         else if (values(i + 2) <= 0.0_dp) then
+            load = values(i) + values(i + 1)
+            bend = 0.5_dp*(0.7759_dp*load - values(i - 1) - values(i + 2))
+            middle = 0.5246_dp*(values(i + 1) - values(i))/bend
+            spread = 0.25_dp
+            of_load = -0.295_dp
+         else
+            cycle
+         end if
+         square = 2/pi*load/bend
+         error = error + 0.5_dp*bend*abs(spread + middle**2 + square*(of_load + 0.5_dp*log(square)))
+      end do
+      error = error/(max(spots, 1)*edge%stiffness(1))
+   end function lone_approach
+
+   !> Where the pressure falls from the hardness to zero within a step, in 1-D: the width, in grid steps, that (C11)
+   !> misses of the contact, and the error of the approach, in the unit of the gap: (C22b), (C22c).
+   pure function abrupt_edges(contact, capped) result(missed)
+      type(grid_edge), intent(in) :: contact   !! of a grid in 1-D
+      type(grid_edge), intent(in) :: capped    !! with H - p, or minus the overlap where p = H
+      real(dp) :: missed(2)
+
+      real(dp), dimension(0:contact%slab%points(1) + 1) :: held, open   ! H - p or minus the overlap; p or minus the gap
+      real(dp) :: ahead, place, slope
+      integer :: edges, i, side
+
+      open = contact%column(1)
+      held = capped%column(1)
+      edges = 0
+      missed = 0.0_dp
+      do i = 1, size(open) - 2
+         do side = -1, 1, 2
+            associate (beyond => open(i + side), before => merge(held(i - side), held(i), held(i) > 0.0_dp), &
+                       pressure => open(i), hardness => open(i) + max(held(i), 0.0_dp), stiffness => contact%stiffness(1), &
+                       rule => contact%rule)
+               if (pressure <= 0.0_dp .or. beyond > 0.0_dp) cycle
+               edges = edges + 1
+               if (before > 0.0_dp) cycle
+               slope = -beyond - before
+               if (held(i) > 0.0_dp) then
+                  place = pressure/hardness - 0.5_dp
+                  ahead = 0.815_dp*exp(-pi/2*stiffness*slope/hardness)
+                  missed(2) = missed(2) + abs(place)*max(0.5_dp*slope - 0.2623_dp*hardness/stiffness, 0.0_dp)
+               else
+                  place = 0.5_dp
+                  ahead = 0.357_dp*exp(-pi*stiffness*slope/hardness)
+                  missed(2) = missed(2) + 0.5_dp*abs(beyond - before)
+               end if
+               missed(1) = missed(1) + place + ahead + rule%aligned_offset &
+                           - pressure/(pressure - rule%aligned_weight*stiffness*beyond)
+            end associate
+         end do
+      end do
+      missed(2) = missed(2)/max(edges, 1)
+   end function abrupt_edges
 
    !> How concentrated the load is in the periodic cell: the smaller of |mean of exp(i X)| and |mean of exp(i Y)|, with
    !> the pressure as the weight of the means. The result is 1 if all load is at one point and 0 if the load is uniform.
