@@ -7,7 +7,7 @@
 module wavycon_grid_error
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
-   use wavycon_grid_area, only: edge_crossings, edge_spread, lone_points
+   use wavycon_grid_area, only: edge_crossings, edge_spread, lone_approach, lone_points
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp, int64, pi
    use wavycon_quantities, only: is_known, unknown
@@ -44,6 +44,7 @@ contains
       if (surface%has_free_edges) then
          errors = max(errors, least_of_area*errors(2)/max(history%values(2), tiny(1.0_dp))*history%values)
       else
+         if (surface%dimension == 1) errors(1) = max(errors(1), change_safety*lone_approach(edge))
          displacement = 0.0_dp
          if (.not. (surface%is_height_map() .or. surface%kernel%has_layer())) then
             ! Only the saddles of even waves lie alike in all grids.

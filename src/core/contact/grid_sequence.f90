@@ -226,7 +226,8 @@ contains
       logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: abrupt(2), area, bend, capped_errors(3), capped_values(3), errors(3)
+      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3)
+      real(dp) :: shown(3)   ! what edges within a step show: errors of both areas, and of the approach
       real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
       logical :: has_corners, resolved
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
@@ -264,8 +265,6 @@ contains
       errors = unknown
       if (estimated) then
          errors = estimate_errors(answer%history, surface, mean_pressure, answer%edge, bend)
-         if (surface%dimension == 1 .and. .not. surface%has_free_edges) &
-            errors(1) = max(errors(1), change_safety*lone_approach(answer%edge))
          if (surface%is_height_map() .and. 1.0_dp - area < most_open(surface%dimension) .and. .not. resolved) &
             errors = max(errors, hidden_gap_errors(surface, answer%state%slab%points, mean_pressure, 1.0_dp - area))
       end if
@@ -295,21 +294,24 @@ contains
       ! Between the points the pressure may reach H although no point does.
       if (answer%value(peak_pressure) >= surface%hardness) &
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
-      abrupt = 0.0_dp
-      if (surface%dimension == 1) then
-         abrupt = change_safety*abrupt_edges(answer%edge, capped)
-         answer%error(contact_area) = max(answer%error(contact_area), abs(abrupt(1))/answer%state%slab%points(1))
-         answer%error(mean_gap) = max(answer%error(mean_gap), (1.0_dp - answer%value(contact_area))*abrupt(2))
-         abrupt = change_safety*abrupt_edges(capped, answer%edge)
-         capped_errors(2) = max(capped_errors(2), abs(abrupt(1))/answer%state%slab%points(1))
-         abrupt(2) = max(abrupt(2), change_safety*lone_approach(capped))
+      if (surface%dimension == 1 .and. estimated) then
+         shown = abrupt_edges(answer%edge, capped)
+         ! The bound P/H may have corrected the areas already.
+         shown(:2) = abs(shown(:2)/answer%state%slab%points(1) &
+                         + [answer%history%values(2) - answer%value(contact_area), answer%value(area_at_hardness) - area])
+         associate (indentation_error => answer%value(area_at_hardness)*max(shown(3), lone_approach(capped)), &
+                    gap_error => (1.0_dp - answer%value(contact_area))*shown(3))
+            answer%error(contact_area) = max(answer%error(contact_area), change_safety*shown(1))
+            answer%error(mean_gap) = max(answer%error(mean_gap), change_safety*gap_error)
+            capped_errors(:2) = max(capped_errors(:2), change_safety*[indentation_error/deepest, shown(2)])
+         end associate
       end if
       answer%error(area_at_hardness) = capped_errors(2)
       ! With free edges the errors are those of the approach.
       if (surface%has_free_edges) return
       capped_values = [answer%state%residual_indentation/deepest, 1.0_dp - area, 0.0_dp]
       capped_errors = max(capped_errors, implied_errors(surface%dimension, capped_values, capped_errors(2), 0.0_dp))
-      answer%error(approach) = max(scaled(capped_errors(1), deepest), answer%value(area_at_hardness)*abrupt(2))
+      answer%error(approach) = scaled(capped_errors(1), deepest)
    end subroutine measure_level
 
    !> Whether the peak pressure needs no interpolation by the pressure of full contact, (C13a). With free edges the

@@ -216,82 +216,74 @@ contains
       end do
    end function lone_points
 
-   !> The error of the approach due to contacts of one or two points in 1-D, (C15b), in the unit of the gap.
+   !> The error of the approach from contacts of one or two points in 1-D, (C15b), in the unit of the gap.
    pure real(dp) function lone_approach(edge) result(error)
       type(grid_edge), intent(in) :: edge   !! of a grid in 1-D
 
-      integer :: i, m, spots
-      real(dp) :: bend, load, middle, of_load, spread, square, values(-1:edge%slab%points(1) + 2)
+      !> Of a contact of one and of two points in (C15b): the displacement by its load between it and the points beside
+      !> it; the displacement in it beyond Hertz's; the mean square of the distances from its middle.
+      real(dp), parameter :: of_sides(2) = [1.0492_dp, 0.7759_dp], of_load(2) = [0.529_dp, -0.295_dp], &
+         spread(2) = [0.0_dp, 0.25_dp]
+      real(dp) :: bend, middle, square, values(-1:edge%slab%points(1) + 2)
+      integer :: i, last, n, spots
 
-      m = edge%slab%points(1)
-      values = [edge%value_at(-1, 1), edge%column(1), edge%value_at(m + 2, 1)]
+      last = edge%slab%points(1)
+      values = [edge%value_at(-1, 1), edge%column(1), edge%value_at(last + 2, 1)]
       where (values < 0.0_dp) values = values*edge%stiffness(1)
       error = 0.0_dp
       spots = 0
       ! On a quarter of the cell a contact may begin at the image 0 of the first point.
-      do i = merge(0, 1, edge%even), m
+      do i = merge(0, 1, edge%even), last
          if (values(i) <= 0.0_dp .or. values(i - 1) > 0.0_dp) cycle
          spots = spots + 1
-         if (values(i + 1) <= 0.0_dp) then
-            load = values(i)
-            bend = 1.0492_dp*load - values(i - 1) - values(i + 1)
-            middle = 0.5_dp*(values(i + 1) - values(i - 1))/bend
-            spread = 0.0_dp
-            of_load = 0.529_dp
-         else if (values(i + 2) <= 0.0_dp) then
-            load = values(i) + values(i + 1)
-            bend = 0.5_dp*(0.7759_dp*load - values(i - 1) - values(i + 2))
-            middle = 0.5246_dp*(values(i + 1) - values(i))/bend
-            spread = 0.25_dp
-            of_load = -0.295_dp
-         else
-            cycle
-         end if
-         square = 2/pi*load/bend
-         error = error + 0.5_dp*bend*abs(spread + middle**2 + square*(of_load + 0.5_dp*log(square)))
+         n = merge(2, 1, values(i + 1) > 0.0_dp)
+         if (values(i + n) > 0.0_dp) cycle
+         bend = (of_sides(n)*sum(values(i:i + n - 1)) - values(i - 1) - values(i + n))/n
+         middle = (values(i + n) - values(i - 1) + 0.2513_dp*(values(i + n - 1) - values(i)))/((n + 1)*bend)
+         square = 2/pi*sum(values(i:i + n - 1))/bend
+         error = error + 0.5_dp*bend*abs(spread(n) + middle**2 + square*(of_load(n) + 0.5_dp*log(square)))
       end do
       error = error/(max(spots, 1)*edge%stiffness(1))
    end function lone_approach
 
-   !> Where the pressure falls from the hardness to zero within a step, in 1-D: the width, in grid steps, that (C11)
-   !> misses of the contact, and the error of the approach, in the unit of the gap: (C22b), (C22c).
+   !> What edges show at which the pressure falls from the hardness to zero within a step, in 1-D: the width, in grid
+   !> steps, that (C11) misses of the contact and of the area below the hardness, (C22c), and the error of the approach
+   !> in the unit of the gap, (C22b).
    pure function abrupt_edges(contact, capped) result(missed)
-      type(grid_edge), intent(in) :: contact   !! of a grid in 1-D
-      type(grid_edge), intent(in) :: capped    !! with H - p, or minus the overlap where p = H
-      real(dp) :: missed(2)
+      type(grid_edge), intent(in) :: contact   !! of a grid in 1-D, with p or minus the gap
+      type(grid_edge), intent(in) :: capped    !! of the same grid, with H - p or minus the overlap
+      real(dp) :: missed(3)
 
-      real(dp), dimension(0:contact%slab%points(1) + 1) :: held, open   ! H - p or minus the overlap; p or minus the gap
-      real(dp) :: ahead, place, slope
-      integer :: edges, i, side
+      !> The displacement of a point by its own load beyond the mean of it and of its neighbour by the same load, of one
+      !> step over E*/2; half width of the free part without a jump, with no free point and with one [steps].
+      real(dp), parameter :: of_own_load = 0.2623_dp, half_width(0:1) = [0.357_dp, 0.815_dp]
+      real(dp) :: gaps(2), hardness, place, shares(2)
+      integer :: edges, free, i
+      type(edge_point) :: point
 
-      open = contact%column(1)
-      held = capped%column(1)
       edges = 0
       missed = 0.0_dp
-      do i = 1, size(open) - 2
-         do side = -1, 1, 2
-            associate (beyond => open(i + side), before => merge(held(i - side), held(i), held(i) > 0.0_dp), &
-                       pressure => open(i), hardness => open(i) + max(held(i), 0.0_dp), stiffness => contact%stiffness(1), &
-                       rule => contact%rule)
-               if (pressure <= 0.0_dp .or. beyond > 0.0_dp) cycle
-               edges = edges + 1
-               if (before > 0.0_dp) cycle
-               slope = -beyond - before
-               if (held(i) > 0.0_dp) then
-                  place = pressure/hardness - 0.5_dp
-                  ahead = 0.815_dp*exp(-pi/2*stiffness*slope/hardness)
-                  missed(2) = missed(2) + abs(place)*max(0.5_dp*slope - 0.2623_dp*hardness/stiffness, 0.0_dp)
-               else
-                  place = 0.5_dp
-                  ahead = 0.357_dp*exp(-pi*stiffness*slope/hardness)
-                  missed(2) = missed(2) + 0.5_dp*abs(beyond - before)
-               end if
-               missed(1) = missed(1) + place + ahead + rule%aligned_offset &
-                           - pressure/(pressure - rule%aligned_weight*stiffness*beyond)
-            end associate
-         end do
+      do i = 1, contact%slab%points(1)
+         point = contact%side(i, 1, 1)
+         if (point%number == 0) cycle
+         edges = edges + 1
+         associate (inner => point%inner(1), outer => point%outer(1), stiffness => contact%stiffness(1), &
+                    weight => contact%rule%aligned_weight, offset => contact%rule%aligned_offset)
+            free = merge(1, 0, capped%in_contact(inner, 1))
+            gaps = -[contact%value_at(outer, 1), capped%value_at(inner - free*(outer - inner), 1)]
+            if (gaps(2) < 0.0_dp) cycle   ! two points or more are free
+            shares = [contact%value_at(inner, 1), capped%value_at(outer - free*(outer - inner), 1)]
+            hardness = merge(sum(shares), shares(1), free == 1)
+            place = shares(1)/hardness - 0.5_dp
+            missed(:2) = missed(:2) + [place, merge(-place, place, free == 1)] + offset &
+                         - shares/(shares + weight*stiffness*gaps) &
+                         + half_width(free)*exp(-pi*stiffness*sum(gaps)/((1 + free)*hardness))
+            if (free == 0) place = 0.5_dp*(gaps(1) - gaps(2))
+            if (free == 1) place = place*max(0.5_dp*sum(gaps) - of_own_load*hardness/stiffness, 0.0_dp)
+            missed(3) = missed(3) + place
+         end associate
       end do
-      missed(2) = missed(2)/max(edges, 1)
+      missed(3) = abs(missed(3))/max(edges, 1)
    end function abrupt_edges
 
    !> How concentrated the load is in the periodic cell: the smaller of |mean of exp(i X)| and |mean of exp(i Y)|, with
