@@ -5,8 +5,7 @@
 !> grid. Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: change_safety, iteration_limit, iterations_of_root, &
-      largest_change, most_open
+   use wavycon_contact_tuning, only: change_safety, iteration_limit, iterations_of_root, largest_change, most_open
    use wavycon_grid_area, only: abrupt_edges, corrected_area_fraction, counted_area_fraction, edge_crossings, &
       grid_contact_area, lone_approach
    use wavycon_free_level, only: complete_gap, solve_free_level
@@ -226,8 +225,7 @@ contains
       logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3)
-      real(dp) :: shown(3)   ! what edges within a step show: errors of both areas, and of the approach
+      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3), shown(3)   ! shown: by `abrupt_edges`
       real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
       logical :: has_corners, resolved
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
@@ -296,15 +294,13 @@ contains
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
       if (surface%dimension == 1 .and. estimated) then
          shown = abrupt_edges(answer%edge, capped)
-         ! The bound P/H may have corrected the areas already.
-         shown(:2) = abs(shown(:2)/answer%state%slab%points(1) &
-                         + [answer%history%values(2) - answer%value(contact_area), answer%value(area_at_hardness) - area])
-         associate (indentation_error => answer%value(area_at_hardness)*max(shown(3), lone_approach(capped)), &
-                    gap_error => (1.0_dp - answer%value(contact_area))*shown(3))
-            answer%error(contact_area) = max(answer%error(contact_area), change_safety*shown(1))
-            answer%error(mean_gap) = max(answer%error(mean_gap), change_safety*gap_error)
-            capped_errors(:2) = max(capped_errors(:2), change_safety*[indentation_error/deepest, shown(2)])
-         end associate
+         ! The bound P/H may have corrected the areas.
+         shown(:2) = abs(shown(:2) + [answer%history%values(2) - answer%value(contact_area), &
+                                      answer%value(area_at_hardness) - area])
+         answer%error(contact_area) = max(answer%error(contact_area), change_safety*shown(1))
+         answer%error(mean_gap) = max(answer%error(mean_gap), change_safety*shown(3)*(1 - answer%value(contact_area)))
+         shown(3) = answer%value(area_at_hardness)/deepest*max(shown(3), lone_approach(capped))
+         capped_errors(:2) = max(capped_errors(:2), change_safety*shown([3, 2]))
       end if
       answer%error(area_at_hardness) = capped_errors(2)
       ! With free edges the errors are those of the approach.
