@@ -218,7 +218,7 @@ contains
       type(grid_edge), intent(in) :: edge   !! of a grid in 1-D
 
       !> Constants of (C15b) for one point and for two.
-      real(dp), parameter :: of_sides(2) = [1.0492_dp, 0.7759_dp], of_load(2) = [0.529_dp, -0.295_dp], tilt = 0.2513_dp
+      real(dp), parameter :: beside(2) = [1.0492_dp, 0.7759_dp], of_load(2) = [0.5288_dp, -0.2953_dp], tilt = 0.2513_dp
       real(dp) :: bend, load, middle, square, field(-1:edge%slab%points(1) + 2)
       integer :: i, n, spots
 
@@ -233,7 +233,7 @@ contains
          n = merge(2, 1, field(i + 1) > 0.0_dp)
          if (field(i + n) > 0.0_dp) cycle
          load = sum(field(i:i + n - 1))/edge%stiffness(1)
-         bend = (of_sides(n)*load - field(i - 1) - field(i + n))/n
+         bend = (beside(n)*load - field(i - 1) - field(i + n))/n
          middle = (field(i + n) - field(i - 1) + tilt*(field(i + n - 1) - field(i))/edge%stiffness(1))/((n + 1)*bend)
          square = 2/pi*load/bend
          error = error + 0.5_dp*bend*abs(0.25_dp*(n - 1) + middle**2 + square*(of_load(n) + 0.5_dp*log(square)))
@@ -250,7 +250,7 @@ contains
       real(dp) :: missed(3)
 
       !> Constants of (C22b), (C22c), the second for no free point and for one.
-      real(dp), parameter :: of_own_load = 0.2623_dp, of_width(0:1) = [0.357_dp, 0.815_dp]
+      real(dp), parameter :: of_own_load = 0.2623_dp, of_width(0:1) = [0.3574_dp, 0.8149_dp]
       real(dp) :: gaps(2), hardness, miss, place, pressures(2), values(0:contact%slab%points(1) + 1)
       integer :: edges, free, i, inner, outer
 
