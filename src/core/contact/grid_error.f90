@@ -1,9 +1,9 @@
 !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*] on a sequence of grids.
 !>
 !> Each estimate is the largest of three: that from the changes over the last three grids (C14); that from features
-!> which the grid does not resolve, as their error does not show in the changes (C15) to (C16); and, for mean gap and peak
-!> pressure, that from the error of the area (C17), (C17a) and from edges along the lines of the grid (C17b). README.md
-!> in this directory has the equations and tells how many of the estimates hold. None is a bound.
+!> which the grid does not resolve, as their error does not show in the changes, (C15) to (C16); and, for mean gap and
+!> peak pressure, that from the error of the area (C17), (C17a) and from edges along the lines of the grid (C17b).
+!> README.md in this directory has the equations and tells how many of the estimates hold. None is a bound.
 module wavycon_grid_error
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
