@@ -214,10 +214,10 @@ contains
    end function energy_of
 
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
-   !> estimates (C14) to (C17b), (C22b), (C22c). With a hardness the area is at least P/H, the smallest area that carries the load; its
-   !> error is estimated before this bound is applied, because the bound would hide changes. The area's error is unknown
-   !> where (C12) gives no area although there is contact. The area at which p = H is measured in the same way. On
-   !> return answer%state%gap is not allocated: answer%edge has taken over its memory.
+   !> estimates (C14) to (C17b), (C22b), (C22c). With a hardness the area is P/H at least, the smallest that carries
+   !> the load; its error is estimated before this bound is applied, because the bound would hide changes. The area's
+   !> error is unknown where (C12) gives no area although there is contact. The area at which p = H is measured in the
+   !> same way. On return answer%state%gap is not allocated: answer%edge has taken over its memory.
    subroutine measure_level(surface, mean_pressure, h, estimated, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure   !! P
