@@ -80,6 +80,20 @@ def map_case(stream, kind):
             for grid in (points, 4*points)]
 
 
+def hard_profile_case(stream, kind):
+    """The files of a sum of waves in 1-D with a hardness, one load nearly as large, on a grid whose steps are wider than
+    many of its edges, and those of a grid that is far finer."""
+    waves = range(stream.randint(1, 3))
+    words = (f"{key} = {', '.join(repr(draw()) for _ in waves)}" for key, draw in (
+        ("amplitudes", lambda: stream.uniform(0.001, 0.01)), ("waves_x", lambda: stream.randint(1, 4)),
+        ("phases", lambda: stream.uniform(0.0, 360.0))))
+    surface = f"kind = 'sum', {', '.join(words)}"
+    hardness = 10.0**stream.uniform(-2.8, -0.8)
+    loads = [hardness*ratio for ratio in (stream.uniform(*LOAD_OVER_HARDNESS), 1.0 - 10.0**stream.uniform(-4.0, -1.0))]
+    methods = [stream.choice(("accuracy = 1e-2", "grid_points = 64", "grid_points = 100")), "grid_points = 8192"]
+    return [{"deck.nml": deck(surface, loads, f"solver = 'grid', {method}", hardness)} for method in methods]
+
+
 def patch(stream, points):
     """The heights of a smooth patch, whose contact reaches the border at heavy loads, or of a punch."""
     inner = [(k + 0.5)/points for k in range(points)]
@@ -186,6 +200,7 @@ SOLUTIONS = {
     "grid next to merging": (merging_case, tuple(MERGING), FEW, VALUES),
     "grid of a map's points": (map_case, ("elastic",), MANY, VALUES),
     "grid with a hardness": (map_case, ("hard",), MANY, VALUES + OF_HARDNESS),
+    "grid with a hardness in 1-D": (hard_profile_case, ("hard profile",), MANY, VALUES + OF_HARDNESS),
     "grid with free edges": (free_case, ("free edges", "patch"), MANY, OF_FREE_EDGES),
     "grid on a layer": (layer_case, ("layer",), MANY, VALUES),
     "derivatives on grids": (interface_case, ("wave_2d", "hexagonal", "self_affine"), MANY, OF_INTERFACE)}

@@ -1,13 +1,13 @@
 !> Error estimates of mean gap [Delta], contact area fraction and peak pressure [p*] on a sequence of grids.
 !>
 !> Each estimate is the largest of three: that from the changes over the last three grids (C14); that from features
-!> which the grid does not resolve, as their error does not show in the changes (C15), (C16); and, for mean gap and peak
-!> pressure, that from the error of the area (C17), (C17a) and from edges along the lines of the grid (C17b). README.md
-!> in this directory has the equations and tells how many of the estimates hold. None is a bound.
+!> which the grid does not resolve, as their error does not show in the changes, (C15) to (C16); and, for mean gap and
+!> peak pressure, that from the error of the area (C17), (C17a) and from edges along the lines of the grid (C17b).
+!> README.md in this directory has the equations and tells how many of the estimates hold. None is a bound.
 module wavycon_grid_error
    use wavycon_contact_tuning, only: area_kept_change, change_safety, edge_bias, edge_scatter, kept_change, &
       least_of_area, opening_ratio, unresolved_width
-   use wavycon_grid_area, only: edge_crossings, edge_spread, lone_points
+   use wavycon_grid_area, only: edge_crossings, edge_spread, lone_approach, lone_points
    use wavycon_grid_edge, only: grid_edge
    use wavycon_kinds, only: dp, int64, pi
    use wavycon_quantities, only: is_known, unknown
@@ -44,6 +44,7 @@ contains
       if (surface%has_free_edges) then
          errors = max(errors, least_of_area*errors(2)/max(history%values(2), tiny(1.0_dp))*history%values)
       else
+         if (surface%dimension == 1) errors(1) = max(errors(1), change_safety*lone_approach(edge))
          displacement = 0.0_dp
          if (.not. (surface%is_height_map() .or. surface%kernel%has_layer())) then
             ! Only the saddles of even waves lie alike in all grids.

@@ -5,8 +5,9 @@
 !> grid. Numbers (C..) are the equations of README.md in this directory.
 module wavycon_grid_sequence
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_tuning, only: iteration_limit, iterations_of_root, largest_change, most_open
-   use wavycon_grid_area, only: corrected_area_fraction, counted_area_fraction, edge_crossings, grid_contact_area
+   use wavycon_contact_tuning, only: change_safety, iteration_limit, iterations_of_root, largest_change, most_open
+   use wavycon_grid_area, only: abrupt_edges, corrected_area_fraction, counted_area_fraction, edge_crossings, &
+      grid_contact_area, lone_approach
    use wavycon_free_level, only: complete_gap, solve_free_level
    use wavycon_grid_edge, only: grid_edge, join, make_grid_edge, pressure_per_gap, start_grid_edge
    use wavycon_grid_error, only: change_history, estimate_errors, implied_errors, unresolved_errors
@@ -213,10 +214,10 @@ contains
    end function energy_of
 
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
-   !> estimates (C14) to (C17a). With a hardness the area is at least P/H, the smallest area that carries the load; its
-   !> error is estimated before this bound is applied, because the bound would hide changes. The area's error is unknown
-   !> where (C12) gives no area although there is contact. The area at which p = H is measured in the same way. On
-   !> return answer%state%gap is not allocated: answer%edge has taken over its memory.
+   !> estimates (C14) to (C17b), (C22b), (C22c). With a hardness the area is P/H at least, the smallest that carries
+   !> the load; its error is estimated before this bound is applied, because the bound would hide changes. The area's
+   !> error is unknown where (C12) gives no area although there is contact. The area at which p = H is measured in the
+   !> same way. On return answer%state%gap is not allocated: answer%edge has taken over its memory.
    subroutine measure_level(surface, mean_pressure, h, estimated, answer)
       type(surface_type), intent(in) :: surface
       real(dp), intent(in) :: mean_pressure   !! P
@@ -224,7 +225,7 @@ contains
       logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3)
+      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3), shown(3)   ! shown: by `abrupt_edges`
       real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
       logical :: has_corners, resolved
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
@@ -291,6 +292,16 @@ contains
       ! Between the points the pressure may reach H although no point does.
       if (answer%value(peak_pressure) >= surface%hardness) &
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
+      if (surface%dimension == 1 .and. estimated) then
+         shown = abrupt_edges(answer%edge, capped)
+         ! The bound P/H may have corrected the areas.
+         shown(:2) = abs(shown(:2) + [answer%history%values(2) - answer%value(contact_area), &
+                                      answer%value(area_at_hardness) - area])
+         answer%error(contact_area) = max(answer%error(contact_area), change_safety*shown(1))
+         answer%error(mean_gap) = max(answer%error(mean_gap), change_safety*shown(3)*(1 - answer%value(contact_area)))
+         shown(3) = answer%value(area_at_hardness)/deepest*max(shown(3), lone_approach(capped))
+         capped_errors(:2) = max(capped_errors(:2), change_safety*shown([3, 2]))
+      end if
       answer%error(area_at_hardness) = capped_errors(2)
       ! With free edges the errors are those of the approach.
       if (surface%has_free_edges) return

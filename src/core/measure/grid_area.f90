@@ -12,8 +12,8 @@ module wavycon_grid_area
    implicit none (type, external)
    private
 
-   public :: corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, grid_contact_area, &
-      grid_strip_edges, load_concentration, lone_points
+   public :: abrupt_edges, corrected_area_fraction, counted_area_fraction, edge_crossings, edge_spread, &
+      grid_contact_area, grid_strip_edges, load_concentration, lone_approach, lone_points
 
    !> The coefficient c_p of (C26): the area, in grid cells, by which the counted area is too large for each pair of
    !> neighbouring points of which one is in contact and the other is not.
@@ -201,20 +201,81 @@ contains
       do i = 1, edge%slab%points(1)
          here = abs(values(i))
          sides = abs(values([i - 1, i + 1]))
-         if (all(values([i - 1, i + 1]) > 0.0_dp .neqv. values(i) > 0.0_dp)) then
-            associate (weight => edge%rule%aligned_weight, offset => edge%rule%aligned_offset)
-               if (values(i) > 0.0_dp) then
-                  missed = missed + sqrt(8/pi*here/(sum(sides) + of_own_load*here)) &
-                           - sum(max(here/(here + weight*sides) - offset, 0.0_dp))
-               else
-                  curvature = sum(sides) + of_own_gap*here
-                  missed = missed + 2.0_dp - sum(sides/(sides + weight*here) - offset) &
-                           - sqrt(8*pi*here/curvature + 2*((sides(2) - sides(1))/curvature)**2)
-               end if
-            end associate
+         if (any(values([i - 1, i + 1]) > 0.0_dp .eqv. values(i) > 0.0_dp)) cycle
+         if (values(i) > 0.0_dp) then
+            missed = missed + sqrt(8/pi*here/(sum(sides) + of_own_load*here)) &
+                     - sum(max(here/(here + edge%rule%aligned_weight*sides) - edge%rule%aligned_offset, 0.0_dp))
+         else
+            curvature = sum(sides) + of_own_gap*here
+            missed = missed + 2.0_dp - sum(sides/(sides + edge%rule%aligned_weight*here) - edge%rule%aligned_offset) &
+                     - sqrt(8*pi*here/curvature + 2*((sides(2) - sides(1))/curvature)**2)
          end if
       end do
    end function lone_points
+
+   !> The error of the approach from contacts of one or two points in 1-D, (C15b), in the unit of the gap.
+   pure real(dp) function lone_approach(edge) result(error)
+      type(grid_edge), intent(in) :: edge   !! of a grid in 1-D
+
+      !> Constants of (C15b) for one point and for two.
+      real(dp), parameter :: beside(2) = [1.0492_dp, 0.7759_dp], of_load(2) = [0.5288_dp, -0.2953_dp], tilt = 0.2513_dp
+      real(dp) :: bend, load, middle, square, field(-1:edge%slab%points(1) + 2)
+      integer :: i, n, spots
+
+      field(0:size(field) - 3) = edge%column(1)
+      field([-1, size(field) - 2]) = [edge%value_at(-1, 1), edge%value_at(edge%slab%points(1) + 2, 1)]
+      error = 0.0_dp
+      spots = 0
+      ! On a quarter of the cell a contact may begin at the image 0 of the first point.
+      do i = merge(0, 1, edge%even), edge%slab%points(1)
+         if (field(i) <= 0.0_dp .or. field(i - 1) > 0.0_dp) cycle
+         spots = spots + 1
+         n = merge(2, 1, field(i + 1) > 0.0_dp)
+         if (field(i + n) > 0.0_dp) cycle
+         load = sum(field(i:i + n - 1))/edge%stiffness(1)
+         bend = (beside(n)*load - field(i - 1) - field(i + n))/n
+         middle = (field(i + n) - field(i - 1) + tilt*(field(i + n - 1) - field(i))/edge%stiffness(1))/((n + 1)*bend)
+         square = 2/pi*load/bend
+         error = error + 0.5_dp*bend*abs(0.25_dp*(n - 1) + middle**2 + square*(of_load(n) + 0.5_dp*log(square)))
+      end do
+      error = error/max(spots, 1)
+   end function lone_approach
+
+   !> What edges show at which the pressure falls from the hardness to zero within a step, in 1-D: what (C11) misses of
+   !> the contact and of the area below the hardness, over the nominal area, (C22c), and the error of the approach, in
+   !> the unit of the gap, (C22b).
+   pure function abrupt_edges(contact, capped) result(missed)
+      type(grid_edge), intent(in) :: contact   !! of a grid in 1-D, with p or minus the gap
+      type(grid_edge), intent(in) :: capped    !! of the same grid, with H - p or minus the overlap
+      real(dp) :: missed(3)
+
+      !> Constants of (C22b), (C22c), the second for no free point and for one.
+      real(dp), parameter :: of_own_load = 0.2623_dp, of_width(0:1) = [0.3574_dp, 0.8149_dp]
+      real(dp) :: gaps(2), hardness, miss, place, pressures(2), values(0:contact%slab%points(1) + 1)
+      integer :: edges, free, i, inner, outer
+
+      values = contact%column(1)
+      edges = 0
+      missed = 0.0_dp
+      do i = 1, contact%slab%points(1)
+         if (values(i) > 0.0_dp .eqv. values(i + 1) > 0.0_dp) cycle
+         edges = edges + 1
+         inner = merge(i, i + 1, values(i) > 0.0_dp)
+         outer = 2*i + 1 - inner
+         free = merge(1, 0, capped%in_contact(inner, 1))
+         gaps = -contact%stiffness(1)*[values(outer), capped%value_at(inner - free*(outer - inner), 1)]
+         if (gaps(2) < 0.0_dp) cycle   ! two points or more are free
+         pressures = [values(inner), capped%value_at(outer - free*(outer - inner), 1)]
+         hardness = pressures(1) + free*pressures(2)
+         place = pressures(1)/hardness - 0.5_dp
+         miss = 0.5_dp*(gaps(1) - gaps(2))
+         if (free == 1) miss = place*max(0.5_dp*sum(gaps) - of_own_load*hardness, 0.0_dp)
+         missed = missed + [[place, (1 - 2*free)*place] + of_width(free)*exp(-pi*sum(gaps)/((1 + free)*hardness)) &
+                            + contact%rule%aligned_offset &
+                            - pressures/(pressures + contact%rule%aligned_weight*gaps), miss]
+      end do
+      missed = [missed(:2)/contact%slab%points(1), abs(missed(3))/contact%stiffness(1)/max(edges, 1)]
+   end function abrupt_edges
 
    !> How concentrated the load is in the periodic cell: the smaller of |mean of exp(i X)| and |mean of exp(i Y)|, with
    !> the pressure as the weight of the means. The result is 1 if all load is at one point and 0 if the load is uniform.
