@@ -41,7 +41,7 @@ contains
       call keys%add(values%kind, key_type(choice_value, 'kind', '', '', &
          "'wave_1d': gap amplitude (1 - cos(2 pi x/wavelength)). 'wave_2d': gap amplitude (1 - cos(2 pi "// &
          "x/wavelength) cos(2 pi y/wavelength_y)). 'crossed_1d': a wave on each of two blocks. 'hexagonal': "// &
-         "three equal waves, along y and at 60 degrees to it, whose crests lie in rows along x, in a cell of "// &
+         'three equal waves, along y and at 60 degrees to it, whose crests lie in rows along x, in a cell of '// &
          "2/sqrt(3) wavelength by 2 wavelength. 'sum': any waves. 'file': a height map. 'self_affine': "// &
          "a random rough surface, made from its spectrum. 'ball': a ball on a half-space, not repeated.", &
          choices='wave_1d wave_2d crossed_1d hexagonal sum file self_affine ball', required=.true.))
