@@ -24,6 +24,7 @@ module wavycon_gwyddion_map
    integer, parameter :: alignment = 4
    !> Characters that may stand around keys and entries.
    character(*), parameter, public :: blanks = ' '//achar(9)
+   character(*), parameter :: line_ends = newline//achar(13)
 
 contains
 
@@ -90,26 +91,60 @@ contains
       type(measured_map), intent(inout) :: map   !! its heights are set; its steps are kept if they are known already
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: height_unit, unit, unit_y
+      character(:), allocatable :: head, height_unit, unit, unit_y
       real(dp) :: factor, sides(2)
       logical :: is_known
 
-      associate (head => newline//file%head)
-         call read_length(entry_of(head, 'Width', ':'), sides(1), unit)
-         call read_length(entry_of(head, 'Height', ':'), sides(2), unit_y)
-         if (any(map%step > 0.0_dp) .or. any(sides <= 0.0_dp)) then
-            unit = entry_of(head, 'Lateral units', ':')
-         else
-            call find_factor(unit_y, unit, factor, is_known)
-            if (.not. is_known) call file%refuse("its head gives the width in '"//excerpt(unit)// &
-                                                 "' and the height in '"//excerpt(unit_y)//"': they must be lengths", &
-                                                 error)
-            map%step = sides*[1.0_dp, factor]/shape(map%height)
-         end if
-         height_unit = entry_of(head, 'Value units', ':')
-      end associate
+      head = in_english(file%head)
+      call read_length(entry_of(head, 'Width', ':'), sides(1), unit)
+      call read_length(entry_of(head, 'Height', ':'), sides(2), unit_y)
+      if (any(map%step > 0.0_dp) .or. any(sides <= 0.0_dp)) then
+         unit = entry_of(head, 'Lateral units', ':')
+      else
+         call find_factor(unit_y, unit, factor, is_known)
+         if (.not. is_known) call file%refuse("its head gives the width in '"//excerpt(unit)// &
+                                              "' and the height in '"//excerpt(unit_y)//"': they must be lengths", &
+                                              error)
+         map%step = sides*[1.0_dp, factor]/shape(map%height)
+      end if
+      height_unit = entry_of(head, 'Value units', ':')
       call map%set_units(unit, height_unit)
    end subroutine take_text_head
+
+   !> The lines of a head, the first one empty. Gwyddion writes the names of its lines in the user's language. They
+   !> become English if the comments before a matrix are its four lines, of which the channel may be missing, two of
+   !> them lengths.
+   function in_english(head) result(words)
+      character(*), intent(in) :: head
+      character(:), allocatable :: words
+
+      character(*), parameter :: names(*) = [character(11) :: 'Channel', 'Width', 'Height', 'Value units']
+      character(:), allocatable :: unit
+      integer :: colon, first, k, last, missing
+      logical :: are_lengths, is_known
+      real(dp) :: factor, length
+
+      do missing = 0, 1
+         words = ''
+         first = 1
+         do k = 1 + missing, size(names)
+            last = first + scan(head(first:)//newline, line_ends) - 2
+            colon = index(head(first:last), ':')
+            if (verify(head(first:last), blanks//byte_order_mark) /= index(head(first:last), '#') .or. colon == 0) exit
+            words = words//newline//trim(names(k))//head(first + colon - 1:last)
+            first = last + 2
+            if (head(last + 1:min(last + 2, len(head))) == achar(13)//newline) first = last + 3
+         end do
+         are_lengths = k > size(names)
+         do k = 2, 3
+            call read_length(entry_of(words, trim(names(k)), ':'), length, unit)
+            call find_factor(unit, 'm', factor, is_known)
+            are_lengths = are_lengths .and. is_known
+         end do
+         if (are_lengths) return
+      end do
+      words = newline//head
+   end function in_english
 
    !> Takes steps and missing heights from the head of an ESRI ASCII grid; does nothing if the file is not such a grid.
    !> The first row of the file has the largest y. The rows are reversed, so that y of the map rises. Errors:
@@ -188,7 +223,6 @@ contains
       character(*), intent(in) :: separator   !! the characters of which one stands between key and entry
       character(:), allocatable :: entry
 
-      character(*), parameter :: line_ends = newline//achar(13)
       integer :: first, last, middle
 
       entry = ''
