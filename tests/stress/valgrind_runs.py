@@ -10,14 +10,17 @@ import subprocess
 from common import write
 
 STATUS = 99  # of a program in which valgrind found something
-PATIENCE = 1800.0  # time limit of a program [s]; the longest takes some 300 s on an idle machine
+PATIENCE = 1800.0  # time limit of a program [s], for busy machines
 # Some tests have arrays of megabytes on the stack, which valgrind takes for another stack unless told.
 COMMAND = ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite",
            f"--error-exitcode={STATUS}", "--max-stackframe=8388608",
            f"--suppressions={pathlib.Path(__file__).resolve().parent/'valgrind.supp'}"]
-# These take 0.3 to 17 s, and more than a minute under valgrind. The decks below run the same code.
-LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "unit.fitted_answer_stress", "exact.fitted",
-            "exact.fitted_contact", "exact.series", "exact.grid", "exact.surfaces")
+# These take 0.3 to 30 s, and minutes under valgrind, exact.adhesion more than twenty. The decks below run the same
+# code.
+LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "unit.fitted_answer_stress", "exact.adhesion",
+            "exact.adhesive_fields", "exact.adhesive_stresses", "exact.fitted", "exact.fitted_contact",
+            "exact.free_edge_stresses", "exact.grid", "exact.interface", "exact.series", "exact.stresses",
+            "exact.surfaces")
 LOADS = "&load pbar_over_pstar = 0.05, 0.3, 0.7, 1 /\n"
 TABLES = ("&output lines = t, map = t, contours = t, spots = t, spectrum = t, height = t, line_points = 8, "
           "map_points = 8 /\n")
@@ -48,6 +51,17 @@ DECKS = (
      "   edges = 'mirror' /\n" + LOADS + TABLES.replace("map = t", "map = t, histograms = t"), 0),
     ("map, window", "&surface kind = 'file', file = 'holes.dat', fill_missing = 'harmonic', edges = 'window' /\n"
      + LOADS + TABLES, 0),
+    ("adhesion", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.1 /\n&interface work_of_adhesion = 2 /\n"
+     "&stress nu = 0.3, line = t /\n&method accuracy = 3e-2 /\n" + TABLES, 0),
+    ("slip", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.2 /\n&material e1 = 1, nu1 = 0.3 /\n"
+     "&interface friction = 0.5, tangential_over_normal = 0.1, 0.3 /\n&method accuracy = 1e-2 /\n" + TABLES, 0),
+    ("stresses", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.2, 1.1 /\n"
+     "&stress nu = 0.3, line = t, section = 'x', planes = t, depths = 0.1 /\n" + COARSE + TABLES, 0),
+    ("layer", "&surface kind = 'wave_2d' /\n&load pbar_over_pstar = 0.2 /\n"
+     "&material e1 = 1, nu1 = 0.3, layer_thickness = 0.1 /\n&method accuracy = 1e-2 /\n" + TABLES, 0),
+    ("ball", "&surface kind = 'ball', radius = 1 /\n&load force = 0.01 /\n&stress nu = 0.3, line = t /\n"
+     "&interface friction = 0.5, tangential_over_normal = 0.1, nu = 0.3 /\n"
+     "&method solver = 'grid', accuracy = 3e-2 /\n", 0),
     ("self-affine", "&surface kind = 'self_affine', rms_slope = 0.1, points = 32, 48, short_wavelength = 0.2,\n"
      "   spectrum = 'random' /\n" + LOADS + TABLES.replace("map = t", "map = t, histograms = t"), 0),
     ("map, ragged", "&surface kind = 'file', file = 'ragged.dat' /\n" + LOADS, 1),
