@@ -90,10 +90,12 @@ def ridges_case(stream, kind):
     for heavy in (False, True):
         part = min(0.3*(4/0.3)**stream.random()*on_step, 0.5)
         loads.append(math.sin(math.pi/2*(1.0 - part if heavy else part))**2)
-    surface = (f"kind = 'sum', length_y = {2.0**stream.uniform(-1.0, 1.0)!r}, amplitudes = 1, waves_x = {waves[0]},\n"
-               f"   waves_y = {waves[1]}, phases = {stream.choice((0.0, stream.uniform(0.0, 360.0)))!r}")
-    return [{"deck.nml": deck(surface, loads, f"solver = 'grid', grid_points = {grid[0]}, {grid[1]}")},
-            {"deck.nml": deck("kind = 'wave_1d'", loads, "solver = 'closed_form'")}]
+    ridges = (f"kind = 'sum', length_y = {2.0**stream.uniform(-1.0, 1.0)!r}, amplitudes = 1, waves_x = {waves[0]},\n"
+              f"   waves_y = {waves[1]}, phases = {stream.choice((0.0, stream.uniform(0.0, 360.0)))!r}")
+    return [{"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
+                         f"&method {method} /\n"}
+            for surface, method in ((ridges, f"solver = 'grid', grid_points = {grid[0]}, {grid[1]}"),
+                                    ("kind = 'wave_1d'", "solver = 'closed_form'"))]
 
 
 def hard_profile_case(stream, kind):

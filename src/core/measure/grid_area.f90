@@ -187,8 +187,8 @@ contains
 
    end function edge_spread
 
-   !> The width, in grid steps, that (C11) misses of contacts and pools of one point between parallel ridges, summed over
-   !> the lines of the grid that run most nearly across them: (C15a), (C15c).
+   !> The width, in grid steps, that (C11) misses of contacts and pools of one point on parallel ridges, summed over the
+   !> lines of the grid that run most nearly across them: (C15a), (C15c).
    real(dp) function lone_points(edge, ridges) result(missed)
       type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
       real(dp), intent(in) :: ridges(2)     !! `waves_on_step` of the surface, not both 0

@@ -122,7 +122,8 @@ contains
       real(dp) :: waves(2)
 
       waves = [2 - self%dimension, 0]
-      if (self%dimension == 2 .and. .not. self%is_height_map()) waves = abs(self%shape%parallel_wave())/real(points, dp)
+      if (self%dimension == 2 .and. .not. self%is_height_map()) &
+         waves = abs(self%shape%parallel_wave())/real(points, dp)
    end function waves_on_step
 
    !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave, eq.
