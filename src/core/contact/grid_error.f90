@@ -112,8 +112,8 @@ contains
       if (bend > 0.0_dp) errors(3) = max(errors(3), min(bend, unresolved_peak(surface, edge)))
    end function unresolved_errors
 
-   !> Number of points in contact beside which a gap may lie, o of (C15): the neighbours along both directions, of ridges
-   !> only those along the direction most nearly across, are in contact and have no lower pressure, and the pressure of
+   !> Number of points in contact beside which a gap may lie, o of (C15): the neighbours along both directions, on
+   !> ridges only those along the direction most nearly across, are in contact and have no lower pressure, and the pressure of
    !> one of them is more than `opening_ratio` times as large.
    integer(int64) function possible_openings(edge, ridges) result(openings)
       type(grid_edge), intent(in) :: edge   !! after `fetch_neighbours`

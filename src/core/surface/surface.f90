@@ -114,8 +114,8 @@ contains
       has_hardness = self%hardness < huge(self%hardness)
    end function has_hardness
 
-   !> How much of one of its waves a step of a grid has along x and along y, if all waves have parallel crests, (C15c) of
-   !> src/core/contact/README.md. 0 for other surfaces and for maps; 1 and 0 for profiles, as only the ratio is of use.
+   !> How much of one of its waves a step of a grid has along x and along y, if all waves have parallel crests: (C15c)
+   !> of src/core/contact/README.md. 0 for other surfaces and for maps; 1 and 0 for profiles: only the ratio is used.
    pure function waves_on_step(self, points) result(waves)
       class(surface_type), intent(in) :: self
       integer, intent(in) :: points(2)   !! points of the grid
