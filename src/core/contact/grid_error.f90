@@ -113,8 +113,8 @@ contains
    end function unresolved_errors
 
    !> Number of points in contact beside which a gap may lie, o of (C15): the neighbours along both directions, on
-   !> ridges only those along the direction most nearly across, are in contact and have no lower pressure, and the pressure of
-   !> one of them is more than `opening_ratio` times as large.
+   !> ridges only those along the direction most nearly across, are in contact and have no lower pressure, and the
+   !> pressure of one of them is more than `opening_ratio` times as large.
    integer(int64) function possible_openings(edge, ridges) result(openings)
       type(grid_edge), intent(in) :: edge   !! after `fetch_neighbours`
       real(dp), intent(in) :: ridges(2)     !! `waves_on_step` of the surface, 0 unless ridges are parallel
