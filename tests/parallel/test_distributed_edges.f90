@@ -15,7 +15,7 @@ program test_distributed_edges
    use wavycon_mpi_ranks, only: start_mpi
    use wavycon_ranks, only: rank_count
    use wavycon_surface, only: surface_type
-   use wavycon_wave_surfaces, only: wave_2d
+   use wavycon_wave_surfaces, only: wave_2d, wave_sum
    implicit none (type, external)
 
    !> Grids that are distributed over two ranks or more.
@@ -34,11 +34,12 @@ contains
       real(dp), parameter :: levels(3) = [0.0_dp, 0.9_dp, -2.0_dp], stiffness(2) = [1.0_dp, 3.0_dp]
       type(grid_edge) :: spread_edge, whole_edge
       type(grid_slab) :: slab
-      type(surface_type) :: surface
+      type(surface_type) :: ridges, surface
       real(dp), allocatable :: field(:, :)
       integer :: even, i, k
 
       surface = wave_2d(1.0_dp, 1.0_dp, 1.0_dp)
+      ridges = wave_sum([1.0_dp, 1.0_dp], [1.0_dp], [1], [9], [0.5_dp])
       do k = 1, size(grids, 2)
          call slab%start(grids(:, k))
          call check(slab%is_distributed .eqv. rank_count() > 1)
@@ -57,6 +58,8 @@ contains
                                [counted_area_fraction(whole_edge), corrected_area_fraction(whole_edge)]))
                call check(same(unresolved_errors(surface, spread_edge, 1.0_dp), &
                                unresolved_errors(surface, whole_edge, 1.0_dp)))
+               call check(same(unresolved_errors(ridges, spread_edge, 1.0_dp), &
+                               unresolved_errors(ridges, whole_edge, 1.0_dp)))
             end do
          end do
       end do

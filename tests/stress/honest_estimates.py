@@ -80,6 +80,24 @@ def map_case(stream, kind):
             for grid in (points, 4*points)]
 
 
+def ridges_case(stream, kind):
+    """The files of one wave at any angle on a given grid, at loads of contacts or pools that are 0.3 to 4 steps wide, and
+    those of the 1-D wave."""
+    waves = stream.randint(0, 7), stream.choice((-1, 1))*stream.randint(1, 7)
+    grid = stream.choice((64, 96, 128, 192)), stream.choice((64, 96, 128))
+    on_step = max(abs(number)/points for number, points in zip(waves, grid))
+    loads = []
+    for heavy in (False, True):
+        part = min(0.3*(4/0.3)**stream.random()*on_step, 0.5)
+        loads.append(math.sin(math.pi/2*(1.0 - part if heavy else part))**2)
+    ridges = (f"kind = 'sum', length_y = {2.0**stream.uniform(-1.0, 1.0)!r}, amplitudes = 1, waves_x = {waves[0]},\n"
+              f"   waves_y = {waves[1]}, phases = {stream.choice((0.0, stream.uniform(0.0, 360.0)))!r}")
+    return [{"deck.nml": f"&surface {surface} /\n&load pbar_over_pstar = {', '.join(map(repr, loads))} /\n"
+                         f"&method {method} /\n"}
+            for surface, method in ((ridges, f"solver = 'grid', grid_points = {grid[0]}, {grid[1]}"),
+                                    ("kind = 'wave_1d'", "solver = 'closed_form'"))]
+
+
 def hard_profile_case(stream, kind):
     """The files of a sum of waves in 1-D with a hardness, one load nearly as large, on a grid whose steps are wider than
     many of its edges, and those of a grid that is far finer."""
@@ -199,6 +217,7 @@ SOLUTIONS = {
     "fitted": (fitted_case, FITTED, FEW, VALUES),
     "grid next to merging": (merging_case, tuple(MERGING), FEW, VALUES),
     "grid of a map's points": (map_case, ("elastic",), MANY, VALUES),
+    "grid of parallel ridges": (ridges_case, ("ridges",), MANY, VALUES),
     "grid with a hardness": (map_case, ("hard",), MANY, VALUES + OF_HARDNESS),
     "grid with a hardness in 1-D": (hard_profile_case, ("hard profile",), MANY, VALUES + OF_HARDNESS),
     "grid with free edges": (free_case, ("free edges", "patch"), MANY, OF_FREE_EDGES),

@@ -92,10 +92,12 @@ contains
 
       integer(int64) :: crossings, points
       real(dp) :: open_part
+      real(dp) :: ridges(2)   ! parts of a wave on a step (C15c), 0 unless ridges are parallel
       real(dp) :: places   ! uncertainty of the places of the edge and of what (C11) misses, in steps or cells
 
       points = product(int(edge%slab%points, int64))
-      open_part = possible_openings(edge)/real(points, dp)
+      ridges = surface%waves_on_step(edge%slab%points)
+      open_part = possible_openings(edge, ridges)/real(points, dp)
       crossings = edge_crossings(edge)
       if (crossings == 0) open_part = max(open_part, 1.0_dp/points)
       ! Near full contact the mean gap, and the change of the peak, are proportional to the open part to the power 5/2
@@ -105,30 +107,35 @@ contains
       ! relative error by (C17).
       if (surface%has_free_edges) errors([1, 3]) = 0.0_dp
       places = max(edge_scatter*sqrt(real(crossings, dp)), edge_bias*crossings)
-      if (surface%dimension == 1) places = places + abs(lone_points(edge))
+      if (any(ridges > 0.0_dp)) places = places + abs(lone_points(edge, ridges))
       errors(2) = errors(2) + places/points
       if (bend > 0.0_dp) errors(3) = max(errors(3), min(bend, unresolved_peak(surface, edge)))
    end function unresolved_errors
 
-   !> Number of points in contact beside which a gap may lie, o of (C15): the four neighbours are in contact and have no
-   !> lower pressure, and the pressure of one of them is more than `opening_ratio` times as large.
-   integer(int64) function possible_openings(edge) result(openings)
+   !> Number of points in contact beside which a gap may lie, o of (C15): the neighbours along both directions, on
+   !> ridges only those along the direction most nearly across, are in contact and have no lower pressure, and the
+   !> pressure of one of them is more than `opening_ratio` times as large.
+   integer(int64) function possible_openings(edge, ridges) result(openings)
       type(grid_edge), intent(in) :: edge   !! after `fetch_neighbours`
+      real(dp), intent(in) :: ridges(2)     !! `waves_on_step` of the surface, 0 unless ridges are parallel
 
-      real(dp), dimension(0:edge%slab%points(1) + 1) :: before, here, next
-      integer :: j, m
+      real(dp) :: values(edge%slab%points(1), -1:1)
+      real(dp), dimension(edge%slab%points(1)) :: least, most   ! pressure of the neighbours
+      integer :: direction, j
 
-      m = edge%slab%points(1)
       openings = 0
       do j = edge%slab%first, edge%slab%last
          if (.not. edge%may_touch(j)) cycle
-         before = edge%column(j - 1)
-         here = edge%column(j)
-         next = edge%column(j + 1)
-         associate (points => here(1:m), back => here(:m - 1), ahead => here(2:))
-            openings = openings + count(points > 0.0_dp .and. min(back, ahead, before(1:m), next(1:m)) >= points .and. &
-                                        max(back, ahead, before(1:m), next(1:m)) > opening_ratio*points)
-         end associate
+         least = huge(least)
+         most = 0.0_dp
+         do direction = 1, 2
+            if (ridges(direction) < maxval(ridges)) cycle
+            values = edge%beside(j, direction)
+            least = min(least, values(:, -1), values(:, 1))
+            most = max(most, values(:, -1), values(:, 1))
+         end do
+         openings = openings + count(values(:, 0) > 0.0_dp .and. least >= values(:, 0) .and. &
+                                     most > opening_ratio*values(:, 0))
       end do
       openings = edge%slab%total_count(openings)
    end function possible_openings

@@ -30,6 +30,7 @@ module wavycon_fourier_series
       procedure :: multiply
       procedure :: set_mean
       procedure :: add_wave
+      procedure :: parallel_wave
       procedure :: at
       procedure :: on_line
       procedure :: evaluate_on_grid
@@ -129,6 +130,28 @@ contains
          self%wave(0, -l) = self%wave(0, -l) + 0.5_dp*conjg(w)
       end if
    end subroutine add_wave
+
+   !> The wave numbers along X and Y of one of the waves if all of them have parallel crests, otherwise 0.
+   pure function parallel_wave(self) result(wave)
+      class(fourier_series), intent(in) :: self   !! not distributed, of mean 0
+      integer :: wave(2)
+
+      complex(dp) :: waves(0:self%last(1))
+      integer :: k, l
+
+      wave = 0
+      do l = -self%last(2), self%last(2)
+         waves = self%row(l, self%last(1))
+         do k = 0, self%last(1)
+            if (.not. abs(waves(k)) > 0.0_dp) cycle
+            if (k*wave(2) /= l*wave(1)) then
+               wave = 0
+               return
+            end if
+            wave = [k, l]
+         end do
+      end do
+   end function parallel_wave
 
    !> exp(i angle).
    elemental complex(dp) function turn(angle)

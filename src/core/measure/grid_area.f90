@@ -187,30 +187,39 @@ contains
 
    end function edge_spread
 
-   !> The width, in grid steps, that (C11) misses of contacts and pools of one point in 1-D: (C15a).
-   pure real(dp) function lone_points(edge) result(missed)
-      type(grid_edge), intent(in) :: edge   !! of a grid in 1-D
+   !> The width, in grid steps, that (C11) misses of contacts and pools of one point on parallel ridges, summed over the
+   !> lines of the grid that run most nearly across them: (C15a), (C15c).
+   real(dp) function lone_points(edge, ridges) result(missed)
+      type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
+      real(dp), intent(in) :: ridges(2)     !! `waves_on_step` of the surface, not both 0
 
       real(dp), parameter :: of_own_load = 1.0492_dp, of_own_gap = pi + 4/pi   ! constants of (C15a)
-      real(dp) :: curvature, here, sides(2), values(0:edge%slab%points(1) + 1)
-      integer :: i
+      real(dp), allocatable :: sums(:, :)
+      real(dp) :: curvature, here, sides(2), values(edge%slab%points(1), -1:1)
+      real(dp) :: stiffness   ! E*/(2 l') of (C15c)
+      integer :: i, j
 
-      missed = 0.0_dp
-      values = edge%column(1)
-      where (values < 0.0_dp) values = values*edge%stiffness(1)
-      do i = 1, edge%slab%points(1)
-         here = abs(values(i))
-         sides = abs(values([i - 1, i + 1]))
-         if (any(values([i - 1, i + 1]) > 0.0_dp .eqv. values(i) > 0.0_dp)) cycle
-         if (values(i) > 0.0_dp) then
-            missed = missed + sqrt(8/pi*here/(sum(sides) + of_own_load*here)) &
-                     - sum(max(here/(here + edge%rule%aligned_weight*sides) - edge%rule%aligned_offset, 0.0_dp))
-         else
-            curvature = sum(sides) + of_own_gap*here
-            missed = missed + 2.0_dp - sum(sides/(sides + edge%rule%aligned_weight*here) - edge%rule%aligned_offset) &
-                     - sqrt(8*pi*here/curvature + 2*((sides(2) - sides(1))/curvature)**2)
-         end if
+      stiffness = norm2(ridges*edge%stiffness)/maxval(ridges)
+      allocate (sums(1, edge%slab%columns()), source=0.0_dp)
+      do j = 1, edge%slab%columns()
+         values = edge%beside(edge%slab%first - 1 + j, maxloc(ridges, 1))
+         where (values < 0.0_dp) values = values*stiffness
+         do i = 1, edge%slab%points(1)
+            here = abs(values(i, 0))
+            sides = abs(values(i, [-1, 1]))
+            if (any(values(i, [-1, 1]) > 0.0_dp .eqv. values(i, 0) > 0.0_dp)) cycle
+            if (values(i, 0) > 0.0_dp) then
+               sums(1, j) = sums(1, j) + sqrt(8/pi*here/(sum(sides) + of_own_load*here)) &
+                            - sum(max(here/(here + edge%rule%aligned_weight*sides) - edge%rule%aligned_offset, 0.0_dp))
+            else
+               curvature = sum(sides) + of_own_gap*here
+               sums(1, j) = sums(1, j) + 2.0_dp &
+                            - sum(sides/(sides + edge%rule%aligned_weight*here) - edge%rule%aligned_offset) &
+                            - sqrt(8*pi*here/curvature + 2*((sides(2) - sides(1))/curvature)**2)
+            end if
+         end do
       end do
+      missed = sum(edge%slab%column_totals(sums))
    end function lone_points
 
    !> The error of the approach from contacts of one or two points in 1-D, (C15b), in the unit of the gap.

@@ -58,6 +58,7 @@ module wavycon_grid_edge
       procedure :: index_in_grid
       procedure :: value_at
       procedure :: column
+      procedure :: beside
       procedure :: may_touch
       procedure :: marks
       procedure :: fetch_neighbours
@@ -193,6 +194,24 @@ contains
       end if
       values([0, m + 1]) = values(self%index_in_grid([0, m + 1], 1))
    end function column
+
+   !> Pressure, or minus the gap, at the points 1 .. M of a column, and at their neighbours before and after them along
+   !> one direction of the grid.
+   pure function beside(self, l, direction) result(values)
+      class(grid_edge), intent(in) :: self
+      integer, intent(in) :: l           !! an own column
+      integer, intent(in) :: direction   !! 1: phi, 2: theta
+      real(dp) :: values(self%slab%points(1), -1:1)
+
+      real(dp) :: here(0:self%slab%points(1) + 1)
+      integer :: i
+
+      here = self%column(l)
+      do i = -1, 1
+         if (direction == 2) here = self%column(l + i)
+         values(:, i) = here(1 + i*(2 - direction):self%slab%points(1) + i*(2 - direction))
+      end do
+   end function beside
 
    !> Whether a column has points in contact. If the grid is distributed the result is .true., as this is not known for
    !> columns of other processes.

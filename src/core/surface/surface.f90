@@ -51,6 +51,7 @@ module wavycon_surface
       procedure :: is_height_map
       procedure :: is_distributed
       procedure :: has_hardness
+      procedure :: waves_on_step
       procedure :: full_contact_pressure
       procedure :: shape_at
       procedure :: sample_shape
@@ -112,6 +113,18 @@ contains
 
       has_hardness = self%hardness < huge(self%hardness)
    end function has_hardness
+
+   !> How much of one of its waves a step of a grid has along x and along y, if all waves have parallel crests: (C15c)
+   !> of src/core/contact/README.md. 0 for other surfaces and for maps; 1 and 0 for profiles: only the ratio is used.
+   pure function waves_on_step(self, points) result(waves)
+      class(surface_type), intent(in) :: self
+      integer, intent(in) :: points(2)   !! points of the grid
+      real(dp) :: waves(2)
+
+      waves = [2 - self%dimension, 0]
+      if (self%dimension == 2 .and. .not. self%is_height_map()) &
+         waves = abs(self%shape%parallel_wave())/real(points, dp)
+   end function waves_on_step
 
    !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave, eq.
    !> (7), and sqrt2 times this for the 2-D wave, eq. (22). For any surface p* is the largest value of pbar - p in full
