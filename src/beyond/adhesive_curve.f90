@@ -8,7 +8,7 @@ module wavycon_adhesive_curve
       jump_to_spots, not_solved, pull_off_point, separated, stable_point, start_adhesive_problem, &
       unstable_point
    use wavycon_beyond_tuning, only: beyond_extreme, finer_by, first_over_critical, least_step, radius_growth, &
-      radius_step, ratio_growth, ratio_of_extremes, worst_error
+      radius_step, ratio_growth, ratio_of_extremes, sign_accuracy, worst_error
    use wavycon_contact_solution, only: contact_solution
    use wavycon_fitted_answer, only: fitted_answer
    use wavycon_free_edges, only: ball_radii, is_ball
@@ -116,7 +116,7 @@ contains
       type(fitted_answer) :: start
 
       finer = curve%problem
-      finer%accuracy = finer_by*finer%accuracy
+      finer%accuracy = finer_by*min(finer%accuracy, sign_accuracy)
       associate (lattice => curve%problem%frame%lattice, work => curve%problem%work/curve%problem%frame%pressure_unit)
          cell_area = lattice%area
          if (pools) cell_area = lattice%area/lattice%troughs
@@ -246,8 +246,10 @@ contains
          if (all(extreme%kind /= unstable_point)) then
             if (extreme(1)%area > extreme(2)%area .neqv. point%pools) extreme = extreme([2, 1])
          end if
-         curve%critical = [curve%critical, pack(extreme, extreme%kind /= unstable_point)]
-         curve%knots = [curve%knots, pack(extreme, extreme%exists)]
+         do n = 1, 2   ! gfortran loses memory where pack stands in an array constructor
+            if (extreme(n)%kind /= unstable_point) curve%critical = [curve%critical, extreme(n)]
+            if (extreme(n)%exists) curve%knots = [curve%knots, extreme(n)]
+         end do
       end if
       curve%points = [curve%points, point]
       curve%knots = [curve%knots, point]
