@@ -22,8 +22,8 @@ module wavycon_beyond_tuning
    real(dp), parameter, public :: worst_error = 10.0_dp
    !> Factor on the accuracy of a point at which the sign of the slope is not sure.
    real(dp), parameter, public :: finer_by = 0.2_dp
-   !> Largest accuracy that `finer_by` multiplies. With 0.01 the slopes of the last points of pools have no errors at the
-   !> accuracy 0.01, and their last extremes are lost.
+   !> Largest accuracy that `finer_by` multiplies. With 0.01 the slopes of the last points of pools have no errors at
+   !> the accuracy 0.01, and their last extremes are lost.
    real(dp), parameter, public :: sign_accuracy = 1e-3_dp
    !> Step towards the last extreme of the approach, over the distance that is extrapolated from the last slopes.
    real(dp), parameter, public :: beyond_extreme = 1.3_dp
