@@ -19,8 +19,8 @@ COMMAND = ["valgrind", "--quiet", "--leak-check=full", "--show-leak-kinds=defini
 # code.
 LEFT_OUT = ("unit.fitted_details", "unit.fitted_fields", "unit.fitted_answer_stress", "exact.adhesion",
             "exact.adhesive_fields", "exact.adhesive_stresses", "exact.fitted", "exact.fitted_contact",
-            "exact.free_edge_stresses", "exact.grid", "exact.interface", "exact.series", "exact.stresses",
-            "exact.surfaces")
+            "exact.free_edge_stresses", "exact.grid", "exact.interface", "exact.layers", "exact.series",
+            "exact.stresses", "exact.surfaces")
 LOADS = "&load pbar_over_pstar = 0.05, 0.3, 0.7, 1 /\n"
 TABLES = ("&output lines = t, map = t, contours = t, spots = t, spectrum = t, height = t, line_points = 8, "
           "map_points = 8 /\n")
