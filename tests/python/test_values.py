@@ -157,6 +157,8 @@ class Names(ValuesTest):
         for make, first in (wc.heights, [numpy.eye(8)]), (wc.read, ["h.npy"]):
             self.refuse(f"^{make.__name__}: .*'unit'; did you mean 'length_unit'", make, *first, unit="m")
         self.refuse("'length'; did you mean 'length_x'", wc.heights, numpy.eye(8), length=1)
+        self.refuse("'sizes'; did you mean 'length_x' and", wc.heights, numpy.eye(8), sizes=1)
+        self.refuse("no key '___'$", wc.solve, wave, ___=1)
         self.refuse("only maps are prepared", wc.wave_2d().prepared)
         self.refuse("^heights: there is no key 'file'", wc.heights, numpy.eye(8), file="h.npy")
         self.refuse("^wave_2d: there is no key 'dx'; there are amplitude, ", wc.wave_2d, dx=1)

@@ -49,7 +49,8 @@ contains
 
       character(:), allocatable :: content, trouble
       real(dp), allocatable :: row(:), values(:, :)
-      integer :: behind, columns, first, i, last, line, most_rows, rows, status, used
+      integer, parameter :: most_coordinates = 3   ! x, y and z of a point
+      integer :: behind, columns, filled, first, i, last, line, most_rows, rows, status, used
       !> Whether a row ends in a separator, so that a last number may be missing; whether all rows so far end so, so
       !> that the table may lack a column.
       logical :: ends_open, may_grow
@@ -112,11 +113,10 @@ contains
          table%values(:used, rows) = row(:used)
          table%values(used + 1:, rows) = not_a_number()
       end do
-      if (may_grow) then
-         ! Columns at the end without a number are none.
-         do columns = columns, 2, -1
-            if (any(ieee_is_finite(table%values(columns, :rows)))) exit
-         end do
+      if (may_grow .and. rows > 0) then
+         ! Behind heights or coordinates alone there may be empty columns. Those of a matrix are missing heights.
+         filled = findloc([(any(ieee_is_finite(table%values(i, :rows))), i=1, columns)], .true., dim=1, back=.true.)
+         if (filled >= 1 .and. filled <= most_coordinates) columns = filled
       end if
       if (status == 0 .and. rows > 0) allocate (values, source=table%values(:columns, :rows), stat=status)
       if (status /= 0) then

@@ -21,7 +21,7 @@ ONE_SLIP = 0.88   # the same by one, such as a missing s
 SHORTEST = 3, 4   # letters of a part of a name, and of a word of a meaning, that is looked for
 SIDES = "length_x", "length_y"
 # Words for the sides of a map or the step of its points, in place of the names of the sides.
-SIDE_WORDS = {"dx", "dy", "extent", "lx", "ly", "pixel", "sampling", "sides", "size", "spacing", "step", "width"}
+SIDE_WORDS = set("dx dy extent lx ly pixel sampling sides size sizes spacing step width".split())
 Parameters = ParamSpec("Parameters")
 
 
@@ -149,7 +149,7 @@ def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> lis
     """The names that may be meant, by the first of these that finds one: that which differs by one slip; that which has
     all words of the name, their slips mended, best at its end; that which differs by slips; those whose meanings have
     the rarest word."""
-    words = name.lower().strip("_").split("_")
+    words = [word for word in name.lower().split("_") if word] or [name]
     known = sorted({part for one in names for part in one.lower().split("_")})
     mended = [word if word in known else (slips(word, known) or [word])[0] for word in words]
     have = [one for one in names if len(name) >= SHORTEST[0] and all(word in one.lower() for word in mended)]
