@@ -21,7 +21,7 @@ ONE_SLIP = 0.88   # the same by one, such as a missing s
 SHORTEST = 3, 4   # letters of a part of a name, and of a word of a meaning, that is looked for
 SIDES = "length_x", "length_y"
 # Words for the sides of a map or the step of its points, in place of the names of the sides.
-SIDE_WORDS = set("dx dy extent lx ly pixel sampling sides size sizes spacing step width".split())
+SIDE_WORDS = "dx dy extent lx ly pixel sampling sides size sizes spacing step width"
 Parameters = ParamSpec("Parameters")
 
 
@@ -117,7 +117,7 @@ def unknown_key(name: str, own: Sequence[str]) -> str:
         return f"there is no key {name!r}: it is an option of solve"
     if not slips(name, own) and (near := slips(name, others)):
         return f"there is no key {name!r}; did you mean {near[0]!r}, an option of solve?"
-    if SIDES[0] in own and not (slips(name, own) or SIDE_WORDS.isdisjoint(name.lower().split("_"))):
+    if SIDES[0] in own and not (slips(name, own) or set(name.lower().split("_")).isdisjoint(SIDE_WORDS.split())):
         return f"there is no key {name!r}; did you mean {SIDES[0]!r} and {SIDES[1]!r}, the sides of the whole cell?"
     return unknown("key", name, own, meanings(["surface"]))
 
