@@ -12,6 +12,9 @@ import sys
 import time
 
 sys.dont_write_bytecode = True
+# After nohup, or in the background of a script, these signals are ignored, and so they would be in all that a part starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
 from rough_map import rough_map  # noqa: E402, F401
 from tables import Table  # noqa: E402

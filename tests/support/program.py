@@ -5,12 +5,17 @@ ctest has this directory in PYTHONPATH.
 import argparse
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 
 SKIPPED = 77  # exit status of a test that cannot run here; ctest shows it
+
+# After nohup, or in the background of a script, these signals are ignored, and so they would be in all that a test starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 class ProgramTest(unittest.TestCase):

@@ -78,7 +78,7 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
                 log, message = process.communicate()
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             if table.exists():
-                rows = pandas.read_csv(table, float_precision="round_trip").loc[:, "load":]
+                rows = pandas.read_csv(table, dtype=str).loc[:, "load":].apply(typed)
                 heads = [head.rstrip("]").partition("[") for head in rows]
                 units.update({column: unit or "-" for column, _, unit in heads})
                 rows.columns = [column for column, *_ in heads]
@@ -102,6 +102,14 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     frame = pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
     frame.attrs["units"] = {column: units[column] for column in frame if column in units}
     return frame
+
+
+def typed(column: Any) -> Any:
+    """A column of texts, as numbers where all are: pandas before 3 reads numbers with errors in the last digit."""
+    for kind in (int, float):
+        with contextlib.suppress(ValueError):
+            return column.astype(kind)
+    return column
 
 
 def values_of(key: str, given: object) -> list[object]:
