@@ -42,7 +42,10 @@ class Outcome:
         # Open MPI gives the program a terminal, where it writes lines of progress over each other.
         lines = stdout.decode(errors="replace").replace("\r\n", "\n").split("\n")
         self.stdout = "\n".join(line.split("\r")[-1] for line in lines)
-        self.stderr = LAUNCHER_WORDS.sub("", stderr.decode(errors="replace"))
+        words = stderr.decode(errors="replace")
+        self.stderr = LAUNCHER_WORDS.sub("", words)
+        if status and not self.stderr:   # the launcher's words are all that a test which fails can show
+            print(f"exit status {status}:\n{words}", file=sys.stderr)
 
 
 def start(mpiexec, ranks, arguments, folder=None):
