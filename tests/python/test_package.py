@@ -882,6 +882,28 @@ class Files(PackageTest):
             self.assertAlmostEqual(wc.solve(wc.heights(h), pbar_over_pstar=0.2)[0].contact_area_fraction, found,
                                    delta=0 if name == "scan.npy" else 1e-6)
 
+    def test_heads_in_the_language_of_gwyddions_user(self):
+        """SurfaceTopography finds in some languages the sides but no unit, or the unit but no sides."""
+        h = numpy.random.default_rng(1).normal(size=(6, 8))
+        for words in (("Kanal", "Breite", "Höhe", "Werteinheiten"), ("Canal", "Ancho", "Alto", "Unidades de valor"),
+                      ("Channel", "Width", "Height", "Value units")):
+            head = "\n".join(f"{word}: {value}" for word, value in zip(words, ("Topo", "20.0 µm", "15.0 µm", "nm")))
+            numpy.savetxt("scan.txt", h, header=head, encoding="utf-8")
+            one = wc.solve(wc.read("scan.txt", length_unit="um"), pbar_over_pstar=0)
+            self.assertEqual("um", one.length_unit)
+            self.assertAlmostEqual(1e-3*h.std(), one.surface.rms_height, delta=1e-9)
+            numpy.testing.assert_allclose((one[0].x[1], one[0].y[1]), 2.5, rtol=DIGITS)
+
+    def test_the_axes_of_netcdf(self):
+        from scipy.io import netcdf_file   # which SurfaceTopography needs
+        h = numpy.random.default_rng(1).normal(size=(6, 8))
+        for axes, z in {("y", "x"): h, ("x", "y"): h.T}.items():
+            with netcdf_file("map.nc", "w") as file:
+                for name, points in ("x", 8), ("y", 6):
+                    file.createDimension(name, points)
+                file.createVariable("heights", "f8", axes)[:] = z
+            numpy.testing.assert_array_equal(h, wc.read("map.nc").heights)
+
     def test_empty_files(self):
         for name in "empty.opd", "empty.txt", "empty.npy", "empty.gsf":
             pathlib.Path(name).touch()

@@ -376,6 +376,11 @@ class Values(ValuesTest):
         on_disc = (wc.file(file="first.npy", detrend="plane", height_scale=2, **both)
                    + wc.file(file="second.npy", detrend="mean", **both).flipped())
         numpy.testing.assert_allclose(surface.heights, on_disc.heights, atol=1e-13)
+        # A file without sides has those of the other map, in whichever order.
+        numpy.savetxt("sides.txt", first, header="Width: 3 um\nHeight: 2 um\nValue units: um")
+        bare, own = wc.file(file="second.npy", fill_missing="harmonic"), wc.file(file="sides.txt")
+        for total in bare + own, own + bare, wc.heights(first, length_x=3, length_y=2, length_unit="um") + bare:
+            self.assertEqual((3, 2, "um"), (total.length_x, total.length_y, total.length_unit))
         with open("first.gsf", "wb") as file:
             files_of_package.write_gsf(file, first, {"length_x": 3, "length_y": 2}, "m")
         for pair in (wc.read("first.gsf"), wc.heights(first)), (wc.heights(first), wc.read("first.gsf")):
@@ -397,6 +402,14 @@ class Values(ValuesTest):
             found = wc.solve(profile, pbar_over_pstar=0.2)
             self.assertEqual("um", found.length_unit)
             numpy.testing.assert_allclose(found.mean_gap, expected, rtol=1e-9)
+
+    def test_keys_are_attributes(self):
+        surface = wc.heights(numpy.eye(8), length_x=2, edges="mirror")
+        self.assertEqual((2, "mirror"), (surface.length_x, surface.edges))
+        self.refuse("no 'length_y'; it has heights, length_unit, kind, file, length_x, edges",
+                    lambda: surface.length_y, error=AttributeError)
+        for copied in copy.deepcopy(surface), pickle.loads(pickle.dumps(surface)):
+            self.assertEqual(surface.keys, copied.keys)
 
     def test_two_bodies_that_do_not_fit(self):
         one, h = wc.heights(numpy.eye(8), length_x=2, length_unit="um"), numpy.eye(8)

@@ -15,7 +15,7 @@ module wavycon_gwyddion_map
    implicit none (type, external)
    private
 
-   public :: entry_of, read_gsf_map, take_esri_head, take_text_head
+   public :: entry_of, in_english, read_gsf_map, take_esri_head, take_text_head
 
    !> First bytes of a .gsf file.
    character(*), parameter, public :: gsf_magic = 'Gwyddion Simple Field 1.'

@@ -8,7 +8,8 @@ module wavycon_map_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, read_gsf_map, take_esri_head, take_text_head
+   use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, in_english, read_gsf_map, take_esri_head, &
+      take_text_head
    use wavycon_kinds, only: dp, ieee_is_nan, sp
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: npy_magic, read_npy_map
@@ -116,7 +117,7 @@ contains
          map%format = 'matrix'
          ! Texts of Gwyddion with the sides of a map and grids of ESRI are matrices, also if they have two or three
          ! columns.
-         if (entry_of(newline//file%head, 'Width', ':') == '' .and. &
+         if (entry_of(in_english(file%head), 'Width', ':') == '' .and. &
              entry_of(newline//lower_case(file%head), 'ncols', blanks) == '') then
             if (size(table%values, 1) == 3 .and. size(table%line) > 3) map%format = 'xyz'
             if (size(table%values, 1) == 2 .and. size(table%line) > 2) map%format = 'xz'

@@ -26,6 +26,7 @@ GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
 DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
                             re.MULTILINE)
+GWYDDION_TEXT = re.compile(rb"(?:# ?[^:\n]+:.*\n){3}")   # its head, whose words are those of the user's language
 
 
 def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
@@ -87,11 +88,15 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
                 return None
             info = choose(reader.channels, channel)
             known, are_lines = info.physical_sizes is not None, reader.format() == "asc"
+            if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
+                return None   # a head in another language than English, of which the reader knows some lines
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
             if unit and not is_length(unit) and topography.unit:
                 raise NoHeights(f"{unit!r} is no unit of length to which it can be converted, such as m, mm, um, nm")
             topography = topography.to_unit(unit) if unit and topography.unit else topography
             z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
+            # NetCDF tells the order of the axes, of which the reader takes the first one for x.
+            z = z.T if getattr(getattr(reader, "_heights_var", None), "dimensions", None) == ("y", "x") else z
             x = None if topography.is_uniform else np.asarray(topography.positions())
             sides = map(float, topography.physical_sizes if known else ())
     except NoHeights as error:

@@ -1,6 +1,7 @@
 """Surfaces, and what the functions that make them have in common."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import difflib
 import functools
@@ -40,6 +41,12 @@ class Surface:
         shape = "" if self.heights is None else f"array of shape {self.heights.shape}, "
         return f"Surface({shape}{', '.join(f'{key}={value!r}' for key, value in self.keys.items())})"
 
+    def __getattr__(self, name: str) -> Any:
+        """A key that is given, such as length_x."""
+        if name not in (own := self.__dict__.get("keys", ())):
+            raise AttributeError(f"this surface has no {name!r}; it has {', '.join(('heights', 'length_unit', *own))}")
+        return own[name]
+
     def prepared(self) -> Surface:
         """The map as it is solved, its heights in memory: read, without its trend, filled, filtered. Of its keys the
         sides and the edges remain. Errors: ValueError for a surface that is no map, and as of solve."""
@@ -71,9 +78,14 @@ class Surface:
             raise TypeError(f"a surface and {type(other).__name__} cannot be added: wavycon.heights makes a surface of "
                             "an array")
         maps = [one if one.heights is not None else one.prepared() for one in (self, other)]
-        # A map without sides or unit has those of the other one.
-        maps = [Surface({**{side: more.keys[side] for side in SIDES if side in more.keys}, **one.keys}, one.heights,
-                        one.length_unit or more.length_unit).prepared() for one, more in zip(maps, maps[::-1])]
+        # A map without sides or unit has those of the other one. A file that has sides refuses others.
+        for place, (one, more) in enumerate(zip((self, other), tuple(maps[::-1]))):
+            sides = {side: more.keys[side] for side in SIDES if side in more.keys}
+            if one.heights is None:
+                with contextlib.suppress(ValueError):
+                    maps[place] = dataclasses.replace(one, keys={**sides, **one.keys}).prepared()
+            own = maps[place]
+            maps[place] = Surface({**sides, **own.keys}, own.heights, own.length_unit or more.length_unit).prepared()
         first, second = (np.asarray(one.heights) for one in maps)
         facts: list[dict[str, Any]] = [{"shape": np.asarray(one.heights).shape, "length_unit": one.length_unit,
                                         "edges": "periodic", **dict.fromkeys(SIDES), **one.keys} for one in maps]
