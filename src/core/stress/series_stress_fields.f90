@@ -389,7 +389,7 @@ contains
          call sample_series(all_waves%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
          pressure = pressure + self%pbar_over_pstar
          highest = highest_in_windows(pressure, min(floor(region*points) + 1, points))
-         if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
+         if (4.0_dp*count(highest >= least_pressure*maxval(highest))*product(window) <= product(real(points, dp))) &
             shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
       end if
       call scan(all_waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
