@@ -6,7 +6,7 @@ module wavycon_gsl
    private
 
    public :: ascending_order
-   public :: gsl_sf_legendre_pl_array, gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp, gsl_sf_ellint_RD, gsl_sf_ellint_RF
+   public :: gsl_sf_legendre_pl_array, gsl_sf_ellint_RD, gsl_sf_ellint_RF
    public :: gsl_integration_fixed_jacobi, gsl_integration_fixed_alloc, gsl_integration_fixed_free
    public :: gsl_integration_fixed_nodes, gsl_integration_fixed_weights
    public :: gsl_rng_mt19937, gsl_rng_alloc, gsl_rng_set, gsl_rng_uniform, gsl_rng_free
@@ -31,20 +31,8 @@ module wavycon_gsl
          real(c_double), intent(out) :: values(*)
       end function gsl_sf_legendre_pl_array
 
-      !> Complete elliptic integrals of modulus k: that of the first kind K, and D = (K - E)/k^2. With mode = 0 they
-      !> have the accuracy of double precision.
-      pure real(c_double) function gsl_sf_ellint_Kcomp(k, mode) bind(c, name='gsl_sf_ellint_Kcomp')
-         import :: c_double, c_int
-         real(c_double), intent(in), value :: k
-         integer(c_int), intent(in), value :: mode
-      end function gsl_sf_ellint_Kcomp
-      pure real(c_double) function gsl_sf_ellint_Dcomp(k, mode) bind(c, name='gsl_sf_ellint_Dcomp')
-         import :: c_double, c_int
-         real(c_double), intent(in), value :: k
-         integer(c_int), intent(in), value :: mode
-      end function gsl_sf_ellint_Dcomp
-
-      !> Carlson's elliptic integrals R_F(x, y, z) and R_D(x, y, z) of positive arguments, of which x may be 0.
+      !> Carlson's elliptic integrals R_F(x, y, z) and R_D(x, y, z) of positive arguments, of which x may be 0. With
+      !> mode = 0 they have the accuracy of double precision.
       pure real(c_double) function gsl_sf_ellint_RF(x, y, z, mode) bind(c, name='gsl_sf_ellint_RF')
          import :: c_double, c_int
          real(c_double), intent(in), value :: x, y, z

@@ -81,14 +81,15 @@ contains
          most = 1.0_dp/least - 1.0_dp
       end if
       do i = 1, closed_form_points
-         associate (t => real(i - 1, dp)/(closed_form_points - 1))
+         associate (t => real(i - 1, dp)/(closed_form_points - 1), surface => curve%problem%surface)
             p1 = least*(most/least)**t
-            if (curve%problem%surface%dimension == 1) then
+            if (surface%dimension == 1) then
                p1 = p1/(1.0_dp + p1)
                area = 2/pi*asin(sqrt(p1))
             else
-               contact = hertz_of_ball(curve%problem%surface, load=p1)
-               area = contact%contact_area()/curve%problem%surface%nominal_area()
+               contact = hertz_contact(ball_radii(surface), 1.0_dp, &
+                                       force=p1*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
+               area = contact%contact_area()/surface%nominal_area()
             end if
          end associate
          call curve%problem%find_point(.false., area, point)
@@ -587,14 +588,5 @@ contains
       end do
       zero = p(1)
    end function interpolated
-
-   !> Hertz's contact of a ball under a load. The modulus is set to 1, as it does not matter in units of p* and Delta.
-   pure type(hertz_ball) function hertz_of_ball(surface, load) result(contact)
-      type(surface_type), intent(in) :: surface   !! a ball
-      real(dp), intent(in) :: load                !! P [p*]
-
-      contact = hertz_contact(ball_radii(surface), 1.0_dp, &
-                              force=load*surface%full_contact_pressure(1.0_dp)*surface%nominal_area())
-   end function hertz_of_ball
 
 end module wavycon_adhesive_curve

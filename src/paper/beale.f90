@@ -45,7 +45,7 @@ module wavycon_beale
 contains
 
    !> Solves (Q1). The status is `qp_converged` if the Karush-Kuhn-Tucker conditions hold to `kkt_tolerance`,
-   !> `qp_iteration_limit` if a pass did not end, otherwise `qp_inaccurate`.
+   !> `qp_iteration_limit` if the last pass did not end, otherwise `qp_inaccurate`.
    subroutine solve_by_beale(problem, solution)
       type(qp_problem), intent(in) :: problem   !! b <= 0
       type(qp_solution), intent(out) :: solution

@@ -12,7 +12,7 @@ module wavycon_contact_solution
    use wavycon_full_contact, only: full_contact_series
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp, int64
-   use wavycon_quantities, only: area_slope, contact_area, elastic_energy, gap_slope, quantities, unknown
+   use wavycon_quantities, only: area_slope, contact_area, gap_slope, quantities
    use wavycon_series_fields, only: series_fields, start_edgeless_fields
    use wavycon_series_stress_fields, only: series_stress_fields, start_series_stress_fields
    use wavycon_solution_record, only: by_grid, full_contact, interrupted, is_good_status, no_load, no_memory, &
@@ -172,19 +172,13 @@ contains
       end if
    end subroutine coefficients
 
-   !> The quantities of the record and those that are only computed when they are asked for. Without a source the
-   !> elastic energy is unknown.
+   !> The quantities of the record and those that are only computed when they are asked for.
    subroutine details(self, answer)
       class(contact_solution), intent(in) :: self
       type(quantities), intent(out) :: answer
 
       answer = self%quantities
-      if (allocated(self%source)) then
-         call self%source%details(answer)
-      else
-         answer%value(elastic_energy) = unknown
-         answer%error(elastic_energy) = unknown
-      end if
+      if (allocated(self%source)) call self%source%details(answer)
    end subroutine details
 
    !> Derivatives of mean gap and area with respect to the load. In full contact both slopes are zero, because the gap

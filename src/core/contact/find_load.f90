@@ -49,7 +49,8 @@ contains
       class(contact_solver), intent(inout) :: solver    !! a solver that has been started
       integer, intent(in) :: quantity                   !! contact_area, mean_gap or approach
       !> Area fraction or G, 0 .. 1, or approach [Delta]. The load is zero for an area or approach of 0 or less and for
-      !> G of 1 or more. Without free edges P = 1 for an area of 1 and for G = 0.
+      !> G of 1 or more. Without free edges P = 1 for an area of 1 and for G = 0; the status is not_accurate if a map is
+      !> open between its points there.
       real(dp), intent(in) :: target
       type(contact_solution), intent(out) :: solution   !! solution at the load found
 
@@ -76,6 +77,9 @@ contains
             known_load = target
             if (quantity == mean_gap) known_load = 1.0_dp - target
             call solver%solve(max(known_load, 0.0_dp), solution)
+            ! A height map may be open between its points at P = 1.
+            if (known_load > 0.0_dp .and. .not. solver%closes_at_pstar .and. solution%is_good() .and. &
+                abs(solution%value(quantity) - target) > solution%error(quantity)) solution%status = not_accurate
             return
          end if
       end associate

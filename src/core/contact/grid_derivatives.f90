@@ -44,6 +44,8 @@ contains
       if (with_changes) grid_of(:, 2) = maps_in_cell*((grid_of(:, 2)/maps_in_cell + 1)/2)
       bound = 1.0_dp
       if (surface%has_free_edges) bound = 0.0_dp
+      ! On a map with gaps between its points P may be 1 and more. At 1 there is no x, beyond it falls with the load.
+      if (abs(1.0_dp - bound*record%pbar_over_pstar) <= 0.0_dp) return
       solved = .true.
       do i = -2, 2
          if (solved) call solve_near(i, i*load_difference, grid_of(:, abs(i)))
@@ -159,7 +161,7 @@ contains
             values(q) = first
             if (q == 1) values([1, 3]) = [-first, -second]
             if (.not. all(is_known(y(2, q, :)))) cycle
-            errors(q) = slope*x1*error(1) + abs(bend*first)*error(0)
+            errors(q) = slope*abs(x1)*error(1) + abs(bend*first)*error(0)
             if (q == 1) errors(3) = slope*(abs(2*bend*y1*x1**2 + x2)*error(1) + x1**2*error(2)) &
                                     + abs(bend*second)*error(0)
          end associate

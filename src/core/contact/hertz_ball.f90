@@ -7,7 +7,7 @@
 !>     R/R' = (K - D)/(D b^2/a^2),   p_0 = E* a^2/(2 R b D),   approach = a^2 K/(2 R D),   force = (2/3) pi a b p_0.
 module wavycon_hertz_ball
    use, intrinsic :: iso_c_binding, only: c_int
-   use wavycon_gsl, only: gsl_sf_ellint_Dcomp, gsl_sf_ellint_Kcomp
+   use wavycon_gsl, only: gsl_sf_ellint_RD, gsl_sf_ellint_RF
    use wavycon_kinds, only: dp, pi
    implicit none (type, external)
    private
@@ -111,19 +111,16 @@ contains
       contact%force = 2*pi*a*b*contact%peak_pressure/3
    end function unit_contact
 
-   !> The elliptic integrals K and D of the modulus that belongs to an axis ratio.
+   !> The elliptic integrals K and D that belong to an axis ratio, by Carlson's: the modulus of a slender ellipse, close
+   !> to 1, would have lost the digits of the ratio.
    pure subroutine integrals(ratio, first_kind, d)
       real(dp), intent(in) :: ratio            !! b/a
       real(dp), intent(out) :: first_kind, d   !! K, D
 
       integer(c_int), parameter :: all_digits = 0
-      real(dp) :: modulus
 
-      modulus = sqrt((1.0_dp - ratio)*(1.0_dp + ratio))
-      ! Both integrals are infinite at the modulus 1, to which a small ratio is rounded.
-      modulus = min(modulus, 1.0_dp - epsilon(modulus))
-      first_kind = gsl_sf_ellint_Kcomp(modulus, all_digits)
-      d = gsl_sf_ellint_Dcomp(modulus, all_digits)
+      first_kind = gsl_sf_ellint_RF(0.0_dp, ratio**2, 1.0_dp, all_digits)
+      d = gsl_sf_ellint_RD(0.0_dp, ratio**2, 1.0_dp, all_digits)/3
    end subroutine integrals
 
 end module wavycon_hertz_ball

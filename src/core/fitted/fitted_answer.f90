@@ -14,11 +14,11 @@ module wavycon_fitted_answer
    integer, parameter, public :: fitted_less_exact = 1
       !! There is a solution, but its estimated errors are larger than the accuracy.
    integer, parameter, public :: fitted_merged = 2
-      !! Neither separate spots nor separate pools were found: only load and status are set.
+      !! Neither separate spots nor separate pools were found: only load and status have a meaning.
    integer, parameter, public :: fitted_bad_input = 3
       !! The load is not between 0 and the closing pressure, or the accuracy is not > 0: only load and status are set.
    integer, parameter, public :: fitted_failed = 4
-      !! No solution was found: only load and status are set.
+      !! No solution was found: only load and status have a meaning.
 
    !> The largest number of fitted functions of lower degrees that are kept.
    integer, parameter, public :: most_previous = 2

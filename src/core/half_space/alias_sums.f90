@@ -58,7 +58,7 @@ contains
       closest = (aliases + 0.5_dp)*minval(points/length, points > 1 .or. [.true., .false.])
       far = closest**2
       call kernel%of(far)
-      !$omp parallel do num_threads(threads_for(product(points))) schedule(static) private(a, b, stiffness, weight)
+      !$omp parallel do num_threads(threads_for(size(self%frequency))) schedule(static) private(a, b, stiffness, weight)
       do l = 0, last(2)
          self%compliance(:, l) = x%far(:, 5)*y%every(l, 4) + x%every(:, 4)*y%far(l, 5)
          ! On a layer shorter waves are less compliant, and no stiffer over their frequency (E32).

@@ -18,14 +18,14 @@ contains
 
    !> Counts the spikes of a map, (M8), and replaces each by the median of its neighbours on demand. A spike is a height
    !> that differs from this median by more than a multiple of the neighbours' range, and of the mean of this range over
-   !> the map.
+   !> the heights that are there.
    subroutine find_spikes(height, missing, number, replace)
       real(dp), intent(inout) :: height(:, :)                 !! shape (M, N), a whole map; N = 1 for a profile
       logical, allocatable, intent(in) :: missing(:, :)       !! shape of height; not allocated if none is missing
       integer, intent(out) :: number                          !! number of spikes
       logical, intent(in) :: replace                          !! whether spikes are replaced; if not only counted
 
-      real(dp) :: median, range_of_neighbours, sum_of_ranges
+      real(dp) :: mean_range, median, range_of_neighbours
       logical, allocatable :: is_there(:, :)
       real(dp), allocatable :: original(:, :)
       integer :: i, j, pass   ! pass 1 finds the mean range, pass 2 the spikes
@@ -34,20 +34,20 @@ contains
       allocate (is_there(size(height, 1), size(height, 2)), source=.true.)
       if (allocated(missing)) is_there = .not. missing
       number = 0
-      sum_of_ranges = 0.0_dp
+      mean_range = 0.0_dp
       do pass = 1, 2
          do j = 1, size(height, 2)
             do i = 1, size(height, 1)
                if (.not. is_there(i, j)) cycle
                call compare_neighbours(i, j, median, range_of_neighbours)
-               if (pass == 1) sum_of_ranges = sum_of_ranges + range_of_neighbours
+               if (pass == 1) mean_range = mean_range + range_of_neighbours
                if (pass == 1) cycle
-               if (.not. abs(original(i, j) - median) > &
-                   reach_of_spike*max(range_of_neighbours, sum_of_ranges/size(height))) cycle
+               if (.not. abs(original(i, j) - median) > reach_of_spike*max(range_of_neighbours, mean_range)) cycle
                number = number + 1
                if (replace) height(i, j) = median
             end do
          end do
+         if (pass == 1) mean_range = mean_range/max(count(is_there), 1)
       end do
 
    contains

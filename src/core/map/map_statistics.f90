@@ -93,11 +93,11 @@ contains
          if (repeats) then
             first = 1
             last = m
-            numbers = m*n
+            numbers = real(m, dp)*n
          else
             first = 2
             last = m - 1
-            numbers = [(m - 1)*n, m*(n - 1), (m - 2)*max(n - 2, 1)]
+            numbers = [real(m - 1, dp)*n, real(m, dp)*(n - 1), real(m - 2, dp)*max(n - 2, 1)]
          end if
          do j = 1, size(height, 2)
             here = ahead

@@ -101,7 +101,8 @@ contains
       middle = max(min(corner(1), corner(2)), min(max(corner(1), corner(2)), corner(3)))
       up_to_last = 0.0_dp
       do bin = lowest, highest
-         high = answer%first + bin*answer%width
+         ! Rounding may put the end of the bin of the least value below this value.
+         high = max(answer%first + bin*answer%width, least)
          if (bin == highest) high = most
          up_to_high = below(high, least, middle, most)
          answer%fraction(bin) = answer%fraction(bin) + weight*(up_to_high(1) - up_to_last(1))

@@ -28,6 +28,7 @@ module wavycon_dual_solver
    integer, parameter :: most_pivots = 20
    !> A negative slack smaller than this fraction of its terms, or of the largest slack, is rounding.
    real(dp), parameter :: zero_slack = 32*epsilon(1.0_dp)
+   !> Constraints whose violation is more than this part of the largest are the candidates for the next ones.
    real(dp), parameter :: candidate_part = 0.3_dp
    !> So many constraints in a row with small violations, n, suggest that the violations are rounding, which makes the
    !> active set cycle.

@@ -13,7 +13,8 @@ module wavycon_series_stress_fields
    use wavycon_stress_kernel, only: nu_terms_of
    use wavycon_stress_tensor, only: elastic_body, no_waves, von_mises, zz
    use wavycon_stress_tuning, only: coarsest, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
-      pressure_part, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, window_points
+      pressure_part, shallow_planes, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, &
+      window_points
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -352,11 +353,12 @@ contains
    !> Proposes start places of the search: on each of a sequence of horizontal planes the points of the largest von
    !> Mises stress and of the largest shear stress.
    !>
-   !> The first plane is the surface, and each further one is `plane_ratio` times as deep as the plane before. Deeper
-   !> planes need fewer points. If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the
-   !> planes close to the surface are computed within these windows only, which takes less time at light loads. The
-   !> surface itself is computed in the whole cell: at an edge of contact the shear stress may be the largest one where
-   !> the pressure is low.
+   !> The first plane is the surface. The next ones, `shallow_planes` of them, lie above the depth of half of the
+   !> shortest wavelength, and each is `plane_ratio` times as deep as the plane before. Deeper planes need fewer points.
+   !> If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the planes close to the
+   !> surface are computed within these windows only, which takes less time at light loads. The surface itself is
+   !> computed in the whole cell: at an edge of contact the shear stress may be the largest one where the pressure is
+   !> low.
    subroutine start_points(self, body, places)
       class(series_stress_fields), intent(inout) :: self
       type(elastic_body), intent(in) :: body
@@ -364,8 +366,8 @@ contains
 
       integer, parameter :: window(2) = window_points
       real(dp), allocatable :: highest(:, :), pressure(:, :)
-      !> The largest von Mises stress so far [p*]; the part of the cell's sides to be searched, from X = Y = 0; the
-      !> depth of the first plane below the surface [rad].
+      !> The largest von Mises stress so far [p*]; the part of the cell's sides to be searched, from X = Y = 0; half of
+      !> the shortest wavelength [rad], above whose depth there are `shallow_planes`.
       real(dp) :: largest, region, step
       type(fourier_series) :: series
       type(grid_transform) :: plane
@@ -375,7 +377,7 @@ contains
       integer :: block(2), i, last, points(2), shallow
 
       step = least_width(self)
-      last = 1 + ceiling(log(2*pi/step)/log(plane_ratio))
+      last = 1 + shallow_planes + ceiling(log(2*pi/step)/log(plane_ratio))
       allocate (places(0))
       largest = 0.0_dp
       all_waves = self%waves
@@ -389,8 +391,8 @@ contains
          call sample_series(all_waves%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
          pressure = pressure + self%pbar_over_pstar
          highest = highest_in_windows(pressure, min(floor(region*points) + 1, points))
-         if (4*count(highest >= least_pressure*maxval(highest))*product(window) <= product(points)) &
-            shallow = 1 + floor(log(window_depth*window_points)/log(plane_ratio))
+         if (4.0_dp*count(highest >= least_pressure*maxval(highest))*product(window) <= product(real(points, dp))) &
+            shallow = 1 + shallow_planes + floor(log(window_depth*window_points)/log(plane_ratio))
       end if
       call scan(all_waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
       if (shallow < 0) return
@@ -428,7 +430,7 @@ contains
          associate (side => extent/real(points, dp))
             do i = first, last
                depth = 0.0_dp
-               if (i > 0) depth = step*plane_ratio**(i - 1)
+               if (i > 0) depth = step*plane_ratio**(i - 1 - shallow_planes)
                number = points_of(waves, depth/side(1), self%dimension)
                ! The memory is not checked: it was for the series itself, and a plane takes less.
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &

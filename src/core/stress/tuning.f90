@@ -21,6 +21,9 @@ module wavycon_stress_tuning
    real(dp), parameter, public :: plane_ratio = 1.5_dp
       !! Depth of a plane over the depth of the plane above, > 1. Smaller: more planes. Larger: the refinement starts
       !! farther from the maximum.
+   integer, parameter, public :: shallow_planes = 2
+      !! Planes between the surface and the depth of half of the shortest wavelength. Smaller: the stress below a spot
+      !! of one or two points is missed. Larger: more planes.
    real(dp), parameter, public :: waves_in_depth = 9.0_dp
       !! Points of a plane across the cell, times its depth Z. Smaller: maxima fall between the points. Larger: more
       !! expensive planes.

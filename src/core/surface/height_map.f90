@@ -20,8 +20,7 @@ contains
 
    !> Prepares a map and makes its surface. Errors: exit_bad_input for heights out of range, for missing heights that
    !> are not to be filled, for too few heights to determine the trend, and for filters that leave nothing of the
-   !> heights; exit_file_trouble if there is not enough
-   !> memory.
+   !> heights; exit_file_trouble if there is not enough memory.
    subroutine surface_of_map(source, preparation, unit, sides, map, surface, statistics, error, radii)
       character(*), intent(in) :: source            !! name of the map, for messages
       type(map_preparation), intent(in) :: preparation
@@ -63,7 +62,8 @@ contains
          call leave_out_waves(slab%points, length, .not. repeats, 'longer', preparation%filter, &
                               preparation%long_wavelength, map%height, changes%rms_of_long)
       extremes = slab%extremes(map%height)
-      if (sum(unfiltered) > 0.0_dp .and. sum(extremes) <= rounding*largest) then
+      if (max(preparation%short_wavelength, preparation%long_wavelength) > 0.0_dp .and. &
+          sum(unfiltered) > 0.0_dp .and. sum(extremes) <= rounding*largest) then
          call fatal_error(error, exit_bad_input, escaped(source)//': nothing is left of the heights but rounding: '// &
                           'short_wavelength and long_wavelength leave out all waves of the map')
          return

@@ -11,7 +11,7 @@ module wavycon_bounds_tables
    use wavycon_grid_transform, only: grid_transform
    use wavycon_kinds, only: dp, ieee_is_nan, not_a_number
    use wavycon_output_file, only: output_file
-   use wavycon_quantities, only: approach, elastic_energy, mean_gap, or_nan, quantities
+   use wavycon_quantities, only: approach, elastic_energy, mean_gap, or_nan
    use wavycon_results, only: results_type
    use wavycon_solution_record, only: status_code, status_name
    use wavycon_surface, only: surface_type
@@ -54,7 +54,6 @@ contains
       type(bounding_grid) :: grid   ! as the last load needed it; loads on the same grid use it again
       type(energy_bounds) :: bounds
       type(output_file) :: file
-      type(quantities) :: measures
       integer :: cell(2), load
       real(dp) :: inside(2), numbers(6), own(3), overlap, unit(6)
       real(dp), allocatable :: gap(:, :), p(:, :)
@@ -73,9 +72,7 @@ contains
                   if (any(grid%points /= shape(p))) call grid%start(surface, shape(p), surface%shape%is_even())
                   call grid%bound(surface, p, gap, solution%pbar_over_pstar, bounds)
                   if (grid%is_fine_enough) cell = grid%cell/surface%maps_in_cell()
-                  measures = solution%quantities
-                  call solution%details(measures)
-                  own = or_nan(measures%value([approach, elastic_energy, mean_gap]))
+                  own = or_nan(solution%value([approach, elastic_energy, mean_gap]))
                   ! H <max(-g, 0)> of (E24). The mean of h + u is 1, so that the negative part of the gap h + u -
                   ! delta_0 has the mean delta_0 - 1 + mean gap, where delta_0 lacks the compression of a layer (E31).
                   overlap = 0.0_dp
