@@ -6,7 +6,7 @@ module wavycon_command_line
    use wavycon_key_reference, only: add_wrapped, group_names, key_names, key_reference
    use wavycon_key_table, only: integer_value, key_type, logical_value, name_length, text_value
    use wavycon_key_values, only: must_be, read_value, word_value
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_output_group, only: longest_directory
    use wavycon_plain_text, only: escaped, integer_text, listed, lower_case, newline, quoted
@@ -208,7 +208,7 @@ contains
 
       number = size(decks)
       do i = 1, size(sweeps)
-         if (number <= most_runs) number = number*size(sweeps(i)%values)
+         number = int(min(most_runs + 1_int64, int(number, int64)*size(sweeps(i)%values)))
       end do
       if (number > most_runs) then
          call fatal_error(error, exit_bad_input, '--sweep: more than '//integer_text(most_runs)//' runs')
