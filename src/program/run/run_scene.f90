@@ -8,7 +8,7 @@ module wavycon_run_scene
    use wavycon_methods, only: start_solver, traits_of
    use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped, integer_text, newline, short_number
+   use wavycon_plain_text, only: escaped, integer_text, newline, quoted, short_number
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
@@ -84,7 +84,7 @@ contains
 
       if (directory /= '') then
          allocate (settings(1))
-         settings(1) = setting_type('output', 'directory', directory)
+         settings(1) = setting_type('output', 'directory', quoted(directory))
       end if
       status = exit_fine
       allocate (scene)
