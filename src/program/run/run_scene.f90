@@ -14,7 +14,7 @@ module wavycon_run_scene
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_percolation, by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
-   use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
+   use wavycon_solve_loads, only: find_interface, find_stresses, note_interface, order_loads, solve_loads
    use wavycon_spot_tables, only: say_percolation
    use wavycon_system, only: full_path, has_memory_for, make_directories
    use wavycon_table, only: table_type
@@ -143,6 +143,7 @@ contains
       type(run_log), intent(inout) :: logger
       type(error_type), allocatable, intent(out) :: error
 
+      character(*), parameter :: subjects(2) = ['slip    ', 'adhesion']   ! what &interface may ask for
       logical :: are_distributed, by_all(size(tables))
       integer :: i
 
@@ -165,7 +166,12 @@ contains
             call logger%say_timed('largest stresses found')
             call show_stresses(results, logger)
          end if
-         if (allocated(results%scene%interface_setting)) call find_interface(results, logger, '')
+         if (allocated(results%scene%interface_setting)) then
+            do i = 1, size(subjects)
+               call find_interface(results, logger, subjects(i))
+               call note_interface(results, logger, subjects(i))
+            end do
+         end if
          if (any(tables%file == 'spots')) call say_percolation(results, logger)
       end if
       do i = 1, size(tables)
