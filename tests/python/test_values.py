@@ -669,6 +669,14 @@ class Sweeps(ValuesTest):
                                         "surface.amplitude": numpy.array(2)}, 1)
         self.assertEqual([["auto", 0.1, 2]], frame.iloc[:, :3].values.tolist())
 
+    def test_a_list_that_is_too_long_for_the_name_of_a_case(self):
+        loads = [number/101 for number in range(1, 101)]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", DeprecationWarning)   # of pandas
+            frame = wc.sweep(wc.wave_1d(), {"load.pbar_over_pstar": [loads]}, 1)
+        numpy.testing.assert_allclose(frame.pbar_over_pstar, loads, rtol=DIGITS)
+        self.assertEqual([*range(1, 101)], frame.load.tolist())
+
     def test_a_wrong_key_is_an_error_before_anything_starts(self):
         with unittest.mock.patch("subprocess.Popen", side_effect=AssertionError):
             self.refuse("'surface.sed'; did you mean 'surface.seed'", wc.sweep, self.rough, {"surface.sed": [1]})
