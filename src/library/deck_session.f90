@@ -39,8 +39,8 @@ module wavycon_deck_session
 
    !> In C programs other threads may call the library while one solves a load, but not with the same session: c_lock.c.
    interface
-      !> Waits until no other thread solves with the session. Returns 0, or 1 if this thread itself solves with it: it is
-      !> in the session's progress callback.
+      !> Waits until no other thread solves with the session. Returns 0, or 1 if this thread itself solves with it, and
+      !> is in the session's progress callback.
       integer(c_int) function await_solve(is_solving) bind(c, name='wavycon_await_solve')
          import :: c_int
          integer(c_int), intent(in) :: is_solving

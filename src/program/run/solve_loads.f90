@@ -182,12 +182,12 @@ contains
 
    !> Solves partial slip under all loads and tangential loads, or the contact with adhesion, if the deck asks for it.
    !>
-   !> N.B. Other threads may be in the library meanwhile (c_lock.c): no function that returns a text is called unless the
-   !> progress is shown.
+   !> N.B. Other threads may be in the library meanwhile (c_lock.c): no function that returns a text is called unless
+   !> the progress is shown.
    subroutine find_interface(results, logger, table)
       type(results_type), intent(inout) :: results   !! with a group &interface and all loads solved with their fields
       type(run_log), intent(inout) :: logger         !! shows the progress
-      character(*), intent(in) :: table              !! name of a table that needs the results, with 'slip' or 'adhesion'
+      character(*), intent(in) :: table              !! name of a table that needs the results: with 'slip', 'adhesion'
 
       associate (setting => results%scene%interface_setting)
          if (setting%friction > 0.0_dp .and. index(table, 'slip') > 0) call find_slip(results, logger)
