@@ -534,6 +534,12 @@ class Pictures(ValuesTest):
         self.assertEqual("contact area [m²]", results.plot("contact_area").get_ylabel())
         self.assertEqual("elastic energy [J]", results.plot("elastic_energy").get_ylabel())
 
+    def test_a_section_is_the_same_in_whatever_order_its_depths_are_given(self):
+        drawn = [wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, output={"line_points": 16}, stress={
+            "nu": 0.3, "section": "x", "depths": depths})[0].plot_stress_section().collections[0].get_array()
+            for depths in ([0.05, 0.1, 0.3], [0.3, 0.05, 0.1, 0.1])]
+        numpy.testing.assert_array_equal(*drawn)
+
     def test_tables_of_the_surface(self):
         """All loads have the same surface."""
         results = self.solve_rough()
